@@ -1,9 +1,9 @@
 """Classes for the coefficients of a method, and conversions between the classes. The objects are immutable.
 All coefficients of a method are elements of one ring.
 
-In this module, stages are counted from 0. In files, stages are counted from 1. A product of
-exponentials is a sequence of rows. Each row contains the coefficients of one exponential. The first row
-defines the rightmost factor, which acts first. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
+In this module, stages are counted from 0. In files, stages are counted from 1. A product of exponentials is a
+sequence of rows. Each row contains the coefficients of one exponential. The rightmost factor of the product
+acts first. The first row defines this factor. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
 Integration*.
 """
 
@@ -46,11 +46,11 @@ class RungeKutta:
         return RungeKutta(tuple(_converted(row, convert) for row in self.A), _converted(self.b, convert))
 
     def as_crouch_grossman(self, ring: Ring) -> CommutatorFree:
-        """Return the Crouch-Grossman method with the coefficients of this tableau.
+        """Return the Crouch-Grossman method that has the coefficients of this tableau.
 
         Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0, where k_j is the vector field at stage j. The
-        update has the same form, with b_j in place of a_ij (HLW IV.8.1). An exponential is omitted if
-        its coefficient is provably zero.
+        update is exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1). An exponential is omitted if its
+        coefficient is provably zero.
         """
 
         def product(row: Row) -> Stage:
@@ -88,7 +88,7 @@ class PartitionedRungeKutta:
         )
 
     def first(self) -> RungeKutta:
-        """Return the Runge-Kutta method (A, b), which the partitioned method uses for y."""
+        """Return the Runge-Kutta method (A, b). The partitioned method uses it for the component y."""
         return RungeKutta(self.A, self.b)
 
 
@@ -132,8 +132,8 @@ class CommutatorFree:
         return before + stage.exponentials
 
     def same_update(self, other: Stage, ring: Ring) -> bool:
-        """Return True if the product ``other`` provably equals the update of this method for all vector
-        fields.
+        """Return True if the product ``other`` and the update of this method are provably equal for all
+        vector fields.
 
         The function simplifies both products (:func:`_reduced`) and compares their exponents. If two
         products are equal for all vector fields, their simplified exponents agree (Chen 1958).

@@ -1,14 +1,14 @@
 """Symmetry of commutator-free methods: their exponentials form a palindrome.
 
 A method with s stages maps y0 to y1 in a step of length h. The method is symmetric if a step of length -h
-maps y1 back to y0. An exponent has s coefficients, one for each stage. The conjugate of an exponential has
-the same coefficients in reverse order. A sequence of exponentials leads from y0 to y1, and another one leads
+maps y1 back to y0. An exponent has s coefficients, one for each stage. In the conjugate of an exponential,
+these coefficients are in reverse order. A sequence of exponentials leads from y0 to y1, and another one leads
 from y0 to each stage value. The method is symmetric if two conditions hold:
 
 - The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
   original sequence.
-- In the sequence from y0 to the value of stage i, replace each exponential by the inverse of its conjugate.
-  The new sequence leads from y1 to the value of stage s + 1 - i. This condition holds for all stages i.
+- For every stage i: if each exponential in the sequence from y0 to the value of stage i is replaced by the
+  inverse of its conjugate, the new sequence leads from y1 to the value of stage s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """
@@ -44,8 +44,8 @@ def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
 
 
 def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
-    """Return True if two products of exponentials have the same reduced form (see :func:`_reduced`). Return
-    None if balls are too wide to decide."""
+    """Return True if :func:`_reduced` gives equal rows for two products of exponentials. Return None if balls
+    are too wide to decide."""
     left, right = _reduced(one, ring), _reduced(other, ring)
     if len(left) != len(right):
         decided = all(ring.is_zero(x) is not None for row in (*one, *other) for x in row)

@@ -91,8 +91,8 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "splitting"``: a product of flows. A vector field is the sum of several vector
-    fields, which are called parts. Each factor of the product is the flow of one part.
+    """The format ``family = "splitting"``: a product of flows. A vector field is a sum of vector fields. The
+    summands are called parts. Each factor of the product is the flow of one part.
 
     ``parts`` contains the names of the parts. If there are two parts T and V whose Lie brackets
     satisfy [V,[V,[V,T]]] = 0, the optional key ``rkn`` contains the name of V.
@@ -104,7 +104,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 
     def verify(self, where: str) -> None:
         """Check that the parts have different names, and that each flow in ``step`` is the flow of a part.
-        The optional key ``rkn`` requires two parts. Its value must be the name of a part."""
+        The optional key ``rkn`` requires two parts, and the value of ``rkn`` must be the name of a part."""
         if not 2 <= len(self.parts) <= MAX_PARTS:
             raise TableauError(
                 f"{len(self.parts)} parts", where=f"{where}: parts", expected=f"2 to {MAX_PARTS} parts"
@@ -219,8 +219,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method. Raises TableauError if an exponent contains products and lies outside the Lie
-        algebra of a quadratic group, such as SO(n) or Sp(2n)."""
+        """Return the method. Examples of quadratic groups are SO(n) and Sp(2n). Raises TableauError if an
+        exponent contains products and lies outside the Lie algebra of some quadratic group."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()
@@ -232,7 +232,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             self.map,
         )
         # A product of two elements of a Lie algebra may lie outside the Lie algebra. Verify that each
-        # exponent lies in the Lie algebra of every quadratic group, such as SO(n) or Sp(2n).
+        # exponent lies in the Lie algebras of SO(n), Sp(2n) and all other quadratic groups.
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():

@@ -1,7 +1,8 @@
 """Splittings, compositions and Magnus methods.
 
-Each of these methods is a product of maps. The product is stored as a sequence in which the first factor acts
-first. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+Each splitting, composition or Magnus method is a product of maps. The product is stored as a sequence. The
+first factor of the sequence acts first. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
+Integration*.
 """
 
 from __future__ import annotations
@@ -77,23 +78,23 @@ class AdjointComposition:
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
         """Return the composition as a Runge-Kutta tableau. The basic method Phi becomes the explicit Euler
-        method. Its adjoint Phi* becomes the implicit Euler method.
+        method. The adjoint Phi* becomes the implicit Euler method.
 
-        The implicit Euler step with step size beta_i h evaluates the vector field at its end point. The next
-        explicit Euler step starts at this point, which is the value of stage i. Hence b_i = beta_i + alpha_i,
-        a_ii = beta_i, and a_ij = b_j for j < i (HLW, Section II.4).
+        The implicit Euler step with step size beta_i h evaluates the vector field at its end point. This end
+        point is the value of stage i. The next explicit Euler step starts there. Hence
+        b_i = beta_i + alpha_i, a_ii = beta_i, and a_ij = b_j for j < i (HLW, Section II.4).
         """
         b = tuple(y + x for x, y in zip(self.alpha, self.beta, strict=True))
         A = tuple((*b[:i], y, *((ring.zero,) * (self.s - i - 1))) for i, y in enumerate(self.beta))
         return RungeKutta(A, b)
 
     def as_splitting(self) -> Splitting:
-        """Convert the composition to a splitting into two parts A and B, with the indices 0 and 1. The
-        basic method Phi is the flow of A, followed by the flow of B. Hence its adjoint Phi* is the flow of B,
-        followed by the flow of A. Neighbouring flows of the same part are combined.
+        """Convert the composition to a splitting into two parts A and B, with the indices 0 and 1. The basic
+        method Phi is the flow of A, followed by the flow of B. Hence its adjoint Phi* is the flow of B,
+        followed by the flow of A. Two neighbouring flows of A, or of B, are combined.
 
-        For a general basic method, the composition has the same order as this splitting (McLachlan, SIAM J.
-        Sci. Comput. 16 (1995) 151).
+        The order of the composition for a general basic method is the order of this splitting (McLachlan,
+        SIAM J. Sci. Comput. 16 (1995) 151).
         """
         steps: list[tuple[int, Element]] = []
         for x, y in zip(self.alpha, self.beta, strict=True):
@@ -151,8 +152,8 @@ class Magnus:
         """Expand the exponents into sums of products of the A_i, where A_i = h A(c_i h). Each sum is a
         dictionary from products to coefficients.
 
-        A product is a tuple of node indices, which are counted from 0. The last index belongs to the left
-        factor: (i, j) denotes A_j A_i.
+        A product is represented by the tuple of its node indices. Nodes are counted from 0. The last index
+        belongs to the left factor: (i, j) denotes A_j A_i.
         """
         named: dict[str, NodeSeries] = {}
         for name, combination in self.elements:
@@ -167,8 +168,8 @@ class Magnus:
 
     def is_expandable(self) -> bool:
         """Return True if the exponents expand to at most :data:`MOST_WORDS` products of the A_i. The number
-        of products is estimated: if products in an exponent have up to m factors, the exponent counts as s^m
-        products. Here s is the number of nodes."""
+        of products is estimated: if the method has s nodes and the products in an exponent have up to m
+        factors, the exponent counts as s^m products."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 

@@ -27,8 +27,8 @@ from orderconds.tableau.two_registers import Rewriting, two_registers
 
 
 def properties(tableau: Tableau) -> dict[str, Verdict]:
-    """Return the properties that are defined for this tableau, in the order of
-    :data:`orderconds.tableau.method_properties.PROPERTIES`.
+    """Decide each property that is defined for this tableau. The keys of the result are the names of the
+    properties, in the order of :data:`orderconds.tableau.method_properties.PROPERTIES`.
 
     For example, a commutator-free method has the properties ``explicit``, ``symmetric``, ``fsal`` and
     ``low_storage``.

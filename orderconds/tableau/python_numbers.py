@@ -2,8 +2,8 @@
 numbers, and rows of such numbers are accepted.
 
 A float with few significant bits becomes an exact decimal. Other floats become decimals with the suffix ``d``
-(:mod:`orderconds.tableau.doubles`). A text must satisfy the grammar of tableau files. Error messages contain
-the position of a wrong entry, such as ``A[2][1]``. Rows and columns are counted from 1.
+(:mod:`orderconds.tableau.doubles`). A text must satisfy the grammar of tableau files. If an entry is wrong,
+the error message contains its position, for example ``A[2][1]``. Rows and columns are counted from 1.
 """
 
 from __future__ import annotations

@@ -1,12 +1,12 @@
 """Random methods over Q: random numbers replace the rounded decimals and the radicals of a tableau file.
 
-The coefficients of the method are rational functions of the replaced numbers. An identity between two
-rational functions, such as a symmetry condition, is tested at one random point. If the identity holds for all
-points, it also holds for the exact decimals and radicals.
+The coefficients of the method are rational functions of the replaced numbers. An identity, for example a
+symmetry condition, is an equation between two rational functions. The identity is tested at one random point.
+If the identity holds for all points, it also holds for the exact decimals and radicals.
 
-Each coordinate of the random point is drawn from 2^128 numbers. If the two functions are different and have
-degree at most D, they have the same value at the point with probability at most D / 2^128 (Schwartz 1980;
-Zippel 1979). Hence a false identity passes the test only with negligible probability.
+Each coordinate of the random point is drawn from 2^128 numbers. Let two different functions have degree at
+most D. The probability that their values at the point are equal is at most D / 2^128 (Schwartz 1980; Zippel
+1979). Hence a false identity passes the test only with negligible probability.
 
 The random numbers are computed from a digest of all coefficients in the file. A change of one coefficient
 changes all random numbers. Hence nobody can choose coefficients for which the random numbers satisfy a false
@@ -82,8 +82,8 @@ class RandomMember(Rationals):
 
 
 def description(symbolic: SymbolicCoefficients) -> str:
-    """Return all coefficients and named numbers of a file as one text. :class:`RandomMember` computes the
-    random numbers from this text.
+    """Return all coefficients and named numbers of a file as one text. :class:`RandomMember` computes its
+    random numbers from the text.
 
     >>> from orderconds.tableau import Tableau
     >>> file = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]').file

@@ -39,8 +39,8 @@ from orderconds.tableau.write import as_data
 
 @dataclass(frozen=True, repr=False)
 class Tableau:
-    """A named method with coefficients in ``ring``. ``family`` is the format of the file, such as ``rk`` or
-    ``cf``.
+    """A named method with coefficients in ``ring``. ``family`` is the format of the tableau file, for example
+    ``rk`` or ``cf``.
 
     :meth:`rk` and :meth:`cf` build a tableau from numbers. :meth:`load` reads a tableau from a file or the
     library.
@@ -80,12 +80,12 @@ class Tableau:
     ) -> Tableau:
         """Return the Runge-Kutta method with s weights b and a matrix A of s rows.
 
-        A and b are lists, NumPy arrays or SymPy matrices. Their entries are integers, fractions, texts such
-        as ``"1/4 - sqrt(3)/6"``, SymPy numbers, or floats. A float with few significant bits, such as 0.5, is
-        exact. All other floats count as rounded numbers.
+        A and b are lists, NumPy arrays or SymPy matrices. The entries are integers, fractions, SymPy numbers,
+        floats, or texts such as ``"1/4 - sqrt(3)/6"``. A float with few significant bits is exact, for
+        example 0.5. All other floats count as rounded numbers.
 
-        - ``bhat``: the s weights of an embedded method, whose order is computed
-        - ``c``: the abscissae, which must equal the row sums of A
+        - ``bhat``: the s weights of an embedded method. The order of the embedded method is computed.
+        - ``c``: the abscissae. They must equal the row sums of A.
         - ``claims``: the claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``
 
         Raises :class:`~orderconds.errors.TableauError` for a wrong entry. The message contains the position
@@ -115,9 +115,9 @@ from the table [numbers] (none)
         """Return the commutator-free method with the given stages and the given update.
 
         ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials.
-        The first exponential of a list acts first. An exponential is a row of s coefficients, where s is
-        the number of stages. Zeros at the end of a row may be omitted. The coefficients have the same types
-        as in :meth:`rk`.
+        The first exponential of a list acts first. An exponential is a row of s coefficients, where s is the
+        number of stages. Zeros at the end of a row may be omitted. The coefficients have the types of the
+        entries in :meth:`rk`.
 
         - ``starts``: maps i to j if the exponentials of stage i act on the value of an earlier stage j. All
           other stages start from y0. Stages are counted from 1.
@@ -179,18 +179,18 @@ from the table [numbers] (none)
 
     @property
     def b(self) -> tuple[Value, ...]:
-        """The weights b, of the same types as the entries of :attr:`A`."""
+        """The weights b. Their types are those of the entries of :attr:`A`."""
         return self._values(self.abelian().b)
 
     @property
     def c(self) -> tuple[Value, ...]:
-        """The row sums of A, of the same types as the entries of :attr:`A`."""
+        """The row sums of A. Their types are those of the entries of :attr:`A`."""
         return self._values(self.abelian().c)
 
     @property
     def bhat(self) -> tuple[Value, ...] | None:
-        """The embedded weights, of the same types as the entries of :attr:`A`. The value is None if there is
-        no embedded method."""
+        """The embedded weights. Their types are those of the entries of :attr:`A`. The value is None if there
+        is no embedded method."""
         lower = self.lower()
         return None if lower is None else lower.b
 
@@ -205,8 +205,8 @@ from the table [numbers] (none)
 
     @cached_property
     def orders(self) -> dict[str, int]:
-        """The computed orders, such as ``{"rk": 4, ...}``. Each key is a family of integrators, and the
-        value is the order of the method in this family.
+        """The computed orders, for example ``{"rk": 4, ...}``. Each key is a family of integrators. The value
+        is the order of the method in this family.
 
         :func:`orderconds.check` also returns certificates and the conditions that fail.
         """
@@ -239,8 +239,9 @@ from the table [numbers] (none)
     def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
         """Return a copy of the tableau with coefficients in ``ring``.
 
-        ``convert`` converts one coefficient to ``ring``. By default, the ring of this tableau is embedded in
-        ``ring``. Raises TypeError if there is no embedding (:func:`orderconds.ring.embed.embedding`).
+        ``convert`` converts one coefficient to ``ring``. If ``convert`` is None, the ring of this tableau is
+        embedded in ``ring``. In this case, raises TypeError if there is no embedding
+        (:func:`orderconds.ring.embed.embedding`).
         """
         if convert is None:
             from orderconds.ring.embed import embedding
@@ -252,8 +253,8 @@ from the table [numbers] (none)
         )
 
     def lower(self) -> Tableau | None:
-        """Return the embedded method as a tableau with the same stages, or None if there is no embedded
-        method.
+        """Return the embedded method as a tableau with the stages of this tableau, or None if there is no
+        embedded method.
 
         >>> from orderconds.tableau import find
         >>> [str(x) for x in Tableau.load(find("cg3")).lower().method.b]
@@ -287,7 +288,7 @@ from the table [numbers] (none)
 
     def abelian(self) -> RungeKutta:
         """Return the Runge-Kutta tableau (A, b) of this method on vector spaces. For a partitioned method,
-        this is the tableau for the first part of the system.
+        return the tableau for the first part of the system.
 
         Raises :class:`TableauError` for a splitting or a Magnus method.
         """
@@ -374,8 +375,8 @@ def _with_embedded_order(data: Data, name: str) -> Tableau:
 
 
 def _above(module: str) -> ModuleType:
-    """Import the module ``orderconds.<module>`` at the time of the call. An import at the top of this file
-    would be circular."""
+    """Import the module ``orderconds.<module>`` at the time of the call. The module itself needs this file,
+    so an import at the top of this file would be circular."""
     return import_module(f"orderconds.{module}")
 
 

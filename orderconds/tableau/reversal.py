@@ -5,10 +5,10 @@ step starts at time h and has length -h. At node i, the time is h - c_i h = c_{s
 step is a substitution: -A_{s+1-i} replaces A_i. Let Omega_1, ..., Omega_m be the exponents of the method. The
 method is symmetric if the substitution turns every Omega_k into -Omega_{m+1-k}.
 
-A combination of the A_i is called *odd* if the substitution changes its sign. It is called *even* if the
-substitution does not change it. The parity of a bracket or product follows from the parities of its factors.
-A method with only one exponent is symmetric if this exponent is odd. In all other cases, the exponents are
-expanded into products of the A_i and compared.
+A combination of the A_i is called *odd* if the substitution changes its sign. A combination is called *even*
+if the substitution does not change it. The parity of a bracket or product follows from the parities of its
+factors. A method with only one exponent is symmetric if this exponent is odd. In all other cases, the
+exponents are expanded into products of the A_i and compared.
 """
 
 from __future__ import annotations

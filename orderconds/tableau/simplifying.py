@@ -22,9 +22,9 @@ def simplifying_order(B: int, C: int, D: int) -> int:
 
 
 def simplifying(method: RungeKutta, ring: Ring, assumptions: Mapping[str, int]) -> Iterator[Element]:
-    """Yield the residuals of the equations of B(p), C(q) and D(r), which are listed below. The mapping
-    ``assumptions`` contains p, q and r under the keys B, C and D. The exponent k runs from 1 to p in B, from
-    1 to q in C, and from 1 to r in D.
+    """Yield the residuals of the equations in the simplifying assumptions B(p), C(q) and D(r). The mapping
+    ``assumptions`` maps the keys B, C and D to p, q and r. The exponent k runs from 1 to p in B, from 1 to q
+    in C, and from 1 to r in D.
 
     - B: sum_i b_i c_i^(k-1) = 1/k.
     - C: sum_j a_ij c_j^(k-1) = c_i^k/k. The equation for k = 1 defines c and is omitted.

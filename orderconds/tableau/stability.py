@@ -4,7 +4,7 @@ The stability function is R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - 
 vector of ones. Common factors of P and Q are removed. The method is A-stable if and only if two
 conditions hold:
 
-- Every zero of Q has positive real part. This condition is decided by Routh's test.
+- Every zero of Q has positive real part. Routh's test decides whether this is true.
 - |P(iy)| <= |Q(iy)| for all real y. For this condition, Sturm's test is applied to |Q(iy)|^2 - |P(iy)|^2, a
   polynomial in y^2.
 
@@ -33,12 +33,12 @@ coefficients."""
 
 LARGEST = 100
 """The limit on the number of rows of the matrix A. For a larger matrix, stability is not decided. If A is
-block triangular, the limit applies to each diagonal block. The computation takes about a second for a
-rational block of this size."""
+block triangular, the limit applies to each diagonal block. For a block of this size with rational entries,
+the computation takes about a second."""
 
 EFFORT = 10**11
 """The limit on the work of polynomial operations. The unit is the multiplication of two bits. The limit
-corresponds to about a second. It is necessary because the coefficients in Euclid's algorithm grow fast."""
+corresponds to about a second. The coefficients in Euclid's algorithm grow fast, so a limit is necessary."""
 
 
 class SignedRing(Ring, Protocol):
@@ -49,8 +49,8 @@ class SignedRing(Ring, Protocol):
 
 
 class StabilityFunction(Struct, frozen=True):
-    """The stability function R = numerator/denominator in lowest terms. Both polynomials are given by their
-    ascending coefficients."""
+    """The stability function R = numerator/denominator in lowest terms. The fields contain the coefficients
+    of the two polynomials, in ascending order of the powers."""
 
     numerator: tuple[Element, ...]
     denominator: tuple[Element, ...]
@@ -234,8 +234,8 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
 
 
 def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
-    """Return True if every zero of Q has positive real part. This is the case if all entries in the first
-    column of Routh's scheme of Q(-z) are non-zero and have the same sign.
+    """Return True if every zero of Q has positive real part. An equivalent condition is that all entries in
+    the first column of Routh's scheme of Q(-z) are positive, or all are negative.
 
     >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
     [True, False]
@@ -277,8 +277,8 @@ def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
 
 
 def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
-    """Return |p(iy)|^2 for real y as a polynomial in y^2. Here Re p(iy) and Im p(iy) / y are polynomials in
-    y^2."""
+    """Return |p(iy)|^2 for real y as a polynomial in y^2. The function uses that Re p(iy) and Im p(iy) / y
+    are polynomials in y^2."""
     real = [x if k % 2 == 0 else -x for k, x in enumerate(p[0::2])]
     imaginary = [x if k % 2 == 0 else -x for k, x in enumerate(p[1::2])]
     square, rest = _product(real, real, ring), [ring.zero, *_product(imaginary, imaginary, ring)]

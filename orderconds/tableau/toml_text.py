@@ -16,7 +16,7 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+", re.ASCII)
 
 
 def toml_text(data: Mapping[str, object]) -> str:
-    """Return the TOML text of ``data``, which may contain strings, integers, booleans, lists and tables. A
+    """Return the TOML text of ``data``. The values may be strings, integers, booleans, lists and tables. A
     TOML reader converts the text back to ``data``.
 
     >>> print(toml_text({"b": ["1"], "stage": [{}, {"exp": [["1"]]}], "claims": {"rk": 1}}), end="")
@@ -38,8 +38,8 @@ def _entries(table: Mapping[str, object]) -> Iterator[str]:
 
 
 def _headed(key: str, value: object) -> bool:
-    """Return True if a value is written below a heading. These values are the list of stages and all tables.
-    A table ``embedded`` that fits on one line is an exception."""
+    """Return True if a value is written below a heading. The list of stages and all tables have headings,
+    except a table ``embedded`` that fits on one line."""
     if _blocks(value, key):
         return True
     return isinstance(value, Mapping) and not (key == "embedded" and len(_line(key, value)) <= WIDTH)

@@ -42,8 +42,8 @@ class TwoRegisters:
         return len(self.B)
 
     def increments(self, ring: Ring) -> tuple[Row, ...]:
-        """Return the increments B_i K_i, where K_i is the value of K after stage i. Row i of the result
-        contains the coefficients of F_1, ..., F_s in B_i K_i. Here F_j is the vector field at stage j.
+        """Return the increments B_i K_i, where K_i is the value of K after stage i. Let F_j be the vector
+        field at stage j. Row i of the result contains the coefficients of F_1, ..., F_s in B_i K_i.
 
         >>> from orderconds.ring import QQ
         >>> half, two = QQ.rational(1, 2), QQ.rational(2)
@@ -81,10 +81,10 @@ class Rewriting:
 
 
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
-    """Rewrite a method as a low-storage (2N) scheme. If this is impossible, return the reason.
+    """Rewrite a method as a low-storage (2N) scheme. If no such scheme exists, return the reason.
 
-    For a commutator-free method, the scheme gives the same step on every Lie group. For a Runge-Kutta method,
-    the scheme gives the same step on vector spaces.
+    The steps of the scheme and of a commutator-free method are equal on every Lie group. The steps of the
+    scheme and of a Runge-Kutta method are equal on vector spaces.
 
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))

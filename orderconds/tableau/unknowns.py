@@ -13,8 +13,9 @@ solution.
     reduction = "symmetric"    # optional: a reason why fewer equations suffice
     printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
-The name of an unknown is its name under ``numbers``, or its position in the file, such as ``A[2][1]``. Equal
-decimals are the same unknown.
+The name of an unknown is its name under ``numbers``, or its position in the file, for example ``A[2][1]``. If
+several unknowns would have the same name, their names also contain the values. Equal decimals are one
+unknown.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ Built = tuple[Method, LowerOrder | None]
 
 
 class RootedRing(Ring, Protocol):
-    """A ring in which real n-th roots can be computed, such as the ring of balls (intervals)."""
+    """A ring in which real n-th roots can be computed. An example is the ring of balls (intervals)."""
 
     def root(self, x: Element, index: int) -> Element:
         """Return the real n-th root of x, where n is ``index``."""
@@ -54,9 +55,9 @@ class Unknown(Struct, frozen=True):
 class Proof:
     """The table ``[proof]`` of a file: equations that the rounded decimals of the file solve approximately.
 
-    The equations are the order conditions of one family up to order ``order``. ``conditions`` is the name of
-    this family. The decimals in ``unknowns`` are the unknowns of the equations. The decimals in ``pinned``
-    count as exact numbers. ``printed`` maps names of numbers to the decimals that the publication contains.
+    The equations are the order conditions of the family ``conditions`` up to order ``order``. The decimals in
+    ``unknowns`` are the unknowns of the equations. The decimals in ``pinned`` count as exact numbers.
+    ``printed`` maps names of numbers to the decimals that the publication contains.
     """
 
     conditions: str
@@ -74,7 +75,7 @@ class Proof:
 
     def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
         """Return a named number or a coefficient of the file for the given ``values`` of the unknowns. For a
-        coefficient, ``name`` is the position in the file, such as ``A[2][1]``."""
+        coefficient, ``name`` is its position in the file, for example ``A[2][1]``."""
         return self.symbolic.number(name, ring, self._known(ring, values))
 
     def _known(self, ring: RootedRing, values: Mapping[str, Element]) -> dict[Constant, Element]:
@@ -85,8 +86,8 @@ class Proof:
 
 
 class SymbolicCoefficients(Struct, frozen=True):
-    """The parsed coefficients of a file. They can be evaluated in a given ring, for given values of the
-    rounded decimals."""
+    """The parsed coefficients of a file. The coefficients can be evaluated in a given ring, for given values
+    of the rounded decimals."""
 
     expressions: Mapping[str, Expression]
     numbers: Mapping[str, Definition]
@@ -101,7 +102,7 @@ class SymbolicCoefficients(Struct, frozen=True):
 
     def number(self, name: str, ring: RootedRing, known: Mapping[Constant, Element]) -> Element:
         """Return a named number or a coefficient of the file. ``known`` contains the values of the rounded
-        decimals. For a coefficient, ``name`` is the position in the file, such as ``A[2][1]``."""
+        decimals. For a coefficient, ``name`` is its position in the file, for example ``A[2][1]``."""
         expression = {name: Name(name) if name in self.numbers else self.expressions[name]}
         return evaluate_in(_Substituted(ring, known), expression, self.numbers, self.where)[name]
 

@@ -2,8 +2,8 @@
 
 A field evaluation is counted for each stage on which the update depends. Stages that only the error estimate
 uses are not counted. The last stage of an explicit first-same-as-last method is not counted, because it is
-also the first stage of the next step. For an implicit method, the counts are those of one iteration, which
-evaluates each stage once.
+also the first stage of the next step. An implicit method solves for its stages by iteration. The counts are
+those of one iteration. One iteration evaluates each stage once.
 
 Equal exponents count as one exponential. A Munthe-Kaas method evaluates dexpinv at each stage on which
 the update depends. At a stage that equals the start value, dexpinv is not needed. All nested brackets of
@@ -25,8 +25,9 @@ from orderconds.tableau.record import Tableau
 
 @dataclass(frozen=True)
 class Work:
-    """Numbers of vector field evaluations, exponentials and brackets in one step. None denotes an operation
-    that is not counted, such as the exponentials of a classical Runge-Kutta method."""
+    """Numbers of vector field evaluations, exponentials and brackets in one step. None means that an
+    operation is not counted. For a classical Runge-Kutta method, for example, exponentials are not
+    counted."""
 
     evaluations: int
     exponentials: int | None = None
@@ -39,7 +40,7 @@ class Work:
 
 def evaluations(tableau: Tableau) -> Work | None:
     """Return a :class:`Work` object that contains only the number of field evaluations of a step. Return None
-    for methods without field evaluations, such as splitting methods.
+    for splittings and other methods that have no field evaluations.
 
     >>> from orderconds.tableau import find
     >>> evaluations(Tableau.load(find("rk4")))
@@ -185,9 +186,9 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return the number of nested brackets in sum_k (B_k / k!) ad_u^k, the series dexpinv_u, for
-    k <= ``cutoff``. It is the largest such k with a non-zero Bernoulli number B_k. If ``cutoff`` is None,
-    the result is 0."""
+    """Return the number of nested brackets in the terms with k <= ``cutoff`` of dexpinv_u, the series
+    sum_k (B_k / k!) ad_u^k. The result is the largest k <= ``cutoff`` for which the Bernoulli number B_k is
+    not zero. If ``cutoff`` is None, the result is 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

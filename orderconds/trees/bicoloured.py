@@ -39,9 +39,10 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
     """Return all free trees in which neighbours differ in colour, each tree once. Each tree is returned as a
     rooted tree of least height.
 
-    These trees index the order conditions of symplectic partitioned methods for separable Hamiltonians (Abia
-    and Sanz-Serna 1993; HLW VI.7.2). An uncoloured tree gives two such trees, which differ by an exchange of
-    the colours. The two trees are equal if a symmetry of the uncoloured tree exchanges the colours.
+    The trees with alternating colours index the order conditions of symplectic partitioned methods for
+    separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2). An uncoloured tree gives two coloured
+    trees. An exchange of the two colours maps one to the other. The two trees are equal if a symmetry of the
+    uncoloured tree exchanges the colours.
 
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']
@@ -105,7 +106,7 @@ def rooted(colour: int, below: list[BicolouredTree]) -> BicolouredTree:
 
 
 def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
-    """Yield one tree for each vertex: the given tree with this vertex as root. The colours do not change.
+    """For each vertex, yield the given tree with the vertex as root. The colours do not change.
 
     >>> [text(tree) for tree in bicoloured_rootings(bytes((0, 3)))]
     ['[o]', '(.)']

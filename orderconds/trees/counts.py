@@ -62,8 +62,8 @@ def ordered_forest_count(vertices: int) -> int:
 def free_tree_count(vertices: int) -> int:
     """Return the number of free trees with n = ``vertices`` vertices (A000055).
 
-    Otter's formula for this number is r(n) - 1/2 (sum_{0<k<n} r(k) r(n - k) - r(n/2)). Here r(n) is the
-    number of rooted trees with n vertices, and r(n/2) is zero for odd n.
+    Let r(n) be the number of rooted trees with n vertices, and let r(n/2) be zero for odd n. Otter's formula
+    for the number of free trees is r(n) - 1/2 (sum_{0<k<n} r(k) r(n - k) - r(n/2)).
 
     >>> [free_tree_count(n) for n in range(1, 11)]
     [1, 1, 1, 2, 3, 6, 11, 23, 47, 106]
@@ -115,9 +115,9 @@ def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
     """Return the number of Lyndon words of a given weight. ``letters(k)`` is the number of letters of weight
     k.
 
-    Every word is the product of a unique non-increasing sequence of Lyndon words. Hence the product of
-    (1 - x^n)^(-L(n)) over all n is equal to 1/(1 - sum_k letters(k) x^k), the generating function of all
-    words. Here L(n) is the number of Lyndon words of weight n.
+    Let L(n) be the number of Lyndon words of weight n. Every word is the product of a unique non-increasing
+    sequence of Lyndon words. Hence the product of (1 - x^n)^(-L(n)) over all n is equal to
+    1/(1 - sum_k letters(k) x^k), the generating function of all words.
 
     >>> [lyndon_word_count(n, ordered_tree_count) for n in range(1, 10)]
     [1, 1, 3, 8, 25, 75, 245, 800, 2700]

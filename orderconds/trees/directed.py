@@ -10,8 +10,9 @@ across one edge. The sum of their elementary weights is the product of the eleme
 trees. If the conditions of lower order hold, the conditions of t and t' are equivalent. Hence the order
 conditions are indexed by free trees with directed edges.
 
-A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder. Here ``kind`` is the kind of
-the edge to the parent. The branches of a vertex are sorted by their bytes, in descending order.
+A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder. ``level`` is the level of the
+vertex, and ``kind`` is the kind of the edge to its parent. The branches of a vertex are sorted by their
+bytes, in descending order.
 """
 
 from __future__ import annotations
@@ -92,8 +93,8 @@ def text(tree: DirectedTree) -> str:
 
 @lru_cache(maxsize=32)
 def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
-    """Return every rooted tree with directed edges exactly once. These trees index the order conditions
-    of partitioned Runge-Kutta methods with the same weights b in both tableaux.
+    """Return every rooted tree with directed edges exactly once. The rooted trees index the order conditions
+    of partitioned Runge-Kutta methods whose two tableaux have equal weights b.
 
     >>> [text(tree) for tree in directed_rooted_trees(3)]
     ['[[.]]', '[[^.]]', '[^[.]]', '[^[^.]]', '[..]', '[^..]', '[^.^.]']
@@ -131,7 +132,7 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def representative(tree: DirectedTree) -> DirectedTree:
-    """Choose a root that gives a simple order condition. Return the tree with this root.
+    """Return the tree with the root that gives the simplest order condition.
 
     For a given root, let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1. The first criterion is
     the least value of min(n_0, n_1). If roots tie, the tree of least height is chosen. If roots still tie,
@@ -144,8 +145,7 @@ def representative(tree: DirectedTree) -> DirectedTree:
 
 
 def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
-    """Yield one tree for each vertex: the given tree with this vertex as root. The edges keep their
-    directions.
+    """For each vertex, yield the given tree with the vertex as root. The edges keep their directions.
 
     >>> [text(tree) for tree in rootings(bytes((0, 2)))]
     ['[.]', '[^.]']
@@ -180,8 +180,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        # ``hats[place]`` is the number of edges of kind 1 if the vertex ``place`` is the root. If the root
-        # moves across an edge, only the kind of this edge changes.
+        # ``hats[place]`` is the number of edges of kind 1 if the vertex ``place`` is the root. A move of the
+        # root across an edge changes the kind of this edge only.
         hats[place] = hats[parents[place]] + 1 - 2 * kind
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)

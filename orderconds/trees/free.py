@@ -1,9 +1,9 @@
 """Free (unrooted) trees, and the effect of moving the root of a tree.
 
-The order conditions of symplectic Runge-Kutta methods are indexed by free trees. The tableau a_ij and the
-weights b_i of these methods satisfy b_i a_ij + b_j a_ji = b_i b_j. Let phi be the elementary weight, and let
-o be Butcher's product of rooted trees. Then phi(u o v) + phi(v o u) = phi(u) phi(v) for all rooted trees u
-and v (Sanz-Serna and Abia 1991; HLW VI.7.1).
+The order conditions of symplectic Runge-Kutta methods are indexed by free trees. For symplectic methods, the
+tableau a_ij and the weights b_i satisfy b_i a_ij + b_j a_ji = b_i b_j. Let phi be the elementary weight, and
+let o be Butcher's product of rooted trees. Then phi(u o v) + phi(v o u) = phi(u) phi(v) for all rooted trees
+u and v (Sanz-Serna and Abia 1991; HLW VI.7.1).
 
 A free tree is called superfluous if it has the form u o u for a suitable root. In this case,
 phi(u o u) = phi(u)^2/2. Hence the order condition of u o u follows from the order condition of u.
@@ -45,8 +45,8 @@ def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def superfluous(tree: Tree) -> bool:
-    r"""Return True if one of the edges of the tree joins the roots of two equal rooted trees. Such a tree is
-    superfluous: its order condition follows from a condition of lower order.
+    r"""Return True if one of the edges of the tree joins the roots of two equal rooted trees. The order
+    condition of the tree then follows from a condition of lower order.
 
     >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")
     (True, False)
@@ -81,9 +81,9 @@ def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
 
 
 def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
-    r"""Yield a pair (rooting, moves) for each vertex of a canonical tree. Here ``rooting`` is the tree with
-    this vertex as root. ``moves`` contains one :data:`Move` for each edge on the path from the given root to
-    this vertex.
+    r"""Yield a pair (rooting, moves) for each vertex of a canonical tree. ``rooting`` is the tree with the
+    vertex as root. ``moves`` contains one :data:`Move` for each edge on the path from the given root to the
+    vertex.
 
     >>> list(rootings(b"\0\1"))
     [(b'\x00\x01', ()), (b'\x00\x01', ((b'\x00', b'\x00'),))]

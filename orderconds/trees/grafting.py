@@ -63,8 +63,8 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
     r"""Return the forests that result from grafting: each tree of the forest ``word`` becomes a branch of a
     vertex of ``onto``.
 
-    The tuple contains one forest for each choice of the vertices, so a forest can occur several times. New
-    branches of a vertex keep their order. They are placed to the left of the existing branches.
+    The tuple contains one forest for each choice of the vertices, so a forest can occur several times. The
+    new branches of a vertex keep their order, and are placed to the left of its existing branches.
 
     >>> left_graft(b"\0", b"\0\1")
     (b'\x00\x01\x02', b'\x00\x01\x01')

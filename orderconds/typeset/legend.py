@@ -1,4 +1,4 @@
-"""The legend of printed conditions, which defines the symbols in the conditions."""
+"""The legend of printed conditions. The legend defines the symbols in the conditions."""
 
 from __future__ import annotations
 

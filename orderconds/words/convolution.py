@@ -1,9 +1,9 @@
 """Convolution of functions on words, and power series of functions on words.
 
-A function on words represents a series. The value on a word is the coefficient of this word. The convolution
-of f and g on a word w is the sum of f(u) g(v) over all divisions of w into a prefix u and the rest v. If f
-is zero on the empty word, its m-fold convolution is zero on words of fewer than m letters. Hence a power
-series of f is a finite sum on each word.
+A function on words represents a series. The value of the function on a word is the coefficient of the word.
+The convolution of f and g on a word w is the sum of f(u) g(v) over all divisions of w into a prefix u and the
+rest v. If f is zero on the empty word, its m-fold convolution is zero on words of fewer than m letters. Hence
+a power series of f is a finite sum on each word.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ def convolution(f: Function, g: Function, word: Word, zero: Element = Fraction(0
 
 
 def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Element = Fraction(0)) -> Element:
-    """Return the value of sum_{m>=1} scales[m - 1] f^m on a non-empty word.
+    """Return the value of sum_{m>=1} scales[m - 1] f^m on a non-empty word, where f^m is the m-fold
+    convolution of f.
 
-    Here f^m is the m-fold convolution of f. The function treats the value of f on the empty word as zero. If
-    the word has n letters, the terms with m > n are zero. Hence n entries of ``scales`` are sufficient.
-    ``zero`` is the zero of the ring of values.
+    The function treats the value of f on the empty word as zero. If the word has n letters, the terms with
+    m > n are zero. Hence n entries of ``scales`` are sufficient. ``zero`` is the zero of the ring of values.
 
     >>> letters = {("A",): Fraction(2), ("B",): Fraction(3)}
     >>> power_series(lambda word: letters.get(word, Fraction(0)), ("A", "B"), exponential_scales(2))
@@ -83,8 +83,8 @@ def logarithm_scales(n: int) -> tuple[Fraction, ...]:
 
 
 def cayley_scales(n: int) -> tuple[Fraction, ...]:
-    """Return 1/2^(m-1) for m = 1, ..., n. These numbers are the coefficients of cay(x) - 1 for the Cayley
-    transform cay(x) = (1 + x/2) / (1 - x/2).
+    """Return 1/2^(m-1) for m = 1, ..., n. This is the coefficient of x^m in cay(x) - 1, where
+    cay(x) = (1 + x/2) / (1 - x/2) is the Cayley transform.
 
     >>> [str(q) for q in cayley_scales(3)]
     ['1', '1/2', '1/4']
@@ -93,8 +93,8 @@ def cayley_scales(n: int) -> tuple[Fraction, ...]:
 
 
 def inverse_cayley_scales(n: int) -> tuple[Fraction, ...]:
-    """Return (-1)^(m+1)/2^(m-1) for m = 1, ..., n. These numbers are the coefficients of z, z^2, ... in the
-    function 2 z/(2 + z). This function maps z = cay(x) - 1 to x (see :func:`cayley_scales`).
+    """Return (-1)^(m+1)/2^(m-1) for m = 1, ..., n. This is the coefficient of z^m in 2 z/(2 + z). The
+    function 2 z/(2 + z) maps z = cay(x) - 1 to x (see :func:`cayley_scales`).
 
     >>> [str(q) for q in inverse_cayley_scales(3)]
     ['1', '-1/2', '1/4']

@@ -49,8 +49,8 @@ def magnus(word: Word) -> Fraction:
     Y(0) = I. The Magnus expansion is the Lie element Omega with Y = exp(Omega).
 
     Letter k denotes X_k in A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a word acts first. Hence
-    the word (2, 1) denotes X_1 X_2. For example, Omega contains the term -[X_1, X_2]/12. This term gives the
-    word (2, 1) the coefficient -1/12, and the word (1, 2) the coefficient 1/12.
+    the word (2, 1) denotes X_1 X_2. For example, Omega contains the term -[X_1, X_2]/12. Hence the word
+    (2, 1) has the coefficient -1/12, and the word (1, 2) has the coefficient 1/12.
 
     >>> str(magnus((1, 2))), str(magnus((2, 1)))
     ('1/12', '-1/12')
@@ -93,8 +93,8 @@ def fer(n: int, word: Word) -> Fraction:
 def fer_remainder(word: Word) -> Fraction:
     """Return the coefficient of a word in log(exp(-F_1) Y), where F_n and Y are defined in :func:`fer`.
 
-    The logarithm equals F_2 + F_3 + ... plus brackets of these series. The lowest weights in F_2 and F_3 are
-    3 and 7. Hence the brackets have weight 10 or more.
+    The logarithm equals F_2 + F_3 + ... plus brackets of the series F_n with n >= 2. The lowest weights in
+    F_2 and F_3 are 3 and 7. Hence the brackets have weight 10 or more.
 
     >>> fer_remainder((1, 2)) == fer(2, (1, 2))
     True
@@ -154,8 +154,8 @@ def words_of_weight(weight: int) -> Iterator[Word]:
 
 
 def expansion(coefficient: Callable[[Word], Fraction], weight: int) -> Series:
-    """Return the non-zero terms of a series up to a given weight. ``coefficient`` is a function of words,
-    such as :func:`magnus`.
+    """Return the non-zero terms of a series up to a given weight. ``coefficient`` returns the coefficient of
+    a word in the series, as :func:`magnus` does.
 
     >>> {word: str(value) for word, value in expansion(magnus, 3).items()}
     {(1,): '1', (2,): '1/2', (3,): '1/3', (1, 2): '1/12', (2, 1): '-1/12'}

@@ -85,9 +85,9 @@ def coordinates_from_values(
     The Lie element is a series of words. Each word denotes the product of its letters in the written order.
     ``value`` returns the coefficient of a word in this series. The coefficients may belong to any ring.
 
-    ``words`` contains all Lyndon words of one weight, or all Lyndon words with the same letters and the same
-    multiplicities of letters. The words are in ascending order. ``key`` returns the sort key of a
-    letter. The function does not check that the series is a Lie element.
+    ``words`` contains all Lyndon words of one weight, or all Lyndon words in which each letter has a given
+    multiplicity. The words are in ascending order. ``key`` returns the sort key of a letter. The function
+    does not check that the series is a Lie element.
 
     >>> element = expand(("A", ("A", "B")))
     >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])

@@ -46,7 +46,7 @@ class LieSeries:
 @dataclass(frozen=True)
 class LieTerm:
     """One term of a Lie series: ``coefficient`` times ``bracket``. The bracket [x, y] is represented by the
-    pair (x, y), and a single letter by itself."""
+    pair (x, y). A single letter represents itself."""
 
     weight: int
     bracket: Bracket

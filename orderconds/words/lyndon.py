@@ -2,7 +2,7 @@
 
 With the shuffle product, every word is a polynomial in Lyndon words (Radford 1979; Reutenauer, Free Lie
 Algebras, Thm 6.1). The Lyndon words are algebraically independent. Hence the coefficients of Lyndon words in
-a group-like series are independent. These coefficients determine the coefficients of all words.
+a group-like series are independent, and they determine the coefficients of all other words.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def lyndon_words(
     weights = [weigh(letter) for letter in letters]
     if any(w < 1 for w in weights):
         raise ValueError("every letter must have a positive weight")
-    # This is the algorithm of K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of
+    # The algorithm is that of K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of
     # lengths. A word is built letter by letter. The word repeats its first p letters, where p is its period.
     # The new letter is compared with the letter p positions before it. If both are equal, p does not change.
     # If the new letter is greater, p becomes the length of the extended word.

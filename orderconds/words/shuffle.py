@@ -1,5 +1,5 @@
 """The shuffle product of words, and the product of series by concatenation of words. In a group-like series,
-the coefficient of the shuffle product of two words is the product of the coefficients of these words."""
+the coefficient of the shuffle product of two words u and v is the product of the coefficients of u and v."""
 
 from __future__ import annotations
 
