@@ -61,10 +61,10 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     """Rewrite a Runge-Kutta or commutator-free method as a low-storage scheme with two registers (2N). The
     result contains the scheme, or the reason why there is no such scheme. Return None for all other methods.
 
-    Rounded decimals may be too inaccurate to decide whether the method equals the scheme. If the file has a
-    table ``[proof]``, the method and the scheme are then compared for random values of the decimals.
-    Equality for random values counts as equality for all values. The probability of an error is negligible
-    (:mod:`orderconds.tableau.random_member`).
+    Rounded decimals may be too inaccurate to decide whether the method equals the scheme. In this case, and
+    if the file has a table ``[proof]``, random numbers replace the decimals in a second comparison. Equality
+    for the random numbers counts as equality for all numbers in place of the decimals. The probability of an
+    error is negligible (:mod:`orderconds.tableau.random_member`).
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds
@@ -109,9 +109,10 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Return True if the method is symmetric for all values of its rounded decimals. The method is tested
-    with random numbers in place of the decimals. If this test fails, return None, because the method with
-    the exact coefficients may be symmetric. Return None if the file has no table ``[proof]``."""
+    """Test symmetry with random numbers in place of the rounded decimals. If the test succeeds, return True:
+    apart from a negligible probability of an error, the method is symmetric for all numbers in place of the
+    decimals. If the test fails, return None, because the method with the exact coefficients may still be
+    symmetric. The test needs the table ``[proof]``. If the file has no such table, return None."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember

@@ -24,8 +24,8 @@ EXPECTED = (
 
 
 SMALL = 1024
-"""A NumPy float of 16 or 32 bits is a fraction with a power of 2 as denominator. If the denominator is at
-most this number, the float counts as an exact number."""
+"""The limit for exact NumPy floats of 16 or 32 bits. Such a float is a fraction. If the denominator in lowest
+terms is at most SMALL, the float counts as an exact number. Otherwise, it counts as a rounded decimal."""
 
 
 class _Listed(Protocol):
@@ -44,8 +44,9 @@ def coefficient(x: object, where: str) -> Coefficient:
     """Convert a number to a coefficient of a tableau file.
 
     In a tableau file, ``d`` after a decimal denotes a double, and ``~`` denotes a rounded decimal. A NumPy
-    float of 16 or 32 bits becomes an exact number or a rounded decimal (see :data:`SMALL`). Raises
-    TableauError for complex numbers, infinities, NaN, truth values and objects that are not numbers.
+    float of 16 or 32 bits becomes an exact number if its denominator is at most 1024 (:data:`SMALL`), and a
+    rounded decimal otherwise. Raises TableauError for complex numbers, infinities, NaN, truth values and
+    objects that are not numbers.
 
     >>> from fractions import Fraction
     >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]
@@ -89,8 +90,9 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 
 
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
-    """Convert a float of 16 or 32 bits to a coefficient: an exact number (see :data:`SMALL`), or a rounded
-    decimal with ``digits`` significant digits."""
+    """Convert a float of 16 or 32 bits to a coefficient. If the denominator of the float is at most
+    :data:`SMALL`, return an exact number. Otherwise, return a rounded decimal with ``digits`` significant
+    digits."""
     text = double_text(x, where)
     if Fraction(x).denominator <= SMALL:
         return text

@@ -31,8 +31,9 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
 """The number of bits of a random number. A false identity between rational functions of degree D passes
-the test with probability at most D / 2^128. D is far below 2^40: values of functions of high degree have many
-bits, and :data:`orderconds.tableau.evaluate.MAX_SIZE` limits the number of bits."""
+the test with probability at most D / 2^128. The value of a function of degree D at a random point has about
+128 D bits, and :data:`orderconds.tableau.evaluate.MAX_SIZE` limits the number of bits. Hence D is far below
+2^40."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """The errors that are raised if the method with random coefficients cannot be evaluated. For example, a
@@ -40,7 +41,8 @@ divisor may be zero."""
 
 
 class RandomMember(Rationals):
-    """The ring Q. Random numbers replace the rounded decimals and the radicals of a tableau file."""
+    """The ring Q for the evaluation of a tableau file. In the evaluation, random numbers replace the rounded
+    decimals and the radicals of the file."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws | None = None) -> None:
         self._symbolic, self._draws = symbolic, draws or Draws(description(symbolic))
@@ -50,11 +52,13 @@ class RandomMember(Rationals):
         return self._drawn(f"decimal {constant.value} {constant.unit}")
 
     def root(self, x: fmpq, index: int) -> fmpq:
-        """Return the random number that replaces x^(1/``index``)."""
+        """Return a random number in place of x^(1/``index``), because this root is irrational in general. The
+        random number depends on x and ``index``."""
         return self._drawn(f"root {index} {x}")
 
     def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> fmpq:
-        """Return the random number that replaces the named root ``name`` of a polynomial."""
+        """Return a random number in place of the named root ``name``, because roots of polynomials are
+        irrational in general. The random number depends on ``name`` only."""
         return self._drawn(f"named {name}")
 
     def size(self, x: fmpq) -> int:
@@ -82,8 +86,8 @@ class RandomMember(Rationals):
 
 
 def description(symbolic: SymbolicCoefficients) -> str:
-    """Return all coefficients and named numbers of a file as one text. :class:`RandomMember` computes its
-    random numbers from the text.
+    """Return all coefficients and named numbers of a file as one text. :class:`RandomMember` uses the text as
+    the seed of its random numbers.
 
     >>> from orderconds.tableau import Tableau
     >>> file = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]').file
@@ -94,7 +98,7 @@ def description(symbolic: SymbolicCoefficients) -> str:
 
 
 def radicals(symbolic: SymbolicCoefficients) -> tuple[Power, ...]:
-    """Return the different radicals in a file. A radical is a power with a non-integer exponent.
+    """Return the radicals in a file, each radical once. A radical is a power with a non-integer exponent.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["sqrt(3)"]\\nnumbers.a = "0.5~*sqrt(3)"\\n'

@@ -1,7 +1,7 @@
 """Tests of A- and L-stability for methods with rational coefficients.
 
-The tests use polynomials and certified roots of the Flint library. The criteria are those of
-:mod:`orderconds.tableau.stability`. The tests are fast enough for methods with a hundred stages.
+The Flint library computes with the polynomials and certifies the enclosures of their roots. The criteria are
+those of :mod:`orderconds.tableau.stability`. The tests are fast enough for methods with a hundred stages.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Coefficients in the Python interface: fractions, floats, and real numbers with an exact text."""
+"""The types of coefficients in the Python interface: Fraction, float and :class:`RealNumber`."""
 
 from __future__ import annotations
 

@@ -39,8 +39,8 @@ from orderconds.tableau.write import as_data
 
 @dataclass(frozen=True, repr=False)
 class Tableau:
-    """A named method with coefficients in ``ring``. ``family`` is the format of the tableau file, for example
-    ``rk`` or ``cf``.
+    """A named method with coefficients in ``ring``. ``family`` is the name of the format of its tableau file,
+    for example ``rk`` or ``cf``.
 
     :meth:`rk` and :meth:`cf` build a tableau from numbers. :meth:`load` reads a tableau from a file or the
     library.
@@ -116,8 +116,8 @@ from the table [numbers] (none)
 
         ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials.
         The first exponential of a list acts first. An exponential is a row of s coefficients, where s is the
-        number of stages. Zeros at the end of a row may be omitted. The coefficients have the types of the
-        entries in :meth:`rk`.
+        number of stages. Zeros at the end of a row may be omitted. The types that are allowed for an entry of
+        A in :meth:`rk` are also allowed for a coefficient.
 
         - ``starts``: maps i to j if the exponentials of stage i act on the value of an earlier stage j. All
           other stages start from y0. Stages are counted from 1.
@@ -222,7 +222,7 @@ from the table [numbers] (none)
         return f", {self.s} stage" + "s" * (self.s != 1)
 
     def __hash__(self) -> int:
-        # Balls and algebraic numbers cannot be hashed. Omit the coefficients.
+        # The coefficients may be balls or algebraic numbers, which cannot be hashed. The hash omits them.
         return hash((self.name, self.family, self.source, self.bibtex, self.path, self.doubles))
 
     def _repr_latex_(self) -> str:
@@ -287,8 +287,8 @@ from the table [numbers] (none)
         return None
 
     def abelian(self) -> RungeKutta:
-        """Return the Runge-Kutta tableau (A, b) of this method on vector spaces. For a partitioned method,
-        return the tableau for the first part of the system.
+        """Return the Runge-Kutta tableau (A, b) to which this method reduces on vector spaces. For a
+        partitioned method, return the tableau for the first part of the system.
 
         Raises :class:`TableauError` for a splitting or a Magnus method.
         """
@@ -360,8 +360,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau that ``data`` defines. If there is an embedded method, compute its order on vector
-    spaces. A tableau file must contain this order."""
+    """Return the tableau that ``data`` defines. If ``data`` contains an embedded method, compute its order on
+    vector spaces and store the order in ``data``, because the file format requires it."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:

@@ -78,8 +78,9 @@ def highest_assumptions(method: RungeKutta, ring: Ring, order: int) -> int:
 
 
 def _simplifies(algebra: NodalAlgebra, m: int) -> bool:
-    """Return True if the simplifying assumptions C(m) and D(m) hold. Let c_i be the nodes. A polynomial p
-    represents the vector with the entries p(c_i)."""
+    """Return True if the simplifying assumptions C(m) and D(m) hold: sum_j a_ij c_j^(k-1) = c_i^k / k and
+    sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k) / k for k = 1, ..., m. In the code, vectors with one entry for
+    each node c_i are polynomials: p denotes the vector with the entries p(c_i)."""
     stages = range(int(algebra.modulus.degree()))
     powers = [fmpq_poly([0] * k + [1]) % algebra.modulus for k in range(max(m + 1, len(stages)))]
     for k in range(1, m + 1):

@@ -37,7 +37,7 @@ block triangular, the limit applies to each diagonal block. For a block of this 
 the computation takes about a second."""
 
 EFFORT = 10**11
-"""The limit on the work of polynomial operations. The unit is the multiplication of two bits. The limit
+"""The limit on the work of polynomial operations. Work is measured in multiplications of two bits. The limit
 corresponds to about a second. The coefficients in Euclid's algorithm grow fast, so a limit is necessary."""
 
 
@@ -146,23 +146,26 @@ class _Limited:
         return getattr(self.ring, name)
 
     def spend(self, work: int) -> None:
-        """Subtract the work of an operation from the remaining work. The unit is the multiplication of two
-        bits."""
+        """Subtract ``work``, the work of an operation, from the work that is still allowed. Work is measured
+        in multiplications of two bits."""
         self.left -= work
         if self.left < 0:
             raise _Undecided
 
 
 def _bits(x: Element) -> int:
-    """Return the bits of numerator and denominator of a rational number x. If x is an element of a number
-    field, return the largest result for a coefficient of x."""
+    """Return the number of bits of the numerator plus the number of bits of the denominator of a rational
+    number x. An element x of a number field has several rational coefficients. In this case, return the
+    maximum over the coefficients."""
     coefficients = x.polynomial.coeffs() if hasattr(x, "polynomial") else [x]
     return max((int(fmpq(c).p).bit_length() + int(fmpq(c).q).bit_length() for c in coefficients), default=1)
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Subtract the estimated work of ``count`` multiplications from the remaining work. The estimate is
-    proportional to the number of bits of the longest number, or to its square."""
+    """Subtract the estimated work of ``count`` multiplications from the work that is still allowed. Let n be
+    1000 plus the number of bits of the longest number in ``numbers``. Over a number field, the number of bits
+    is multiplied by the degree of the field. The estimate for one multiplication is n^2 if ``quadratic`` is
+    true, and 1000 n otherwise."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1

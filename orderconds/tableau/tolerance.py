@@ -1,4 +1,4 @@
-"""A given uncertainty for the coefficients that are doubles in the tableau file."""
+"""Intervals of a width that the caller chooses, in place of the doubles in a tableau file."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
 
 
 def _scaled(x: Expression, units: Fraction) -> Expression:
-    """Return a copy of the expression in which the ball of every double x has the radius
-    ``units * 2^-53 * max(1, |x|)``."""
+    """Return a copy of the expression. In the copy, a ball (interval) with the centre x and the radius
+    ``units * 2^-53 * max(1, |x|)`` replaces every double x."""
     if isinstance(x, Constant):
         return Constant(x.value, radius(x.value, units)) if x.is_double else x
     if isinstance(x, Chain):

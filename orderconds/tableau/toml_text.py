@@ -31,7 +31,8 @@ def toml_text(data: Mapping[str, object]) -> str:
 
 
 def _entries(table: Mapping[str, object]) -> Iterator[str]:
-    """Yield the text ``key = value`` for each value that is not written below a heading."""
+    """Yield the text ``key = value`` for each value of the table, except the values with a heading (see
+    :func:`_headed`)."""
     for key, value in table.items():
         if not _headed(key, value):
             yield _line(key, value)
@@ -66,8 +67,8 @@ def _headings(prefix: str, table: Mapping[str, object]) -> Iterator[str]:
 
 
 def _blocks(value: object, key: str) -> TypeGuard[list[Mapping[str, object]]]:
-    """Return True if the value is a list of stages. Every stage is a table with the heading
-    ``[[stage]]``."""
+    """Return True if the value is the list of stages: the key is ``stage``, and the value is a list of
+    tables."""
     return key == "stage" and isinstance(value, list) and all(isinstance(x, Mapping) for x in value)
 
 

@@ -2,9 +2,9 @@
 
 Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y. Here F is the vector field and h is the step
 size. A step stores only the state Y and one element K of the Lie algebra (Williamson, J. Comput. Phys. 35
-(1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225). As a commutator-free method, a 2N scheme
-has one exponential for each stage, and each stage begins where the previous stage ended. On a vector space, a
-2N scheme is a Runge-Kutta method.
+(1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225). A 2N scheme is a commutator-free method
+with one exponential for each stage. Each stage begins where the previous stage ended. On a vector space, a 2N
+scheme is a Runge-Kutta method.
 
 Let F_i be the vector field at stage i. Increment i leads from stage i to stage i + 1. The last increment
 leads to the update. In a 2N scheme, increment i is B_i K_i with K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j.
@@ -12,7 +12,8 @@ The recognition computes B_i and A_i from the increments of a tableau:
 
 - B_i is the coefficient of F_i in increment i.
 - A_i is a quotient of two coefficients in one increment. The numerator is the coefficient of F_{i-1}, and the
-  denominator is the coefficient of F_i. The first increment with a non-zero denominator is used.
+  denominator is the coefficient of F_i. The quotient is taken from the first increment in which the
+  coefficient of F_i is not zero.
 
 The tableau is a 2N scheme if all its increments are equal to the increments B_i K_i.
 """
@@ -42,8 +43,9 @@ class TwoRegisters:
         return len(self.B)
 
     def increments(self, ring: Ring) -> tuple[Row, ...]:
-        """Return the increments B_i K_i, where K_i is the value of K after stage i. Let F_j be the vector
-        field at stage j. Row i of the result contains the coefficients of F_1, ..., F_s in B_i K_i.
+        """Return the increments B_i K_i for i = 1, ..., s. The register K has the value K_i after stage i,
+        and B_i is the entry i of ``B``. Let F_j be the vector field at stage j. Row i of the result contains
+        the coefficients of F_1, ..., F_s in B_i K_i.
 
         >>> from orderconds.ring import QQ
         >>> half, two = QQ.rational(1, 2), QQ.rational(2)
@@ -51,7 +53,8 @@ class TwoRegisters:
         ((1/2, 0), (-1, 2))
         """
         rows: list[Row] = []
-        # K_i = F_i + sum_{j < i} x_j F_j. The list ``register`` contains the coefficients x_j.
+        # In stage i, the register K receives the value K_i = F_i + sum_{j < i} x_j F_j, where F_j is the
+        # vector field at stage j. The list ``register`` contains the coefficients x_j.
         register: list[Element] = []
         for i, (a, b) in enumerate(zip(self.A, self.B, strict=True)):
             register = [*(a * x for x in register), a] if i else []
@@ -83,8 +86,8 @@ class Rewriting:
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     """Rewrite a method as a low-storage (2N) scheme. If no such scheme exists, return the reason.
 
-    The steps of the scheme and of a commutator-free method are equal on every Lie group. The steps of the
-    scheme and of a Runge-Kutta method are equal on vector spaces.
+    If ``method`` is commutator-free, the scheme computes the same step as ``method`` on every Lie group. If
+    ``method`` is a Runge-Kutta method, the scheme computes the same step on vector spaces.
 
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
@@ -115,8 +118,9 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
 
 
 def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | None:
-    """If ``second`` consists of the update of ``method`` and one final exponential, return the exponent of
-    the final exponential. Otherwise, return None.
+    """Compare ``second``, a second update for an error estimate, with the update of ``method``. If ``second``
+    applies the exponentials of the update and then one final exponential, return the exponent of the final
+    exponential. Otherwise, return None.
 
     Let sum_i D_i F_i be this exponent, where F_i is the vector field at stage i. Generated code needs only
     one additional register for ``second``: stage i adds D_i F_i to the register.
@@ -149,7 +153,7 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
                 f"A_{i + 1} has a zero denominator: in the increment of stage {m + 1}, k_{i} has the "
                 f"coefficient {ring.text(rows[m][i - 1])} and k_{i + 1} has the coefficient 0"
             )
-    # No increment has a non-zero denominator for A_i. If a numerator is not zero, A_i does not exist. If all
+    # The denominator is zero in all increments. If a numerator is not zero, A_i does not exist. If all
     # numerators are zero, A_i is arbitrary, and zero is chosen.
     return Rewriting(False, reason=above) if above else ring.zero
 
@@ -172,8 +176,8 @@ def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
 
 
 def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
-    """Return the differences of successive rows of A, where b is appended as the last row. If the first
-    stage is not the start value, return an error text."""
+    """Return the differences of successive rows of A, where b is appended as the last row. If the first row
+    of A is not zero, the first stage differs from the start value y0. In this case, return an error text."""
     if any(ring.is_zero(x) is False for x in method.A[0]):
         return "the first stage is not the start value"
     rows = (*method.A, method.b)
@@ -182,8 +186,9 @@ def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
 
 def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
     """Return the increments of a commutator-free method. The exponential of increment i leads from stage i
-    to stage i + 1. The exponential of the last increment leads to the update. If the first stage is not the
-    start value, or if a single exponential is not enough between two stages, return an error text."""
+    to stage i + 1. The exponential of the last increment leads to the update. Return an error text if the
+    first stage differs from the start value y0, or if two successive stages differ by more than one
+    exponential."""
     *paths, update = (
         [row for row in method.from_start(stage) if any(ring.is_zero(x) is not True for x in row)]
         for stage in (*method.stages, method.update)

@@ -23,8 +23,9 @@ def uncertainty(tableau: Tableau, bits: int) -> str:
     coefficients are accurate, the result is empty.
 
     A coefficient is inaccurate if the radius of its ball (interval) exceeds the error of one rounding to
-    ``bits`` bits. Doubles are an exception: a double with the default radius counts as accurate
-    (:mod:`orderconds.tableau.doubles`). Generated code contains this double without further rounding.
+    ``bits`` bits. Doubles are an exception: a double with the default radius
+    (:mod:`orderconds.tableau.doubles`) counts as accurate, because generated code contains the double itself,
+    without further rounding.
 
     >>> from orderconds.tableau import find
     >>> uncertainty(Tableau.load(find("rk4")), 53)

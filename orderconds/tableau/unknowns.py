@@ -14,8 +14,8 @@ solution.
     printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
 The name of an unknown is its name under ``numbers``, or its position in the file, for example ``A[2][1]``. If
-several unknowns would have the same name, their names also contain the values. Equal decimals are one
-unknown.
+two or more decimals occur in one named number or coefficient, the value of the decimal is appended to each
+name. Equal decimals are one unknown.
 """
 
 from __future__ import annotations
@@ -53,7 +53,8 @@ class Unknown(Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Proof:
-    """The table ``[proof]`` of a file: equations that the rounded decimals of the file solve approximately.
+    """The table ``[proof]`` of a file. The table defines equations. The rounded decimals of the file are an
+    approximate solution of these equations.
 
     The equations are the order conditions of the family ``conditions`` up to order ``order``. The decimals in
     ``unknowns`` are the unknowns of the equations. The decimals in ``pinned`` count as exact numbers.
@@ -95,19 +96,20 @@ class SymbolicCoefficients(Struct, frozen=True):
     build: Callable[[Mapping[str, Element], Ring], Built]
 
     def method(self, ring: RootedRing, known: Mapping[Constant, Element]) -> Built:
-        """Return the method with coefficients in ``ring``. ``known`` contains the values of the rounded
-        decimals."""
+        """Return the method with coefficients in ``ring``. ``known`` maps each rounded decimal of the file to
+        the value that replaces it."""
         values = evaluate_in(_Substituted(ring, known), self.expressions, self.numbers, self.where)
         return self.build(values, ring)
 
     def number(self, name: str, ring: RootedRing, known: Mapping[Constant, Element]) -> Element:
-        """Return a named number or a coefficient of the file. ``known`` contains the values of the rounded
-        decimals. For a coefficient, ``name`` is its position in the file, for example ``A[2][1]``."""
+        """Return a named number or a coefficient of the file. ``known`` maps each rounded decimal of the file
+        to the value that replaces it. For a coefficient, ``name`` is its position in the file, for example
+        ``A[2][1]``."""
         expression = {name: Name(name) if name in self.numbers else self.expressions[name]}
         return evaluate_in(_Substituted(ring, known), expression, self.numbers, self.where)[name]
 
     def decimals(self) -> tuple[Unknown, ...]:
-        """Return the different rounded decimals of the file: first the decimals in named numbers, then the
+        """Return the rounded decimals of the file, each once: first the decimals in named numbers, then the
         decimals in the coefficients."""
         names_of: dict[Constant, str] = {}
         for name, definition in (*self.numbers.items(), *self.expressions.items()):
@@ -140,6 +142,6 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        # The evaluation limits the size of numbers in bits. The size zero switches off the limit in rings
-        # without a method ``size``.
+        # The evaluation refuses values for which this method returns too many bits. If ``ring`` has no method
+        # ``size``, the result 0 switches off the limit.
         return 0 if size is None else int(size(x))

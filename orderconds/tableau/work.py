@@ -7,8 +7,8 @@ those of one iteration. One iteration evaluates each stage once.
 
 Equal exponents count as one exponential. A Munthe-Kaas method evaluates dexpinv at each stage on which
 the update depends. At a stage that equals the start value, dexpinv is not needed. All nested brackets of
-dexpinv are counted. For a Magnus method, the brackets are the different commutators in the exponents. A
-Cayley transform counts as an exponential.
+dexpinv are counted. For a Magnus method, the brackets are the commutators in the exponents, and equal
+commutators are counted once. A Cayley transform counts as an exponential.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
 
 
 def magnus_work(tableau: Tableau) -> Work | None:
-    """Return the cost of a step of a Magnus method: the numbers of nodes, different exponents and
+    """Return the cost of a step of a Magnus method: the numbers of nodes, distinct exponents and distinct
     commutators. Return None for all other methods.
 
     >>> from orderconds.tableau import find
@@ -157,8 +157,8 @@ def _used(rows: Iterable[Sequence[Element]], ring: Ring) -> set[int]:
 
 
 def _linear(method: Magnus, ring: Ring) -> Work:
-    """Count the nodes (as field evaluations), the different exponents and the brackets of a Magnus
-    method."""
+    """Count the nodes, the distinct exponents and the distinct brackets of a Magnus method. Each node counts
+    as one field evaluation."""
     elements = dict(method.elements)
     used: dict[Term, None] = {}
 
@@ -186,16 +186,16 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return the number of nested brackets in the terms with k <= ``cutoff`` of dexpinv_u, the series
-    sum_k (B_k / k!) ad_u^k. The result is the largest k <= ``cutoff`` for which the Bernoulli number B_k is
-    not zero. If ``cutoff`` is None, the result is 0."""
+    """Return the number of brackets in one evaluation of dexpinv_u, where the series sum_k (B_k / k!) ad_u^k
+    ends at k = ``cutoff``. Each power ad_u^k needs one bracket more than the power before. Hence the result
+    is the largest k <= ``cutoff`` for which the Bernoulli number B_k is not zero. If ``cutoff`` is None, the
+    result is 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2
 
 
 def _distinct(rows: Sequence[Sequence[Element]], ring: Ring) -> int:
-    """Return the number of different non-zero exponents. Each row contains the coefficients of one
-    exponent."""
+    """Return the number of distinct non-zero exponents. A row contains the coefficients of one exponent."""
     moving = [row for row in rows if any(ring.is_zero(x) is not True for x in row)]
     return len({tuple(ring.key(x) for x in row) for row in moving})

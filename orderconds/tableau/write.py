@@ -67,7 +67,8 @@ def as_data(tableau: Tableau) -> Data:
 
 
 def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
-    """Return the keys and values of a tableau file in which values replace the named numbers.
+    """Return the content of a tableau file without named numbers: each name in a coefficient is replaced by
+    the number that it denotes.
 
     Real roots that a polynomial (``minpoly``) defines keep their names. If ``name_radicals`` is true, nested
     square roots receive the names r1, r2, ...
@@ -157,7 +158,7 @@ class _Radicals:
         return text
 
     def spell(self, x: Element) -> str:
-        """Return the text of an element, in which roots are replaced by their names."""
+        """Return the text of the element x. In this text, names replace the nested square roots."""
         return self._named(self.text(x), list(self.names))
 
 

@@ -74,7 +74,8 @@ def free_tree_count(vertices: int) -> int:
 
 
 def essential_free_tree_count(vertices: int) -> int:
-    """Return the number of free trees that no edge divides into two equal halves (HLW VI.7.1, Table 7.1).
+    """Return the number of free trees with the given number of vertices, without the trees in which an edge
+    joins the roots of two equal rooted trees (HLW VI.7.1, Table 7.1).
 
     >>> [essential_free_tree_count(n) for n in range(1, 11)]
     [1, 0, 1, 1, 3, 4, 11, 19, 47, 97]

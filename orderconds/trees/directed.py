@@ -132,7 +132,8 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def representative(tree: DirectedTree) -> DirectedTree:
-    """Return the tree with the root that gives the simplest order condition.
+    """Move the root of the tree to the vertex that gives the simplest order condition. Return the tree with
+    this root.
 
     For a given root, let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1. The first criterion is
     the least value of min(n_0, n_1). If roots tie, the tree of least height is chosen. If roots still tie,
@@ -159,7 +160,8 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
     r"""Yield three trees (u, v, w) for each edge at the root. The removal of the edge gives two trees: u
-    contains the root, and v does not. The tree w is the given tree with the root of v as its root.
+    contains the root, and v does not. The tree w is the given tree after a move of the root across the edge:
+    the root of w is the root of v.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]
@@ -171,7 +173,7 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Return the preorder indices of the roots that tie under the first three criteria of
+    """Return the preorder indices of the vertices that are the best roots under the first three criteria of
     :func:`representative`."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
@@ -180,8 +182,9 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        # ``hats[place]`` is the number of edges of kind 1 if the vertex ``place`` is the root. A move of the
-        # root across an edge changes the kind of this edge only.
+        # ``hats[place]`` is the number of edges of kind 1 after a move of the root to the vertex ``place``.
+        # The kind of an edge depends on the root: a move of the root across an edge changes the kind of this
+        # edge only.
         hats[place] = hats[parents[place]] + 1 - 2 * kind
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)

@@ -20,8 +20,8 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""A pair (u, v) of trees. Let o be Butcher's product. The pair denotes the move of the root that changes the
-tree u o v to v o u."""
+"""A pair (u, v) of trees. Let o be Butcher's product. The pair denotes a move of the root across an edge.
+This move changes the tree u o v to the tree v o u."""
 
 
 @lru_cache(maxsize=32)
@@ -56,7 +56,7 @@ def superfluous(tree: Tree) -> bool:
 
 def representative(tree: Tree) -> Tree:
     r"""Return the tree with the root at the vertex that gives the least height. If several vertices give the
-    least height, choose the vertex that gives the greatest level sequence.
+    least height, choose the vertex that gives the greatest level sequence in lexicographic order.
 
     >>> representative(b"\0\1\2")
     b'\x00\x01\x01'

@@ -6,10 +6,10 @@ Livernet 2001).
 
 On a Lie group, trees are ordered, because derivatives in different directions do not commute. Let t be an
 ordered tree with the branches t_1, ..., t_k at the root. F(t) is obtained from the vector field by k
-derivatives in the directions F(t_k), ..., F(t_1), in this order. Each direction is a constant
-element of the Lie algebra. Grafting onto the root corresponds to one further derivative after these k
-derivatives. Hence the grafted tree becomes the leftmost branch (Munthe-Kaas and Wright, Found. Comput. Math.
-8 (2008) 227).
+derivatives in the directions F(t_k), ..., F(t_1), in this order. In these derivatives, each direction is
+frozen: F(t_i) is an element of the Lie algebra and is not differentiated. Grafting onto the root corresponds
+to one further derivative after these k derivatives. Hence the grafted tree becomes the leftmost branch
+(Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 
 HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
@@ -82,8 +82,8 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Return the trees that result if each tree of the forest ``word`` is grafted onto a vertex of ``tree``,
-    as in :func:`left_graft`."""
+    """Return the trees that result from grafting, as in :func:`left_graft`: each tree of the forest ``word``
+    becomes a branch of one vertex of ``tree``. Different trees of ``word`` may have different vertices."""
     grafted = []
     for root, above in deshuffles(word):
         grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]

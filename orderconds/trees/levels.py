@@ -66,8 +66,8 @@ def rooted_at_new_vertex(forest: Forest) -> Tree:
 def density(forest: Forest) -> int:
     r"""Return the density gamma (HLW III.1, Definition 1.10).
 
-    Each vertex is the root of a subtree with all descendants of the vertex. The density is the product over
-    all vertices of the numbers of vertices in the subtrees.
+    For each vertex, count the vertex itself and all its descendants. The density is the product of these
+    counts.
 
     >>> density(b"\0\1\2\1")
     8

@@ -39,8 +39,8 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # Compute the next smaller sequence. The last level above ``lowest`` decreases by one. Later levels
-        # become as great as possible.
+        # Compute the next smaller sequence. Find the last level that is greater than ``lowest``, and decrease
+        # this level by one. All later levels become as great as possible.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

@@ -27,7 +27,8 @@ def rooted_trees(vertices: int) -> Iterator[Tree]:
     while True:
         yield bytes(levels)
         # Compute the next smaller canonical sequence. Let p be the last vertex of level 2 or more, with the
-        # parent q. The levels from q to the vertex before p are repeated from p to the end.
+        # parent q. The levels from q to the vertex before p form a block. Copies of this block replace all
+        # levels from p to the end.
         last = len(levels.rstrip(b"\1")) - 1
         if last < 1:
             return

@@ -62,8 +62,8 @@ def _comment(condition: OrderCondition, *, explain: bool) -> str:
 
 
 def _signs(diagram: Diagram) -> list[str]:
-    """Return the sign of each vertex, for example ``white``, and the kind of each edge, for example
-    ``outward``."""
+    """Return the names of the shapes in the diagram: one name for each vertex, for example ``white``, and one
+    name for each edge, for example ``outward``."""
     signs = list[str]()
     for vertex in diagram:
         signs.append(vertex.sign)
@@ -75,8 +75,8 @@ def _signs(diagram: Diagram) -> list[str]:
 MEANINGS = {
     "white": "a black vertex denotes a derivative of the first function of the system (f or T), and a white "
     "vertex denotes a derivative of the second function (g or V)",
-    "outward": "an arrow denotes a derivative with respect to the position at the tail, and a derivative "
-    "with respect to the momentum at the head",
+    "outward": "an arrow denotes two derivatives: at its tail with respect to the position, and at its head "
+    "with respect to the momentum",
     "transport": "a diamond denotes a coadjoint action on the momentum",
     "bracket": "a point with two branches denotes the commutator of the branches",
 }
@@ -84,8 +84,8 @@ MEANINGS = {
 
 
 def _trees(kind: kinds.Kind | None, signs: set[str]) -> str:
-    """Return a sentence that explains the column of trees and the ``signs`` in this column. The sentence is
-    empty for a family without drawings of trees."""
+    """Return a sentence that explains the column of trees. ``signs`` contains the names of the shapes in this
+    column, see :func:`_signs`. The sentence is empty for a family without drawings of trees."""
     if kind is None:
         return ""
     words = signs & {"letter", "bracket"}

@@ -1,4 +1,4 @@
-"""Numbers of order conditions as text."""
+"""A text that gives the number of order conditions of each order, and their sum."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     Fraction(3, 1)
     """
     n = len(word)
-    # powers[end] is the value of f^m on the first ``end`` letters, here for m = 1.
+    # powers[end] is the value of the m-fold convolution f^m on the first ``end`` letters. Begin with m = 1.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
     # tails[end] contains the pairs (start, x), where x is the value of f on word[start:end] and start >= 1.

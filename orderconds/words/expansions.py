@@ -48,9 +48,10 @@ def magnus(word: Word) -> Fraction:
     """Return the coefficient of a word in the Magnus expansion at t = 1. Let Y solve Y' = A(t) Y with
     Y(0) = I. The Magnus expansion is the Lie element Omega with Y = exp(Omega).
 
-    Letter k denotes X_k in A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a word acts first. Hence
-    the word (2, 1) denotes X_1 X_2. For example, Omega contains the term -[X_1, X_2]/12. Hence the word
-    (2, 1) has the coefficient -1/12, and the word (1, 2) has the coefficient 1/12.
+    Letter k denotes X_k in A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a word denotes the last
+    factor of a product, which acts first. Hence the word (2, 1) denotes X_1 X_2. For example, Omega contains
+    the term -[X_1, X_2]/12. Hence the word (2, 1) has the coefficient -1/12, and the word (1, 2) has the
+    coefficient 1/12.
 
     >>> str(magnus((1, 2))), str(magnus((2, 1)))
     ('1/12', '-1/12')
@@ -63,9 +64,9 @@ def cayley(word: Word) -> Fraction:
     """Return the coefficient of a word in the Cayley expansion Omega at t = 1.
 
     Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter k denotes X_k.
-    The first letter of a word acts first. Omega is defined by Y = cay(Omega) with the Cayley transform
-    cay(x) = (1 - x/2)^-1 (1 + x/2). Omega satisfies the equation Omega' = A - [Omega, A]/2 - Omega A Omega/4
-    (Iserles 2001, Found. Comput. Math. 1, 129).
+    The first letter of a word denotes the last factor of a product: (2, 1) denotes X_1 X_2. Omega is defined
+    by Y = cay(Omega) with the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2). Omega satisfies the equation
+    Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
 
     >>> str(cayley((1, 1))), str(cayley((1, 1, 1)))
     ('0', '-1/12')
@@ -78,10 +79,10 @@ def fer(n: int, word: Word) -> Fraction:
     """Return the coefficient of a word in the series F_n of the Fer expansion at t = 1.
 
     Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter k denotes X_k. The
-    first letter of a word acts first. The Fer expansion is Y = exp(F_1) exp(F_2) exp(F_3) .... The factor
-    exp(F_1) acts last. F_n is the integral of a series A_n from 0 to t. The first series is A_1 = A. The next
-    series are A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. Each word in F_n
-    has weight 2^n - 1 or more.
+    first letter of a word denotes the last factor of a product: (2, 1) denotes X_1 X_2. The Fer expansion is
+    Y = exp(F_1) exp(F_2) exp(F_3) .... F_n is the integral of a series A_n from 0 to t. The first series is
+    A_1 = A. Then A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. The weight of
+    a word is the sum of its letters. Each word in F_n has weight 2^n - 1 or more.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')
@@ -94,7 +95,8 @@ def fer_remainder(word: Word) -> Fraction:
     """Return the coefficient of a word in log(exp(-F_1) Y), where F_n and Y are defined in :func:`fer`.
 
     The logarithm equals F_2 + F_3 + ... plus brackets of the series F_n with n >= 2. The lowest weights in
-    F_2 and F_3 are 3 and 7. Hence the brackets have weight 10 or more.
+    F_2 and F_3 are 3 and 7. Each non-zero bracket contains two different series. Hence the brackets have
+    weight 10 or more.
 
     >>> fer_remainder((1, 2)) == fer(2, (1, 2))
     True
@@ -184,17 +186,18 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
         return _fer_field(n, word)
     result = Fraction(0)
     for cut in range(1, len(word)):
-        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. In the product F_n x, the factor x acts first.
-        # Hence ``head`` is a word of the series x, and ``tail`` is a word of the series F_n. In the product
-        # x F_n, the two series are interchanged.
+        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. The first letters of a word denote the last
+        # factor of a product. For the product F_n x, ``head`` is hence a word of x, and ``tail`` is a word of
+        # F_n. For the product x F_n, ``head`` is a word of F_n, and ``tail`` is a word of x.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result
 
 
 def _after_first(word: Word) -> Fraction:
-    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. Y acts
-    first, so the first letters of the word belong to Y."""
+    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. The first
+    letters of a word denote the last factor of a product. Hence the word consists of a word of Y and a word
+    of exp(-F_1), in this order."""
     result = iterated_integral(word)
     for cut in range(len(word)):
         scale = exponential_scales(len(word) - cut)[-1]

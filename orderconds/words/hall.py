@@ -119,10 +119,10 @@ class HallBasis:
         if (x, y) in self._place:
             return {(x, y): Fraction(1)}
         if (x, y) not in self._known:
-            # Let y = [u, v]. Then u < v, because y is a basis element, and x < u, because [x, y] is not. Use
-            # Jacobi's identity [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The recursion ends: the brackets
-            # [x, u] and [x, v] have lower weight. In the outer brackets on the right, both factors are
-            # greater than x.
+            # Let y = [u, v]. Then u < v, because y is a basis element. Also x < u, because otherwise [x, y]
+            # would be a basis element. Use Jacobi's identity [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The
+            # recursion ends: the brackets [x, u] and [x, v] have lower weight. In the outer brackets on the
+            # right, both factors are greater than x.
             u, v = y
             result = self._bracket(self._pair(x, u), {v: Fraction(1)})
             _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))

@@ -5,8 +5,8 @@ of equations for the coordinates is triangular. Forward substitution gives the c
 coefficients of Lyndon words (Reutenauer, Free Lie Algebras, Thm 5.1).
 
 In this module, a word denotes the product of its letters in the written order. In the Magnus, Fer and Cayley
-expansions, the first letter of a word acts first. The function :func:`backwards` converts between these
-conventions.
+expansions, a word denotes the product in reverse order, because its first letter acts first. The function
+:func:`backwards` converts between these conventions.
 """
 
 from __future__ import annotations
@@ -68,8 +68,9 @@ def expand(bracket: Bracket) -> Series:
 def backwards(series: Mapping[Word, Fraction]) -> Series:
     """Reverse every word of a series.
 
-    In one convention, the first letter of a word acts first. In the other convention, a word denotes the
-    product of its letters in the written order. Reversal converts between the two conventions.
+    In one convention, a word denotes the product of its letters in the written order. In the other
+    convention, a word denotes the product of its letters in reverse order. Reversal converts between the two
+    conventions.
 
     >>> backwards({("A", "B"): Fraction(1)})
     {('B', 'A'): Fraction(1, 1)}
@@ -119,7 +120,7 @@ def lyndon_coordinates(element: Mapping[Word, Fraction], key: Key | None = None)
     while rest:
         word = min(rest, key=lambda w: (len(w), tuple(map(key, w)) if key else w))
         if not is_lyndon(word, key):
-            raise ValueError(f"not a Lie element: the coefficients of {word} and Lyndon words disagree")
+            raise ValueError(f"not a Lie element: the Lyndon words imply another coefficient of {word}")
         coordinates[word] = rest[word]
         rest = add((1, rest), (-rest[word], expand(standard_bracketing(word, key))))
     return coordinates

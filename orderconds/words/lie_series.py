@@ -113,8 +113,8 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return the function ``coordinates`` of the :class:`LieSeries` with the functions ``letters`` and
-    ``weigh``. ``value`` returns the coefficient of a word in the series.
+    """Return a function for the field ``coordinates`` of a :class:`LieSeries`. ``letters`` and ``weigh`` are
+    the fields of the same name. ``value`` returns the coefficient of a word in the series.
     """
 
     def coordinates(weight: int) -> Coordinates:
@@ -162,10 +162,11 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return the function ``coordinates`` of the :class:`LieSeries` sum_k c_k ad_U^k X with numbers c_k.
+    """Return a function for the field ``coordinates`` of a :class:`LieSeries`. The series is of the form
+    sum_k c_k ad_U^k X with numbers c_k.
 
-    ``expand`` returns the words of the series up to a given length. U and X are letters with U < X. Hence the
-    Lyndon words in the series are X, UX, UUX, and so on.
+    ``expand(n)`` maps the words with at most n letters to their coefficients in the series. U and X are
+    letters with U < X. Hence the Lyndon words in the series are X, UX, UUX, and so on.
     """
 
     def coordinates(weight: int) -> Coordinates:

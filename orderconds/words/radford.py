@@ -24,8 +24,8 @@ Monomial = tuple[Word, ...]
 
 @lru_cache(maxsize=1 << 14)
 def in_lyndon_words(word: Word) -> dict[Monomial, Fraction]:
-    """Return a word as a polynomial in Lyndon words (Reutenauer, Thm 6.1). Letters are compared by Python's
-    operator ``<``.
+    """Return a word as a polynomial in Lyndon words, where the product is the shuffle product (Reutenauer,
+    Thm 6.1). Letters are compared by Python's operator ``<``.
 
     >>> for monomial, value in in_lyndon_words(("B", "A")).items():
     ...     print(value, *("".join(word) for word in monomial))
