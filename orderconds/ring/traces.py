@@ -15,7 +15,8 @@ from orderconds.ring.power import power
 from orderconds.ring.protocol import Element, RingWithRoots
 
 ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
-"""The kinds of operations. The result of CONSTANT is a rational number. The result of INPUT is an input."""
+"""The kinds of operations. The result of CONSTANT is a rational number. The result of INPUT is one of the
+inputs of the program."""
 
 
 @dataclass(frozen=True)
@@ -69,8 +70,8 @@ class Traces:
         return Trace(self, place)
 
     def rational(self, p: int, q: int = 1) -> Trace:
-        """Return the constant p/q. The constant is recorded when the first operation that uses it is
-        recorded."""
+        """Return the constant p/q. The constant itself is not recorded yet. The first recorded operation that
+        has it as an operand also records it, as a CONSTANT."""
         return Trace(self, -1, Fraction(p, q))
 
     def is_zero(self, x: Trace) -> bool:
@@ -87,7 +88,8 @@ class Traces:
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:
-        """Return ``text(x)``, because the value of x depends on the inputs."""
+        """Return ``text(x)``. The result of an operation has no decimal value, because the inputs have no
+        values yet."""
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
@@ -121,8 +123,8 @@ class Trace:
         return self.ring.text(self)
 
     def placed(self) -> int:
-        """Return the index of the operation whose result is this element. If the element is a constant, it is
-        recorded first."""
+        """Return the index of the operation whose result is this element. If the element is a constant,
+        record an operation CONSTANT, and return the index of this operation."""
         return self.place if self.constant is None else self.ring.constant(self.constant)
 
     def _lift(self, x: Element) -> Trace:

@@ -20,7 +20,7 @@ VARIABLE = fmpq_poly([0, 1])
 
 
 def integral_from_zero(f: UnivariatePolynomial) -> UnivariatePolynomial:
-    """Return the integral of f from 0 to s, as a polynomial in s.
+    """Return the integral of f from 0 to s, as a polynomial in s. The example prints s as x.
 
     >>> integral_from_zero(ONE)
     x
@@ -29,7 +29,7 @@ def integral_from_zero(f: UnivariatePolynomial) -> UnivariatePolynomial:
 
 
 def integral_to_one(f: UnivariatePolynomial) -> UnivariatePolynomial:
-    """Return the integral of f from s to 1, as a polynomial in s.
+    """Return the integral of f from s to 1, as a polynomial in s. The example prints s as x.
 
     >>> integral_to_one(ONE)
     (-1)*x + 1

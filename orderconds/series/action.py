@@ -7,12 +7,14 @@ the form H(u*v|M) or L(w). Here u, v and w are words of smaller trees, and M is 
 Let b_i be the weight of stage i. The coefficients of the trees in the expansions of stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
-- ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
-- ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``.
+- ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [(u, x, v) at stage j]``,
+- ``psi_{L(w)}(i) = (1/b_i) [(x, reverse(w)) at the update]``.
 
-Here Phi_w(i) is the coefficient of the word w in the group element of stage i. Square brackets denote the
-coefficient of a word in a group element. The letter x denotes a variation of the velocity of stage i. The
-word reverse(w) has the letters of w in reverse order.
+Here Phi_w(i) is the coefficient of the word w in the group element of stage i. The word reverse(w) has the
+letters of w in reverse order. The formulas for psi contain an additional letter x. It is added to the
+velocity xi_i of stage i: the sum xi_i + x replaces xi_i in all group elements. Square brackets denote the
+coefficient of a word in the group element of stage j or of the update, after this replacement. The word (u,
+x, v) consists of the letters of u, the letter x, and the letters of v.
 
 The order condition of a tree t is: ``sum_i b_i tau_t(i)`` is equal to the coefficient of t in the exact flow.
 A method has order n if and only if the conditions of all trees t = (w, M) with at most n vertices hold.
@@ -45,9 +47,9 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """The action series of one method, with coefficients in ``ring``. Computed coefficients are cached.
 
-    The weights b_i must be invertible in ``ring``. An argument ``row`` selects a group element. The index of
-    a stage selects the group element of the stage. The number of stages selects the group element of the
-    update.
+    The weights b_i must be invertible in ``ring``. The methods have an argument ``row``, the index of a group
+    element. Let s be the number of stages. The indices 0, ..., s - 1 denote the group elements of the stages,
+    and the index s denotes the group element of the update.
 
     The example computes coefficients of the implicit midpoint rule.
 
@@ -68,13 +70,13 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in the group element of a stage or of the update (see the class
-        for ``row``)."""
+        """Return the coefficient of a word in the group element with index ``row``. The class docstring
+        defines this index."""
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word (``before``, x, ``after``) in the group element that ``row``
-        selects. The letter x denotes a variation of the velocity of stage ``stage``."""
+        """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
+        ``row``. The letter x is added to the velocity of the stage with index ``stage``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return one number for each stage i: the coefficient of a word of trees in the group element of
@@ -82,8 +84,8 @@ class ActionSeries(ABC):
         return [self.coefficient(i, word) for i in range(self.stages)]
 
     def tau(self, tree: Velocity) -> Stages:
-        """Return one number for each stage i: the coefficient tau_t(i) of the g-valued tree t = ``tree`` in
-        the series of the velocity of stage i."""
+        """Return the vector with the entry tau_t(i) for each stage i, where t is ``tree``. The number
+        tau_t(i) is the coefficient of the tree t in the expansion of the velocity of stage i."""
         values = self._tau.get(tree)
         if values is None:
             values = self._tau[tree] = self._velocity(tree)
@@ -97,8 +99,8 @@ class ActionSeries(ABC):
         return [a * b for a, b in zip(phi, factors, strict=True)] if tree.momenta else phi
 
     def psi(self, tree: Momentum) -> Stages:
-        """Return one number for each stage i: the coefficient psi_p(i) of the g*-valued tree p = ``tree`` in
-        the series of the momentum of stage i."""
+        """Return the vector with the entry psi_p(i) for each stage i, where p is ``tree``. The number
+        psi_p(i) is the coefficient of the tree p in the expansion of the momentum of stage i."""
         values = self._psi.get(tree)
         if values is None:
             values = self._psi[tree] = (
@@ -149,7 +151,8 @@ class ActionSeries(ABC):
         return total
 
     def condition(self, tree: Velocity) -> Element:
-        """Return the left-hand side of the order condition of a tree t: the number sum_i b_i tau_t(i).
+        """Return the left-hand side of the order condition of a tree t: the number sum_i b_i tau_t(i). Here
+        b_i is the weight of stage i, and :meth:`tau` returns tau_t(i).
 
         The left-hand side is the coefficient of t in the update, and also the coefficient of the elementary
         Hamiltonian of t in the generating function of the step. To save memory, this method does not cache
@@ -163,11 +166,11 @@ class ActionSeries(ABC):
         """Return the coefficients of words in the group element of the update, as a map {word: coefficient}.
         The map contains all words of trees with at most ``vertices`` vertices in total.
 
-        Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. At (q0, mu1),
-        each tree t denotes an element of g, and therefore a right-invariant vector field on the group. Let
-        ``F(t)`` be this field, divided by the order of the symmetry group of t. For every smooth function f
-        on the group, ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words
-        ``w = t_1 ... t_k``.
+        Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Each tree t
+        denotes an element of g, which depends on a position and a momentum. Take this element for the
+        position q0 and the momentum mu1. Let ``F(t)`` be the right-invariant vector field of this element,
+        divided by the order of the symmetry group of t. For every smooth function f on the group, ``f(q1)``
+        is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words ``w = t_1 ... t_k``.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -175,9 +178,9 @@ class ActionSeries(ABC):
 class CommutatorFreeSeries(ActionSeries):
     """The action series of a method whose stages and update are products of exponentials.
 
-    ``rows`` contains the exponentials of each stage, followed by the exponentials of the update. The weight
-    b_i is the sum of the coefficients of the velocity of stage i in the exponents of the update (Bogfjellmo
-    and Marthinsen, equation (3.18)).
+    ``rows`` contains the exponentials of each stage, followed by the exponentials of the update. The velocity
+    of stage i has a coefficient in each exponent of the update. The weight b_i is the sum of these
+    coefficients (Bogfjellmo and Marthinsen, equation (3.18)).
 
     The example computes the left-hand sides of the order conditions of the three trees with two vertices.
 
@@ -201,18 +204,18 @@ class CommutatorFreeSeries(ActionSeries):
         self._inverse_factorial = [ring.one]
 
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of the word t_1 ... t_k in the group element that ``row`` selects.
+        """Return the coefficient of the word t_1 ... t_k in the group element with index ``row``.
 
         Let phi_J(t) be the coefficient of the letter t in the exponent of exponential J. The coefficient of
-        the word is a sum over all sequences J_1 <= ... <= J_k of indices of exponentials. The term of a
-        sequence is the product of the numbers phi_{J_l}(t_l) for l = 1, ..., k. For every index that occurs n
-        times in the sequence, the term is divided by n!.
+        the word is a sum over all sequences J_1 <= ... <= J_k of indices of exponentials. To obtain the term
+        of a sequence, multiply the numbers phi_{J_l}(t_l) for l = 1, ..., k, and divide the product by n! for
+        every index that occurs n times in the sequence.
         """
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word (``before``, x, ``after``) in the group element that ``row``
-        selects. The letter x denotes a variation of the velocity of stage ``stage``."""
+        """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
+        ``row``. The letter x is added to the velocity of the stage with index ``stage``."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -221,8 +224,8 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Add a letter x to the exponent of the exponential with index ``place``. Return the coefficient of
-        the word (``before``, x, ``after``) in the group element that ``row`` selects."""
+        """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
+        ``row``, if the letter x is added only to the exponent of the exponential with index ``place``."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -241,7 +244,8 @@ class CommutatorFreeSeries(ActionSeries):
         )
 
     def _exponent(self, exponential: Exponential, tree: Velocity) -> Element:
-        """Return the coefficient of the letter ``tree`` in the exponent of ``exponential``."""
+        """Return the coefficient of ``tree`` in the linear combination ``exponential`` of the stage
+        velocities."""
         values = self.tau(tree)
         return self._sum(value * values[stage] for stage, value in exponential)
 
@@ -251,8 +255,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._inverse_factorial[n]
 
     def _before(self, row: int, word: Word) -> Stages:
-        """Return a list: entry k is the coefficient of ``word`` in the product of the first k exponentials of
-        the group element that ``row`` selects."""
+        """Return a list for the group element with index ``row``, which is a product of exponentials. Entry k
+        is the coefficient of ``word`` in the product of the first k exponentials."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known
@@ -273,8 +277,8 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return a list: entry k is the coefficient of ``word`` in the product of all exponentials except the
-        first k, for the group element that ``row`` selects."""
+        """Return a list for the group element with index ``row``, which is a product of exponentials. Entry k
+        is the coefficient of ``word`` in the product that remains without the first k exponentials."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known
@@ -297,8 +301,9 @@ class CommutatorFreeSeries(ActionSeries):
 
 
 def crouch_grossman_rows(ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]) -> tuple[Row, ...]:
-    """Return the exponentials of each stage and of the update of the method with Butcher tableau (A, b) in
-    the family ``vcg``. Each non-zero entry of A and b gives one exponential.
+    """Return the exponentials of a variational Crouch-Grossman method (the family ``vcg``) with the Butcher
+    tableau (A, b): one tuple for each stage, followed by a tuple for the update. Each non-zero entry of A and
+    b gives one exponential.
 
     >>> from orderconds.ring import QQ
     >>> crouch_grossman_rows(QQ, [[QQ.zero, QQ.zero], [QQ.one, QQ.zero]], [QQ.one, QQ.one])

@@ -16,8 +16,8 @@ def tree_counts(order: int) -> tuple[int, ...]:
     - Lie(T): independent Lie polynomials in g-valued trees.
 
     The functions T, P and W solve the equations T = x W E(P), P = x W^2 E(P) + W - 1 and W = 1/(1 - T). The
-    returned numbers are the coefficients of Lie(T) - T P. The number of independent order conditions with n
-    vertices is at most the coefficient of x^n.
+    returned number for n vertices is the coefficient of x^n in Lie(T) - T P. The number of independent order
+    conditions of trees with n vertices is at most this coefficient.
 
     >>> tree_counts(6)
     (1, 1, 6, 28, 174, 1096)
@@ -29,7 +29,7 @@ def tree_counts(order: int) -> tuple[int, ...]:
 
 
 def velocity_count(vertices: int) -> int:
-    """Return the number of g-valued action trees with ``vertices`` vertices.
+    """Return the number of action trees with ``vertices`` vertices and with values in the Lie algebra g.
 
     >>> [velocity_count(n) for n in range(1, 7)]
     [1, 3, 17, 111, 813, 6331]
@@ -43,8 +43,9 @@ def class_count(vertices: int) -> int:
 
     Vertices in a subtree of the form ``L(w)`` cannot be the root. All other vertices are possible roots. Take
     one tree of each class. Let R be the number of possible roots in these trees, and let E be the number of
-    edges between possible roots. Equivalent roots count once, and equivalent edges count once. The number of
-    classes is R - E, because each class has one more root than edges.
+    edges between possible roots. If a symmetry of a tree maps one root or edge to another, both count as one.
+    Then each of the trees has exactly one more possible root than edges between possible roots. Therefore R -
+    E is the number of classes.
 
     Each possible root gives one g-valued tree. Therefore R is the number of g-valued trees. Each edge divides
     the tree into a force (:class:`~orderconds.series.action_trees.Force`) and a g-valued tree. Therefore E is
@@ -61,8 +62,9 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Return two lists: the numbers of g-valued trees and the numbers of g*-valued trees. Entry n of a list
-    is the number of trees with n vertices, for n = 0, 1, ..., ``order``."""
+    """Return two lists: the numbers of trees with values in the Lie algebra g, and the numbers of trees with
+    values in the dual g*. Entry n of a list is the number of trees with n vertices, for n = 0, 1, ...,
+    ``order``."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:
@@ -73,9 +75,9 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
         w = [1] + [0] * order
         for n in range(1, size):
             w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
-        # Let p_d be the number of g*-valued trees with d vertices. Let s_k be the sum of d p_d over the
-        # divisors d of k. Let e_n be the number of multisets of g*-valued trees with n vertices in total. By
-        # Euler's transform, n e_n = sum_{k=1}^n s_k e_{n-k} for n >= 1.
+        # Let p_d be the number of trees with d vertices and with values in g*. Let s_k be the sum of d p_d
+        # over the divisors d of k. Let e_n be the number of multisets of such trees with n vertices in total.
+        # By Euler's transform, n e_n = sum_{k=1}^n s_k e_{n-k} for n >= 1.
         e = [1] + [0] * order
         for n in range(1, size):
             e[n] = (
@@ -92,7 +94,7 @@ def _lie_counts(t: list[int], order: int) -> list[int]:
     """Return the dimensions of the subspaces of weight 0, ..., ``order`` of a free Lie algebra, by Witt's
     formula. The algebra has ``t[n]`` letters of weight n."""
     # Witt's formula needs the coefficients of log(1/(1 - T)), where T = sum_n t[n] x^n. Entry n of ``power``
-    # is n times the coefficient of x^n.
+    # is n times the coefficient of x^n in this logarithm.
     power = [0] * (order + 1)
     for n in range(1, order + 1):
         power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))

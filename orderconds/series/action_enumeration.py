@@ -131,7 +131,8 @@ def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
 
 @cache
 def _momenta(vertices: int, limit: float) -> Momenta:
-    """Return the g*-valued trees with ``vertices`` vertices and cost at most ``limit``, simplest first."""
+    """Return all g*-valued trees with ``vertices`` vertices whose cost (the attribute ``cost``) is at most
+    ``limit``, sorted by cost."""
     trees: list[Momentum] = []
     for j in range(vertices):
         for nested, before in _words(j, limit):
@@ -150,8 +151,9 @@ def _momenta(vertices: int, limit: float) -> Momenta:
 
 @cache
 def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
-    """Return pairs (cost, multiset), sorted by cost, for all multisets of g*-valued trees with ``vertices``
-    vertices in total and cost at most ``limit``."""
+    """Return a pair (cost, multiset) for each multiset of g*-valued trees with ``vertices`` vertices in
+    total. The cost of a multiset is the sum of the costs of its trees. Only multisets with a cost of at most
+    ``limit`` are returned, sorted by cost."""
     return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
 
 

@@ -1,18 +1,19 @@
 """The action series of the exact flow: iterated integrals over [0, 1] of univariate polynomials over Q.
 
-In the formulas of :mod:`orderconds.series.action`, a time s replaces the index i of a stage, and integrals
-over times replace sums over stages:
+The module :mod:`orderconds.series.action_trees` defines the trees. In the formulas of
+:mod:`orderconds.series.action`, a time s replaces the index i of a stage, and integrals over times replace
+sums over stages:
 
-- ``Phi_w(s)``, for a word w with the letters t_1, ..., t_k, is the integral of the product
-  ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)`` over all times with 0 <= s_1 <= ... <= s_k <= s.
-- ``psi_{L(w)}(s)`` is the integral of the product ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)`` over all times
-  with 1 >= s_1 >= ... >= s_k >= s.
-- ``psi_{H(u*v|M)}(s)`` is the integral of ``Phi_u(s) Phi_v(s, s') prod_{p in M} psi_p(s')`` over the times s'
-  from s to 1.
+- ``Phi_w(s)``, for a word w with the letters t_1, ..., t_k, is the integral of the product ``tau_{t_1}(s_1)
+  ... tau_{t_k}(s_k)`` over all times with 0 <= s_1 <= ... <= s_k <= s. The integral of the same product over
+  all times with s <= s_1 <= ... <= s_k <= s' is ``Phi_w(s, s')``.
+- ``psi_{L(w)}(s)``, for the tree L(w), is the integral of the product ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)``
+  over all times with 1 >= s_1 >= ... >= s_k >= s.
+- ``psi_{H(u*v|M)}(s)``, for the tree H(u*v|M) with words u and v and a multiset M, is the integral of
+  ``Phi_u(s) Phi_v(s, s') prod_{p in M} psi_p(s')`` over the times s' from s to 1.
 
-If the lower limit s replaces 0 in the integral ``Phi_v(s')``, the result is ``Phi_v(s, s')``. This integral
-is equal to ``sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``. The word ``v[:k]`` contains the first k
-letters of v, and ``v[k:]`` contains the remaining letters.
+The integral ``Phi_v(s, s')`` is equal to ``sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``. The word
+``v[:k]`` contains the first k letters of v, and ``v[k:]`` contains the remaining letters.
 """
 
 from __future__ import annotations
@@ -34,8 +35,8 @@ from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, W
 
 @cache
 def tau(tree: Velocity) -> UnivariatePolynomial:
-    """Return the coefficient tau_t(s) of a g-valued tree t in the velocity of the exact flow at time s.
-    The output of the example shows s as x.
+    """Return the polynomial tau_t(s) for a g-valued tree t. It is the coefficient of t in the expansion of
+    the velocity of the exact flow at time s. The output of the example shows s as x.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(tau(t)) for t in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
@@ -58,8 +59,8 @@ def phi(word: Word) -> UnivariatePolynomial:
 
 @cache
 def psi(tree: Momentum) -> UnivariatePolynomial:
-    """Return the coefficient psi_p(s) of a g*-valued tree p in the momentum of the exact flow at time s.
-    The output of the example shows s as x.
+    """Return the polynomial psi_p(s) for a g*-valued tree p. It is the coefficient of p in the expansion of
+    the momentum of the exact flow at time s. The output of the example shows s as x.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> psi(force()), psi(force((velocity(),)))
@@ -86,7 +87,8 @@ def _later(word: Word, momenta: Momenta) -> UnivariatePolynomial:
 
 @cache
 def psi_product(momenta: Momenta) -> UnivariatePolynomial:
-    """Return the product of the exact coefficients psi_p(s) of the trees p in a multiset.
+    """Return the product of the polynomials psi_p(s) (:func:`psi`) over all trees p in the multiset
+    ``momenta``.
 
     >>> from orderconds.series.action_trees import force
     >>> psi_product((force(), force()))
@@ -96,8 +98,8 @@ def psi_product(momenta: Momenta) -> UnivariatePolynomial:
 
 
 def condition(tree: Velocity) -> Fraction:
-    """Return the right-hand side of the order condition of a tree t: the integral of tau_t(s) over
-    0 <= s <= 1.
+    """Return the right-hand side of the order condition of a tree t: the integral of the polynomial tau_t(s)
+    (:func:`tau`) over 0 <= s <= 1.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(condition(t)) for t in velocities(2)]

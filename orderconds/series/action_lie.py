@@ -5,9 +5,11 @@ The exponent of stage i is ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``. In the
 b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
-The coefficients of g*-valued trees (:mod:`orderconds.series.action`) depend on the coefficients of words
-u x v. Here u and v are words. The letter x is a variation of the velocity of one stage j: the sum xi_j + x
-replaces xi_j. The arguments ``before`` and ``after`` of the functions are the words u and v.
+The coefficient of a g*-valued tree (:mod:`orderconds.series.action`) depends on the group elements after the
+following replacement: for one stage j, the sum xi_j + x replaces the velocity xi_j, where x is a new letter.
+This module computes the coefficients of words (u, x, v) after the replacement. The word (u, x, v) consists of
+the letters of a word u, the letter x, and the letters of a word v. The arguments ``before`` and ``after`` of
+the functions are the words u and v.
 """
 
 from __future__ import annotations
@@ -24,12 +26,13 @@ from orderconds.series.b_series import Sums, sparse
 from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
-"""The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m, in which the factor
-X^m acts first."""
+"""The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m. The factors act from right
+to left: X^m, then xi, then X^n."""
 
 Varied = dict[int, Element]
-"""A map from the index j of a stage to the coefficient of a word u x v, where the letter x is a variation of
-the velocity xi_j. The map need not contain zero coefficients."""
+"""The coefficients of one word with the letter x in one series. The key of the map is the index j of a stage.
+The value is the coefficient of the word after the replacement of xi_j by xi_j + x. If a key is missing, the
+coefficient is zero."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -75,8 +78,8 @@ class MuntheKaasActionSeries(ActionSeries):
         """Return the coefficient of a word in the group element of stage ``row``. If ``row`` is the number of
         stages, return the coefficient in the group element of the update.
 
-        The word consists of the word ``before``, the letter x, and the word ``after``. The letter x is a
-        variation of the velocity of the stage with index ``stage``.
+        The word consists of the word ``before``, the letter x, and the word ``after``. The letter x is added
+        to the velocity of the stage with index ``stage``.
         """
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
@@ -97,9 +100,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients (:data:`Varied`) of the word u x v of the module docstring. If ``update``
-        is 0, the list has one entry for the group element of each stage. If ``update`` is 1, the list has one
-        entry for the group element of the update."""
+        """Return the coefficients of the word (``before``, x, ``after``), as a list of maps :data:`Varied`.
+        If ``update`` is 0, the list has one map for the group element of each stage. If ``update`` is 1, the
+        list has one map for the group element of the update."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -112,9 +115,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficients of ``word`` in the n-th powers of the exponents of the module docstring. If
-        ``update`` is 0, the list has one entry for each power X_i^n. If ``update`` is 1, the list has one
-        entry for the power Y^n."""
+        """Return a list of coefficients of ``word``. If ``update`` is 0, entry i is the coefficient in X_i^n,
+        the n-th power of the exponent of stage i. If ``update`` is 1, the only entry is the coefficient in
+        Y^n, the n-th power of the exponent of the update."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -128,9 +131,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients (:data:`Varied`) of the word u x v in the n-th powers of the exponents. If
-        ``update`` is 0, the list has one entry for each power X_i^n. If ``update`` is 1, the list has one
-        entry for the power Y^n. The module docstring defines u, x, v, X_i and Y."""
+        """Return the coefficients of the word (``before``, x, ``after``), as a list of maps :data:`Varied`.
+        If ``update`` is 0, map i contains the coefficients in X_i^n, the n-th power of the exponent of stage
+        i. If ``update`` is 1, the only map contains the coefficients in Y^n, the n-th power of the exponent
+        of the update."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -146,11 +150,13 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add the result of :meth:`_varied_power` for n > 1 to ``totals``. The n-th power of an exponent X is
-        computed as the product of X and X^(n-1)."""
+        """Compute the result of :meth:`_varied_power` for the same arguments, and add it to ``totals``. The
+        argument n must be at least 2, because the n-th power of an exponent X is computed as the product of X
+        and X^(n-1)."""
         for cut in range(1, len(before) + len(after) + 3 - n):
             # The word (before, x, after) is divided after ``cut`` letters. If ``rest`` is negative, the
-            # second part contains x. If not, the first part ends with x and ``rest`` letters of ``after``.
+            # second part contains x. Otherwise the first part consists of ``before``, x, and the first
+            # ``rest`` letters of ``after``.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -162,8 +168,8 @@ class MuntheKaasActionSeries(ActionSeries):
                 _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
-        """Return, for each stage j, the coefficient of a word in the truncated series dexpinv_{(r),X_j} xi_j.
-        The module docstring defines this series."""
+        """Return a vector. Entry j is the coefficient of ``word`` in the summand dexpinv_{(r),X_j} xi_j of
+        the exponents. The module docstring defines this summand."""
         values = self._summands.get(word)
         if values is None:
             values = [self.ring.zero] * self.stages
@@ -177,8 +183,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """Return, for each stage j, the coefficients of the word u x v in the truncated series
-        dexpinv_{(r),X_j} xi_j. The module docstring defines this series and the word u x v."""
+        """Return a list of maps :data:`Varied`. Map j contains the coefficients of the word (``before``, x,
+        ``after``) in the summand dexpinv_{(r),X_j} xi_j of the exponents. The module docstring defines this
+        summand and the letter x."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -198,11 +205,10 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return, for each stage j, the coefficient of a word in the truncated series dexpinv_{(r),X_j} xi_j.
-        The module docstring defines this series.
+        """Return a vector. Entry j is the coefficient of the word (``before``, xi_j, ``behind``) in the
+        summand dexpinv_{(r),X_j} xi_j of the exponents. The module docstring defines this summand.
 
-        The word consists of the word ``before``, the letter xi_j, and the word ``behind``. Return None if no
-        term of the series contributes to the word.
+        Return None if the summand contains no such word.
         """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
@@ -218,12 +224,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return, for each stage j, the coefficients of a word in the truncated series dexpinv_{(r),X_j}
-        xi_j. The module docstring defines this series and the letter x.
-
-        The word consists of the word ``before``, the letter x, the word ``after``, the letter xi_j, and the
-        word ``behind``.
-        """
+        """Return a list of maps :data:`Varied`. Map j contains the coefficients of the word (``before``, x,
+        ``after``, xi_j, ``behind``) in the summand dexpinv_{(r),X_j} xi_j of the exponents. The module
+        docstring defines this summand and the letter x."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -233,12 +236,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return, for each stage j, the coefficients of a word in the truncated series dexpinv_{(r),X_j}
-        xi_j. The module docstring defines this series and the letter x.
-
-        The word consists of the word ``first``, the letter xi_j, the word ``before``, the letter x, and the
-        word ``after``.
-        """
+        """Return a list of maps :data:`Varied`. Map j contains the coefficients of the word (``first``, xi_j,
+        ``before``, x, ``after``) in the summand dexpinv_{(r),X_j} xi_j of the exponents. The module docstring
+        defines this summand and the letter x."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -247,8 +247,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the triples (q, m, n) of the terms q X^n xi X^m of dexpinv_X xi that contribute to certain
-        words. In these words, ``before`` letters precede the letter xi, and ``behind`` letters follow xi.
+        """Consider the words with ``before`` letters, then the letter xi, then ``behind`` letters. Return a
+        triple (q, m, n) for each term q X^n xi X^m of dexpinv_X xi that contributes to the coefficients of
+        these words.
 
         The first letter of a word acts first. In a term, X^m acts before xi, and X^n acts after xi. Hence the
         letters before xi come from X^m, and the letters behind xi come from X^n.

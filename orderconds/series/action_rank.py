@@ -3,7 +3,7 @@ prime, for many random methods and for the exact flow. These values and their pr
 of a matrix. The pivot columns show which conditions are independent.
 
 A condition of order n is dependent if its left-hand side is a polynomial in the left-hand sides of other
-conditions up to order n. One polynomial must be valid for every method **and for the exact flow**. Then
+conditions up to order n. This polynomial must be the same for every method **and for the exact flow**. Then
 every method that satisfies the other conditions also satisfies the dependent condition.
 
 The trees are considered one after another, simplest first. A tree is selected if its condition does not
@@ -43,10 +43,11 @@ BLOCK = 256
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
     """Return the trees with independent conditions, as one tuple for each of the orders 1, ..., ``order``.
 
-    The function selects trees modulo each of two primes, and returns the larger selection. Conditions that
-    are independent modulo a prime are also independent over Q. The selection is very probably complete. If
-    the number of trees is equal to the upper bound of :func:`~orderconds.series.action_counts.tree_counts`,
-    the selection is certainly complete.
+    The independence of the conditions is tested modulo a prime. Conditions that are independent modulo a
+    prime are also independent over Q. The function makes one selection of trees for each of two primes, and
+    returns the larger selection. This selection is very probably complete. If, for each order, the number of
+    selected trees is equal to the upper bound of :func:`~orderconds.series.action_counts.tree_counts`, the
+    selection is certainly complete.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -75,9 +76,11 @@ def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
     """Return a map from each tree to a vector of numbers modulo ``prime``. The last entry is the right-hand
-    side of the condition of the tree. All other entries are left-hand sides, one for each random method.
+    side of the condition of the tree, its value for the exact flow. All other entries are left-hand sides,
+    one for each random method.
 
-    The random methods do not depend on ``trees``.
+    Calls with the same ``family``, ``order`` and ``prime`` use the same random methods, even if ``trees``
+    differs.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -106,8 +109,9 @@ def _largest_rank(order: int) -> int:
     """Return an upper bound for the number of independent monomials of order ``order``. A monomial is a
     product of conditions whose trees have ``order`` vertices in total.
 
-    The result is the number of products of independent elementary Hamiltonians with ``order`` vertices in
-    total. The function :func:`~orderconds.series.action_counts.tree_counts` counts these Hamiltonians.
+    The number of independent conditions with n vertices is at most the number of independent elementary
+    Hamiltonians with n vertices (:func:`~orderconds.series.action_counts.tree_counts`). The result is the
+    number of products of such Hamiltonians in which the factors have ``order`` vertices in total.
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

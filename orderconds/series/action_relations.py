@@ -1,13 +1,14 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
-The polynomial does not depend on the method of the family, and it also applies to the exact flow. The values
-of the conditions for random methods and for the exact flow give linear equations for the coefficients of the
-polynomial. The equations are solved modulo two primes. The two solutions determine the rational coefficients.
+The polynomial is the same for all methods of a family and for the exact flow. The values of the conditions
+for random methods and for the exact flow give linear equations for the coefficients of the polynomial. The
+equations are solved modulo two primes. The two solutions determine the rational coefficients.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
-commutator-free methods. Let psi_p be the coefficient of the tree p at a stage
-(:mod:`orderconds.series.action`). The three relations follow from the equation ``psi_{L(o(|L(o)))} = 3
-psi_{L(o o)} - psi_{L(o)}^2``.
+commutator-free methods. Let psi_p be the coefficient of a g*-valued tree p in the momentum of a stage
+(:mod:`orderconds.series.action`). The module :mod:`orderconds.series.action_trees` defines the notation of
+trees. Let t be the tree ``o(|L(o))``, which has an empty word and the multiset {L(o)}. The three relations
+follow from the equation ``psi_{L(t)} = 3 psi_{L(o o)} - psi_{L(o)}^2``.
 """
 
 from __future__ import annotations
@@ -32,13 +33,14 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial. A pair (coefficient, trees) denotes the product of the coefficient and the
-left-hand sides of the conditions of the trees."""
+"""The terms of a polynomial. Each tree denotes the left-hand side of its condition. A pair (coefficient,
+trees) represents the product of the coefficient and these left-hand sides."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a map from the trees with n vertices that are not in ``independent`` to polynomials. The
-    polynomial of a tree expresses the condition of the tree by the conditions of trees in ``independent``.
+    """Return a map. Its keys are the trees with n vertices that are not in ``independent``, where n is the
+    length of ``independent``. The value for a tree is a polynomial that expresses the condition of the tree
+    by the conditions of trees in ``independent``.
 
     ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
     ..., n. The polynomials are wrong with a probability of about 10^-8. The function
@@ -96,8 +98,9 @@ def hold_over_rationals(
     coefficients. ``polynomials`` is a map like the result of :func:`relations`.
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
-    ``ring``. Let d be the degree of a false relation in the coefficients of the method. The random method
-    satisfies this relation with a probability below d/2^60.
+    ``ring``. Assume that a relation is false for some method of the family. The relation is an equation for
+    the coefficients of the method. Let d be the degree of this equation. The random method satisfies the
+    equation with a probability below d/2^60.
 
     In the example, ``right`` contains the relations of order 2. The coefficients in ``wrong`` are different.
 
@@ -135,9 +138,9 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Express the condition of each tree as a linear combination of ``monomials``. A monomial represents the
-    product of the conditions of its trees. Return, for each tree, a map from indices of monomials to
-    coefficients modulo ``prime``."""
+    """Express the left-hand side of the condition of each tree as a linear combination of ``monomials``. A
+    monomial is a tuple of trees, and represents the product of the left-hand sides of their conditions.
+    Return, for each tree, a map from indices of monomials to coefficients modulo ``prime``."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:

@@ -1,11 +1,13 @@
 """Root switching: trees that differ only in the choice of the root have the same condition.
 
 The module :mod:`orderconds.series.action_trees` defines the notation of trees. Let u, v and w be words of
-trees, and let M and N be multisets of trees. The trees ``o(w | M, H(u*v | N))`` and ``o(u o(w | M) v | N)``
-differ only in the choice of the root. The left-hand sides of the two conditions are double sums over the
-stages of a method. The two sums differ only in the order of summation, and are therefore equal. The
-right-hand sides of the two conditions are equal, too. All trees that differ only in the choice of the root
-form a class. The condition of one tree of each class is sufficient.
+trees, and let M and N be multisets of trees. In the tree ``o(w | M, H(u*v | N))``, the vertex H is a
+neighbour of the root o. If H becomes the root, the old root with w and M takes the position of the star. The
+result is the tree ``o(u o(w | M) v | N)``. Hence the two trees differ only in the choice of the root. The
+left-hand sides of the two conditions are double sums over the stages of a method. The two sums differ only in
+the order of summation, and are therefore equal. The right-hand sides of the two conditions are equal, too.
+All trees that differ only in the choice of the root form a class. The condition of one tree of each class is
+sufficient.
 """
 
 from __future__ import annotations
@@ -35,8 +37,10 @@ def switched(tree: Velocity) -> Iterator[Velocity]:
 
 @cache
 def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
-    """Return the classes of trees that differ only in the choice of the root. The first tree of each class is
-    the simplest.
+    """Return all classes of trees with ``vertices`` vertices. The trees of one class differ only in the
+    choice of the root. The first tree of each class is the simplest.
+
+    In the example, ``o(|f(*))`` is the tree ``o(o)`` with the other vertex as the root.
 
     >>> classes(2)
     ((o(o), o(|f(*))), (o(|L(o)),))
@@ -45,8 +49,8 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the classes of trees that differ only in the choice of the root. The class with the simplest tree
-    is the first. A class is computed only when it is needed.
+    """Yield all classes of trees with ``vertices`` vertices. The trees of one class differ only in the choice
+    of the root. The class with the simplest tree is the first. A class is computed only when it is needed.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)
@@ -65,8 +69,8 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return the list of the classes that are known, and an iterator over the remaining classes. The function
-    :func:`classes_in_turn` moves classes from the iterator to the cached list."""
+    """Return an empty list and an iterator over the classes of trees with ``vertices`` vertices. The two
+    objects are cached. The function :func:`classes_in_turn` moves classes from the iterator to the list."""
     return [], _classes(vertices)
 
 

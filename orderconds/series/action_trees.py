@@ -2,21 +2,24 @@
 
 Here g is the Lie algebra of G, g* its dual, and H(q, mu) the Hamiltonian. The vertices of a tree represent
 derivatives of H. A g-valued tree denotes an element of g, and a g*-valued tree denotes an element of g*. A
-word is a sequence of g-valued trees, called letters. A multiset contains g*-valued trees. There are three
+word is a sequence of g-valued trees, called letters. The elements of a multiset are always g*-valued trees.
+Each element of g, and therefore each letter, defines a right-invariant vector field on G. There are three
 kinds of trees:
 
 - A :class:`Velocity` is a g-valued tree with a word w and a multiset M, written (w, M) or ``o(w | M)``. The
-  tree denotes a mixed derivative of the vector dH/dmu: in q along the right-invariant fields of the letters
-  of w, and in mu along the covectors of M. The field of the first letter of w moves q first.
+  tree denotes a mixed derivative of the vector dH/dmu. To differentiate in q, move q along the field of the
+  first letter of w, then along the field of the second letter, and so on. The directions in mu are the
+  covectors of M.
 - A :class:`Force` is a g*-valued tree with two words u and v and a multiset M, written ``H(u * v | M)`` or
-  ``f(u * v | M)``. The tree denotes the covector that maps x to a derivative of H: in q along the
-  right-invariant fields of u, x and v, and in mu along the covectors of M. The star marks the position of x.
+  ``f(u * v | M)``. The tree denotes a covector, which maps an element x of g to a mixed derivative of H. To
+  differentiate in q, move q along the fields of the letters of u, then of x, and then of the letters of v.
+  The star marks the position of x. The directions in mu are the covectors of M.
 - A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. The tree denotes the covector that
-  maps x to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here ``<mu, y>`` is the
-  pairing of mu with y.
+  maps an element x of g to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here
+  ``<mu, y>`` is the pairing of mu with y.
 
 A velocity also denotes an elementary Hamiltonian (:func:`hamiltonian`). The elementary Hamiltonians are the
-terms of the generating function. Equal trees are identical objects.
+terms of the generating function of a step of a method. Equal trees are identical objects.
 """
 
 from __future__ import annotations
@@ -67,7 +70,8 @@ class _Node:
 
 
 class Velocity(_Node):
-    """The g-valued tree t = (w, M), with a word w and a multiset M. Use :func:`velocity` to create trees.
+    """The g-valued tree t = (w, M), where w is a word of g-valued trees, and M is a multiset of g*-valued
+    trees. Use :func:`velocity` to create trees.
 
     >>> tree = velocity((velocity(),), (force(), force()))
     >>> tree, tree.vertices, tree.symmetry
@@ -88,8 +92,8 @@ class Velocity(_Node):
             vertices += p.vertices
             cost += p.cost
         self._describe(vertices, cost)
-        # If this tree is a letter of a larger tree, it adds ``nesting`` to the cost of the larger tree. The
-        # factor 2 gives deep trees a higher cost than wide trees, because they are harder to read.
+        # If this tree is a letter of a larger tree, it adds ``nesting`` to the cost of the larger tree. Deep
+        # trees are harder to read than wide trees. Therefore the factor 2 gives deep trees a higher cost.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:
@@ -98,14 +102,14 @@ class Velocity(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. The group consists of the permutations of equal trees
-        in the multisets of the tree and its subtrees."""
+        """The order of the symmetry group of the tree. The tree and its subtrees contain multisets of
+        g*-valued trees. The group consists of the permutations of equal trees in these multisets."""
         return _symmetry(self.word, self.momenta)
 
 
 class Force(_Node):
-    """The g*-valued tree H(u * v | M), with words u and v and a multiset M. Use :func:`force` to create
-    trees.
+    """The g*-valued tree H(u * v | M) of the module docstring. Here u and v are words of g-valued trees, and
+    M is a multiset of g*-valued trees. Use :func:`force` to create trees.
 
     >>> tree = force((), (velocity(),))
     >>> tree, tree.vertices
@@ -125,14 +129,14 @@ class Force(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. The group consists of the permutations of equal trees
-        in the multisets of the tree and its subtrees."""
+        """The order of the symmetry group of the tree. The tree and its subtrees contain multisets of
+        g*-valued trees. The group consists of the permutations of equal trees in these multisets."""
         return _symmetry(self.before + self.after, self.momenta)
 
 
 class Transport(_Node):
-    """A g*-valued tree L(w), where w is a non-empty word of g-valued trees. Use :func:`transport` to create
-    trees.
+    """The g*-valued tree L(w) of the module docstring. Here w is a non-empty word of g-valued trees. Use
+    :func:`transport` to create trees.
 
     >>> tree = transport((velocity(), velocity()))
     >>> tree, tree.vertices
@@ -150,7 +154,8 @@ class Transport(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group: the product of the values ``symmetry`` of the letters."""
+        """The order of the symmetry group of the tree. It is the product of the orders of the symmetry groups
+        of the letters."""
         return _symmetry(self.word, ())
 
 
@@ -164,10 +169,12 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return a summand of the cost of a word. The summand is zero if all letters of the word are equal.
+    """Return the cost that a word adds to a tree because the letters of the word differ. If all letters are
+    equal, this cost is zero.
 
-    The coefficient of a word with k equal letters has the simple form c^k/k!, where c is the coefficient of
-    the word with only one of these letters. Words with different letters have a higher cost.
+    The cost measures how difficult an order condition is to read. Let c be the coefficient of a one-letter
+    word t in a group element. Then the word t t ... t with k letters has the simple coefficient c^k/k!. Words
+    with different letters do not have such a simple coefficient.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -176,7 +183,8 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of a :class:`Force` with the words ``before`` and ``after`` and an empty multiset.
+    """Return the cost of the tree H(u * v | M) with the words u = ``before`` and v = ``after`` and an empty
+    multiset M. The cost measures how difficult an order condition with this tree is to read.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)
@@ -186,7 +194,8 @@ def force_cost(before: Word, after: Word) -> int:
 
 
 def transport_cost(word: Word) -> int:
-    """Return the cost of a :class:`Transport` with the word ``word``.
+    """Return the cost of the tree L(w) with the word w = ``word``. The cost measures how difficult an order
+    condition with this tree is to read.
 
     >>> transport_cost((velocity(), velocity()))
     10
@@ -231,7 +240,7 @@ def transport(word: Word) -> Transport:
     L(o)
     """
     if not word:
-        raise ValueError("the word w of a tree L(w) must not be empty, because L of the empty word is mu")
+        raise ValueError("the word w of a tree L(w) must have at least one letter")
     return Transport(word)
 
 
@@ -270,8 +279,8 @@ def hamiltonian(tree: Velocity) -> str:
 
     The letters after ``H_`` are the variables in which H is differentiated. The directions of the derivatives
     follow in parentheses. A semicolon separates the directions in q from the directions in mu. A direction in
-    q is an element of g. The element defines a right-invariant field. A direction in mu is a covector. In the
-    text of a covector, a dot represents the argument.
+    q is an element of g: the derivative is taken along the right-invariant field of this element. A direction
+    in mu is a covector. In the text of a covector, a dot represents the argument.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

@@ -92,7 +92,8 @@ class ElementaryWeights(Generic[TreeT]):
 
 
 class StageVectors:
-    """The operations on vectors that are stored as sequences, with one ring element for each stage.
+    """The operations on vectors with one entry for each stage. A vector is stored as a sequence of ring
+    elements.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
@@ -124,8 +125,8 @@ class Sums:
     """The sums ``sum_j weight_j x_j`` of several sparse rows, for a vector x. A row contains pairs
     (j, weight_j).
 
-    The first pairs of several rows may be equal. Then the partial sum of these pairs is computed only once.
-    For a composition of s midpoint rules, this reduces the number of products from about s^2/2 to about 2 s.
+    If several rows begin with the same pairs, the partial sum of these pairs is computed only once. For a
+    composition of s midpoint rules, this reduces the number of products from about s^2/2 to about 2 s.
 
     >>> a, b = 2, 3
     >>> sums = Sums([((0, a),), ((0, a), (1, b)), ((0, a), (1, b), (2, 5))], 0)
@@ -137,7 +138,7 @@ class Sums:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
         """The definitions of the partial sums s_1, s_2, .... The triple (k, j, weight_j) at index n - 1
-        defines s_n = s_k + weight_j x_j. The sum s_0 is zero."""
+        defines s_n = s_k + weight_j x_j, where x_j is entry j of the vector x. The sum s_0 is zero."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

@@ -18,12 +18,14 @@ polynomial P with the operator ad_q in place of each letter q, where ad_q x = [q
 the linear parts of u_1, ..., u_i span, and let d be the dimension of S.
 
 Each of the N brackets has a linear part, too. The linear parts of the N brackets span a space that contains
-S. Hence N is at least d. Now assume that every non-zero element of S has a polynomial P_n that is not a Lie
-element. Then N is greater than d, for the following reason. Of the N brackets, let B be the one that the
-program computes first, and let x be the linear part of B. The two factors of B contain no brackets with new
-letters. Therefore all polynomials P_n of x are Lie elements. By the assumption, x is zero or not in S. If x
-is zero, the linear parts of the other N - 1 brackets span a space that contains S. If x is not in S, the N
-linear parts span a space that is larger than S. In both cases, N is greater than d.
+S. Hence N is at least d. Each element of S has the form sum_n ad_(P_n) q_n. Now assume that, for every
+non-zero element of S, at least one of the polynomials P_n is not a Lie element. Then N is greater than d, for
+the following reason. Of the N brackets, let B be the one that the program computes first, and let x be the
+linear part of B. The two factors of B contain no brackets with new letters. Hence each factor is the sum of a
+Lie element in the old letters and a linear combination of new letters. Therefore x has the form sum_n
+ad_(P_n) q_n with Lie elements P_n. By the assumption, x is zero or not in S. If x is zero, the linear parts
+of the other N - 1 brackets span a space that contains S. If x is not in S, the N linear parts span a space
+that is larger than S. In both cases, N is greater than d.
 
 The number of brackets without new letters has a similar lower bound. The sum of the lower bounds for the two
 numbers is a lower bound for the number of all brackets.
@@ -38,8 +40,8 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return a map from n to the polynomial P_n in the linear part ``sum_n ad_(P_n) q_n`` of x. The module
-    docstring defines the linear part.
+    """Write the linear part of x as ``sum_n ad_(P_n) q_n``, and return a map from n to P_n. The module
+    docstring defines the linear part and the polynomials P_n.
 
     The polynomial x must be a sum of letters and brackets. The letter q_n has index n. The letters with
     n >= ``first`` are the new letters.
@@ -80,8 +82,9 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     ``arguments`` contains the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u
     of the exponential of the step.
 
-    The function ignores the terms of the largest grade of ``algebra`` in u_1, ..., u_s, because these terms
-    do not affect the order of the method. The terms of the largest grade in u are included.
+    The terms of the largest grade of ``algebra`` in the arguments u_1, ..., u_s do not affect the order of
+    the method. Therefore the function ignores these terms. It does not ignore the terms of the largest grade
+    in u.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
@@ -91,7 +94,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # The last span includes the terms of the largest grade in u, because they affect the order.
+        # If i is ``last``, ``arguments[i]`` is u, the argument of the step. Its terms of the largest grade
+        # affect the order of the method. Therefore the last entry of ``spans`` contains u with these terms.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))
