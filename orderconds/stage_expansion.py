@@ -38,8 +38,8 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
     false, all entries are variables.
 
     Raises :class:`~orderconds.errors.InputError` if there are too many terms (:data:`MAX_COMPUTED`,
-    :data:`MAX_TERMS`). The same error is raised if ``stages`` does not determine which coefficients a
-    method of the family has.
+    :data:`MAX_TERMS`). The same error is raised for families in which the number of stages does not determine
+    which coefficients a method has.
 
     >>> from orderconds.derivation import derive
     >>> derivation = derive("rk", order=2)
@@ -67,8 +67,8 @@ def _terms_at_most(derivation: Derivation, stages: int, *, explicit: bool) -> in
 
     In the expanded condition of a tree, each vertex has a stage index. The index of the root has ``stages``
     values. For implicit methods, the other indices have ``stages`` values, too. For explicit methods, the
-    index decreases along each edge from the root. On average, (stages - 1)/2 stages precede a stage. The
-    estimate uses this number for the other indices.
+    index decreases along each edge from the root. The estimate assumes that each of the other indices has
+    (stages - 1)/2 values. This is the mean number of stages that precede a stage.
     """
     factor = Fraction(stages - 1, 2) if explicit else Fraction(stages)
     sizes = enumerate(derivation.counts)
@@ -90,9 +90,9 @@ def polynomials(
 ) -> tuple[Polynomials | LaurentPolynomials, tuple[Name, ...], tuple[Element, ...]]:
     """Return a polynomial ring, its variables, and the left-hand sides of the conditions as polynomials.
 
-    If order conditions of the family divide by the weights b_i, the ring consists of Laurent polynomials.
-    Raises :class:`~orderconds.errors.InputError` if ``stages`` does not determine which coefficients a method
-    of the family has.
+    If weights b_i occur in denominators in the order conditions, the ring consists of Laurent polynomials.
+    Raises :class:`~orderconds.errors.InputError` for families in which the number of stages does not
+    determine which coefficients a method has.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)

@@ -49,15 +49,15 @@ MAX_DEGREE = 8
 
 @dataclass(frozen=True)
 class Infeasible:
-    """A proof by contradiction that no real method satisfies ``conditions``.
+    """A proof by contradiction that no method with real coefficients satisfies ``conditions``.
 
     The sum of the products ``multipliers[k] * equations[k]`` is the polynomial ``consequence``. There are
     three kinds of proofs:
 
     - If ``real`` is false, the equation ``consequence`` = 0 has no real or complex solution.
     - If ``real`` is true and ``weight`` is empty, the equation has no real solution.
-    - If ``weight`` is the name of a weight, zero is the only real solution of the equation. The weight cannot
-      be zero, because the formulas of the family divide by the weight.
+    - If ``weight`` is the name of a weight, the equation contains only this unknown, and zero is the only
+      real solution. The weight cannot be zero, because the formulas of the family divide by the weight.
 
     Entry k of ``equations`` is the residual of condition k: the left-hand side minus the right-hand side. The
     residual is multiplied by a monomial that removes the denominators.
@@ -73,13 +73,13 @@ class Infeasible:
 
     @property
     def reason(self) -> str:
-        """The reason why no real method satisfies the equation ``consequence`` = 0."""
+        """The reason why no method with real coefficients satisfies the equation ``consequence`` = 0."""
         if not self.real:
             return f"{self.consequence} = 0 is false"
         if self.weight:
             return (
-                f"{self.consequence} = 0 has no real root other than 0 (Sturm), and the formulas of the "
-                f"family divide by {self.weight}"
+                f"{self.consequence} = 0 has only the real root {self.weight} = 0 (Sturm), but the formulas "
+                f"of the family divide by {self.weight}"
             )
         return f"{self.consequence} = 0 has no real root (Sturm)"
 
@@ -95,8 +95,8 @@ class Infeasible:
 
 
 def infeasible(problem: Problem) -> Infeasible | None:
-    """Return a proof that no real method solves the order conditions of ``problem``. Return None if
-    elimination yields no proof.
+    """Return a proof that no method with real coefficients satisfies the order conditions of ``problem``.
+    Return None if elimination yields no proof.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -108,9 +108,9 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # The formulas of symplectic methods divide by the weights. No method is lost: a stage i with weight zero
-    # can be replaced by a copy of another stage j. Then the stages i and j each have half the former weight
-    # of stage j.
+    # The formulas of symplectic methods divide by the weights. The proof also covers methods with a zero
+    # weight b_i: stage i has no influence on the step and can be replaced by a copy of a stage j with b_j
+    # other than zero. If both stages get the weight b_j/2, the new method is equivalent to the old one.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -180,12 +180,12 @@ def _subsystems(
 def _consequence(
     nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
-    """Return a polynomial in the ideal that ``members`` generate, and the name of a weight. Return None if no
-    suitable polynomial is found.
+    """Return a contradiction: a polynomial in the ideal that ``members`` generate, and a name. Return None if
+    no contradiction is found.
 
-    A polynomial without real roots is suitable. In this case, the returned name is empty. The set ``nonzero``
-    contains the weights that cannot be zero. A polynomial in a weight of ``nonzero`` is also suitable if zero
-    is the only real root of the polynomial. In this case, the name of the weight is returned.
+    The polynomial is a constant, or has only one variable. If it has no real root, the returned name is
+    empty. If zero is its only real root, its variable is a weight that cannot be zero, and the returned name
+    is the name of this weight. ``nonzero`` contains the names of the weights that cannot be zero.
     """
     import sympy
 

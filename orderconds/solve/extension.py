@@ -15,9 +15,10 @@ used.
 If the first stage is the initial value, another solution is used for p = 1: beta_{1,1} = 1, and
 beta_{1,i} = 0 for i > 1. Then the derivative of the extension at theta = 0 is exact.
 
-Finally, the coefficients of the highest power of theta are changed to obtain b_i(1) = b_i. There is one
-special case: q > 1, the first stage is the initial value, and the last stage is the final value. In this
-case, the coefficients of the two highest powers are changed, and the derivative at theta = 1 is exact, too.
+Finally, the coefficients of the highest power of theta are changed to obtain b_i(1) = b_i. The equations
+still hold, because the method has at least the order q. There is one special case: q > 1, the first stage is
+the initial value, and the last stage is the final value. In this case, the coefficients of the two highest
+powers are changed, and the derivative at theta = 1 is exact, too.
 """
 
 from __future__ import annotations

@@ -1,9 +1,11 @@
 """Damped least squares (Levenberg 1944; Marquardt 1963) for many starting points at once.
 
 The damping parameter is a factor times the norm of the residual. The factor is reduced after a successful
-step and increased after a failed step. Near a solution, assume a local error bound: the distance to the set
-of solutions is at most a constant times the norm of the residual. The convergence is then quadratic, even if
-the solution is not isolated (Fan and Yuan 2005).
+step and increased after a failed step.
+
+The convergence is quadratic if a local error bound holds near a solution: the distance to the set of
+solutions is at most a constant times the norm of the residual. The solution need not be isolated (Fan and
+Yuan 2005).
 """
 
 from __future__ import annotations

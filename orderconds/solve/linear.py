@@ -17,8 +17,8 @@ string."""
 
 @dataclass(frozen=True)
 class Constraint:
-    """The equation ``form`` = 0. Error messages quote ``text``: the equation in the option ``--fix``, or the
-    reason for the constraint."""
+    """The equation ``form`` = 0. ``text`` is the equation in the option ``--fix``, or the reason for the
+    constraint. Error messages quote ``text``."""
 
     text: str
     form: Affine

@@ -3,7 +3,7 @@ A_i and B_i.
 
 By a theorem, a 2N scheme has the same order on a Lie group as on a vector space
 (:mod:`orderconds.proof.equations`). A search therefore solves the order conditions of Runge-Kutta methods. Up
-to order 6, these are 37 conditions instead of 113.
+to order 6, there are 37 conditions on vector spaces and 113 conditions on Lie groups.
 """
 
 from __future__ import annotations
@@ -63,10 +63,8 @@ def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def solved_family(family: Family) -> Family:
-    """Return the family whose order conditions are solved in a search for low-storage (2N) schemes of
-    ``family``.
-
-    The order of a 2N scheme in the returned family equals its order in ``family``
+    """Return a family in which every low-storage (2N) scheme has the same order as in ``family``. The order
+    conditions of the returned family are solved in a search, because there are fewer of these conditions
     (:mod:`orderconds.proof.equations`).
 
     Raises :class:`~orderconds.errors.InputError` if no such family is known for ``family``.

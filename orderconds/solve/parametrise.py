@@ -185,8 +185,8 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of the stages. The formulas make the abscissae c_i, chat_i and m_i
-    of stage i equal (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for the coefficients of the stages. With these formulas, c_i = chat_i = m_i holds for
+    the three abscissae of each stage i. :mod:`orderconds.solve.abscissae` defines the abscissae."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -221,9 +221,9 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]]) -> list[Constraint]:
     """Return constraints that make sums of coefficients equal to the coefficients of the Gauss method.
 
-    Let s be the number of stages. Let a_ij and b_j be the coefficients of the Gauss method with s stages. In
-    the exponentials of stage i, the coefficients of stage j add up to a_ij. In the exponentials of the
-    update, the coefficients of stage j add up to b_j.
+    Let s be the number of stages. Let a_ij and b_j be the coefficients of the Gauss method with s stages.
+    Each exponential has one coefficient for each vector field k_1, ..., k_s. The sum of the coefficients of
+    k_j over the exponentials of stage i is a_ij. The sum over the exponentials of the update is b_j.
     """
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
@@ -238,8 +238,8 @@ def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of a symmetric method. The formulas make the abscissae c_i, chat_i
-    and m_i of stage i equal (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for the coefficients of a symmetric method. With these formulas, c_i = chat_i = m_i
+    holds for the three abscissae of each stage i. :mod:`orderconds.solve.abscissae` defines the abscissae."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -297,8 +297,9 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # Elimination solves a constraint for the coefficient of the constraint that is last in ``order``. The
-    # middle step size is last in ``order``, so the constraint ``total`` determines the middle step size.
+    # Elimination solves each constraint for one step size. Among the step sizes in the constraint, this is
+    # the last one in ``order``. The middle step size is the last entry of ``order``, so it is determined by
+    # the constraint ``total``.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -384,7 +385,8 @@ def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the name of the only parametrisation of compositions and splittings.
+    """Return a tuple with the name of the only parametrisation of compositions and splittings. The arguments
+    are not used.
 
     >>> from orderconds.families import get
     >>> one_structure(get("splitting"), Spec(stages=3))
@@ -395,7 +397,7 @@ def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Layout:
-    """The parametrisations of one tableau format. The name of a parametrisation is called a structure.
+    """The parametrisations of one tableau format. A structure is the name of one parametrisation.
 
     ``ansatz`` returns the ansatz for a family, a specification, a structure and a tableau name.
     ``structures`` returns the structures that a search tries, in order of trial.
@@ -411,8 +413,8 @@ LAYOUTS = {
     "composition": Layout(composition, one_structure),
     "splitting": Layout(splitting, one_structure),
 }
-"""Maps the name of a tableau format to the parametrisations of the format. The attribute
-:attr:`orderconds.families.Family.unknowns` of a family is the name of the format that a search uses."""
+"""Maps the name of a tableau format to the parametrisations of the format. A search in a family uses the
+format whose name is the attribute :attr:`orderconds.families.Family.unknowns`."""
 
 TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
 """The parametrisation of low-storage schemes (:mod:`orderconds.solve.low_storage`)."""

@@ -60,8 +60,8 @@ def full_paths(spec: Spec) -> Paths:
 
 
 def symmetric_paths(spec: Spec) -> Paths:
-    """Return the parametrisation of symmetric methods. A stage begins with zero or more of the
-    first exponentials of the update. The other exponentials of the stage have new coefficients.
+    """Return the parametrisation of symmetric methods. Each stage begins with the first k exponentials of the
+    update, where k may be zero. The other exponentials of the stage have new coefficients.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
@@ -81,9 +81,9 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with the first ``whole`` of the m exponentials of the update. For i <= s/2,
-        # ``whole`` is (i - 1/2) m/s, rounded up. For stages i and s + 1 - i, the sum of the two numbers
-        # ``whole`` is m. In the middle stage, ``whole`` is m/2, rounded down.
+        # Let m be the number of exponentials of the update. Stage i begins with the first k of them. For
+        # i <= s/2, k is (i - 1/2) m/s, rounded up. If stage i has the number k, stage s + 1 - i has the
+        # number m - k. In the middle stage, k is m/2, rounded down. The variable ``whole`` contains k.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

@@ -42,7 +42,7 @@ class Problem:
 
     @cached_property
     def ansatz(self) -> Ansatz:
-        """Return the text of a tableau file in which some coefficients are unknown."""
+        """Return the tableau file of the methods in the search, without the values of the unknowns."""
         return ansatz(self.label, self.spec, self.structure)
 
     @cached_property
@@ -117,10 +117,10 @@ class Problem:
 
     @cached_property
     def coefficients(self) -> Tape:
-        """Return a program that evaluates coefficients and weights.
+        """Return a program whose inputs are the free coefficients.
 
-        The first outputs are the coefficients that are not constants. The remaining outputs are the
-        :meth:`weights`.
+        The first outputs are the coefficients that are not constants (``ansatz.cells``). The remaining
+        outputs are the weights b_i (:meth:`weights`).
         """
         ring = Traces(len(self.ansatz.free))
         cells = self.ansatz.coefficients(ring.inputs, ring)
@@ -128,8 +128,8 @@ class Problem:
 
     @cached_property
     def positive(self) -> tuple[int, ...]:
-        """Return the positions of the coefficients that must be positive, among the outputs of the program
-        :attr:`coefficients`. In the option ``positive``, the name b denotes all weights."""
+        """Return the indices of the coefficients that must be positive. Index k refers to output k of the
+        program that :attr:`coefficients` returns. In the option ``positive``, b denotes all weights."""
         names = self.ansatz.cells
         indices: list[int] = []
         for wish in self.spec.positive:
@@ -171,8 +171,8 @@ class Problem:
 
     def starts(self, generator: np.random.Generator, count: int) -> Floats:
         """Return ``count`` random starting points near the point ``ansatz.centre``. If ``ansatz.centre`` is
-        None, let n be the number of unknown coefficients whose names begin with b or g. The starting points
-        are then near the point at which these coefficients are 1/n, and all others are zero."""
+        None, the points are near the point at which the free coefficients whose names begin with b or g are
+        1/n, and the others are zero. Here n is the number of such names in ``ansatz.cells``."""
         free = self.ansatz.free
         if self.ansatz.centre is not None:
             centre = np.array([self.ansatz.centre[name] for name in free])
@@ -184,8 +184,9 @@ class Problem:
 
 @lru_cache(maxsize=8)
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
-    """Return the equations of a search for methods of the given order in the family ``label``. ``structure``
-    is the name of the parametrisation of the coefficients. The eight most recently used problems are cached.
+    """Return the :class:`Problem` of a search for methods of the given order in the family ``label``.
+    ``structure`` is the name of the parametrisation of the coefficients. The eight most recently used
+    problems are cached.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

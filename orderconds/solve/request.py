@@ -34,7 +34,7 @@ from orderconds.tableau import Tableau
 
 @dataclass(frozen=True, repr=False)
 class SearchResult:
-    """The result of a search. In a condition, the result counts as True if a method was found.
+    """The result of a search. ``bool(result)`` is True if a method was found.
 
     - ``tableau``: the method, or None
     - ``certificate``: ``exact`` if the order is proved in exact arithmetic, ``ball`` if it is proved in
@@ -117,7 +117,7 @@ def solve(
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # All searches need trees up to this order.
+    refuse_too_many_trees(families.get(family), order - 1)  # All searches need the trees up to order - 1.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,

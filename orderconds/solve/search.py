@@ -35,18 +35,18 @@ POLISHED = 1e-11
 """A point counts as a solution if the residual norm is below this number."""
 
 KEPT = 4
-"""The largest number of solutions that a batch returns. If the search minimises the principal error, each
-batch starts at most this number of minimisations."""
+"""The largest number of solutions that a batch of random starts returns. If the search minimises the
+principal error, each batch minimises the error from at most this number of solutions."""
 
 
 CHEAP = 4
 """If the required order is at most this number, the score of a solution is its principal error. For
-higher orders, the principal error is too expensive to compute it for every solution."""
+higher orders, computing the principal error of every solution is too expensive."""
 
 
 SINGULAR = 1e6
-"""SINGULAR is added to the score of a singular solution. The regular solutions of all batches then have lower
-scores. At a singular solution, the gradients of the conditions are linearly dependent."""
+"""At a singular solution, the gradients of the conditions are linearly dependent. SINGULAR is added to the
+score of such a solution, so that every regular solution of a search has a lower score."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Batch:
 
     If the search minimises the principal error, or if the required order is at most :data:`CHEAP`, the score
     is the principal error. In all other searches, the score is the largest absolute value of a coefficient.
-    :data:`SINGULAR` is added to the score of a singular solution.
+    If the gradients of the conditions at a solution are linearly dependent, :data:`SINGULAR` is added.
 
     ``best`` is the least residual norm of all starts of the batch.
     """
@@ -101,8 +101,8 @@ class Batch:
 
 
 def run_batch(search: Search, number: int) -> Batch:
-    """Search from the random starting points of batch ``number``. The result contains the solutions with
-    the lowest scores, at most :data:`KEPT`. :class:`Batch` defines the score.
+    """Search from the random starting points of batch ``number``. The result contains at most :data:`KEPT`
+    solutions: the ones with the lowest scores. :class:`Batch` defines the score.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
@@ -129,9 +129,9 @@ def run_batch(search: Search, number: int) -> Batch:
 
 
 def _score(problem: Problem, point: Floats) -> float:
-    """Return the score of a solution, without :data:`SINGULAR`. If the required order is at most
-    :data:`CHEAP`, the score is the principal error. For higher orders, the score is the largest absolute
-    value of a coefficient."""
+    """Return the score of a solution. The caller adds :data:`SINGULAR` if the solution is singular. If the
+    required order is at most :data:`CHEAP`, the score is the principal error. For higher orders, the score is
+    the largest absolute value of a coefficient."""
     if problem.order <= CHEAP:
         return float(np.linalg.norm(problem.error.values(point[None])[0]))
     return float(np.abs(problem.coefficients.values(point[None])).max())

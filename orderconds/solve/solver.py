@@ -41,7 +41,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Order:
-    """The options of a search, as in the command ``orderconds solve``."""
+    """A request to find a method. The attributes are the options of the command ``orderconds solve``."""
 
     family: str
     order: int
@@ -163,8 +163,9 @@ def _finished(
 ) -> tuple[Solution | None, str]:
     """Return the first solution whose order can be proved, and the message of the last failed proof.
 
-    The function tries the eight solutions with the lowest scores. If all proofs fail, the returned solution
-    is None. ``refused`` is the message of an earlier failed proof, and is returned if no proof fails.
+    The function tries the eight solutions with the lowest scores, in ascending order of the score. If all
+    proofs fail, the returned solution is None. ``refused`` is the message of the last failed proof in earlier
+    calls. If no proof fails in this call, the returned message is ``refused``.
     """
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:

@@ -1,4 +1,5 @@
-"""A recorded program, compiled for numpy. The program computes values and Jacobians at many points at once.
+"""Evaluation of recorded operations (:mod:`orderconds.ring.traces`) with numpy. Values and Jacobians are
+computed at many points at once.
 
 The operations are sorted into levels. The operations of a level depend only on earlier levels. A few numpy
 calls evaluate all operations of a level. The Jacobian is computed by forward differentiation.
@@ -59,7 +60,7 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        # ``placed`` adds an operation to the program if an output is a constant.
+        # If an output is a constant, ``placed`` appends an operation to the list ``operations``.
         wanted = [x.placed() for x in outputs]
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
@@ -143,8 +144,8 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
     """Return the indices of all inputs and of the operations on which the outputs ``wanted`` depend. The
-    indices are sorted by level and kind. Inputs and constants have level 0. Every other operation is one
-    level above its highest operand."""
+    indices are sorted by level and kind. Inputs and constants have level 0. The level of every other
+    operation is 1 plus the larger level of its two operands."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

@@ -3,8 +3,9 @@
 
 The number i denotes the vector field at node i of a quadrature formula. A name denotes an element whose
 definition precedes it in the file. The commutator ``[x,y]`` is the product ``x*y`` minus the product ``y*x``.
-The last factor of a product acts first. Products such as ``S*S`` are allowed only with the Cayley map. Each
-exponent must then lie in the Lie algebra of every quadratic Lie group.
+The last factor of a product acts first. Products such as ``S*S`` are allowed only with the Cayley map. If a
+file contains products, each exponent must lie in the Lie algebra of the group to which the method is applied,
+for every quadratic Lie group such as SO(n) or Sp(2n).
 """
 
 from __future__ import annotations
@@ -84,7 +85,7 @@ def spell(term: Term) -> str:
 
 
 def leaves(term: Term) -> Iterator[int | str]:
-    """Yield the nodes and the names in a term, from left to right.
+    """Yield the indices of the nodes (counted from 0) and the names in a term, from left to right.
 
     >>> list(leaves(parse("[2,[1,a]]", "")))
     [1, 0, 'a']
@@ -141,7 +142,7 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # An empty combination has no degrees. The bounds (1, 1) are a convention.
+    # The expansion of an empty combination contains no products. The bounds (1, 1) are a convention.
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 

@@ -34,9 +34,9 @@ CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 def tableau_latex(tableau: Tableau) -> str:
     r"""Return a method in LaTeX, as a Butcher array or as equations.
 
-    The array fits in a column of a two-column article. In a wide array, the space between the columns is
-    reduced. The function returns equations if the method has no Butcher array, or if the array is too large.
-    The function also returns equations if a coefficient contains a name, as in ``1 - 2*g``.
+    The function returns equations in three cases: the method has no Butcher array, the array does not fit in
+    a column of a two-column article, or a coefficient contains the name of a number, such as g in
+    ``1 - 2*g``. If necessary, the space between the columns of the array is reduced.
 
     >>> from orderconds.tableau import Tableau
     >>> print(tableau_latex(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])))
@@ -49,7 +49,7 @@ def tableau_latex(tableau: Tableau) -> str:
 def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> str | None:
     """Return a Butcher array in LaTeX. A horizontal line separates the rows of the stages (``above``) from
     the rows of the weights (``below``). Return None if the array is too wide for a column of an article.
-    Also return None if a coefficient contains a name, as in ``1 - 2*g``."""
+    Also return None if a coefficient contains the name of a number, such as g in ``1 - 2*g``."""
     rows = [*above, *below]
     if any(has_name(x) for row in rows for x in row):
         return None
@@ -69,8 +69,9 @@ def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> 
 
 
 def tableau_html(tableau: Tableau) -> str:
-    """Return the Butcher array as an HTML table. If the method has no Butcher array or more than
-    :data:`WIDEST` stages, return the ``repr`` of the tableau and equations in LaTeX.
+    """Return the Butcher array as an HTML table. The array is replaced by the ``repr`` of the tableau,
+    followed by equations in LaTeX, in two cases: the method has no Butcher array, or it has more than
+    :data:`WIDEST` stages.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau_html(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])).count("<td")

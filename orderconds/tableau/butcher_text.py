@@ -19,8 +19,9 @@ def butcher_text(tableau: Tableau) -> list[str]:
     and have about twenty digits. Embedded weights are not printed.
 
     For a commutator-free method, the result is the Runge-Kutta tableau to which the method reduces on vector
-    spaces. A composition method is applied to the implicit midpoint rule. A composition of a method and its
-    adjoint is applied to explicit and implicit Euler.
+    spaces. For a composition of a symmetric method of order 2, the result is the tableau of the composition
+    of implicit midpoint steps. For a composition of a method and its adjoint, the result is the tableau of
+    the composition of explicit Euler steps (the method) and implicit Euler steps (the adjoint).
 
     Raises :class:`orderconds.errors.TableauError` for splitting methods and Magnus methods.
 

@@ -17,7 +17,8 @@ class OrderClaim:
 
     @property
     def label(self) -> str:
-        """The label of the family in reports. For example, ``rkmk(1)`` denotes ``rkmk`` with cutoff 1."""
+        """The label of the family in reports. For example, ``rkmk(1)`` denotes the family ``rkmk`` with the
+        option ``cutoff`` = 1."""
         return self.family if self.cutoff is None else f"{self.family}({self.cutoff})"
 
 

@@ -89,11 +89,12 @@ class Nodes:
 
     def without(self, left_out: int) -> list[Algebraic]:
         """Return the weights of the quadrature that omits one node. ``left_out`` is the index of the omitted
-        node, counted from 0. The omitted node has the weight zero.
+        node, counted from 0.
 
-        Let e_j be the leading coefficient of the Lagrange polynomial of node j. If a polynomial p has a
-        degree below s - 1, the sum of all e_j p(c_j) is zero. A multiple of (e_1, ..., e_s) is subtracted
-        from the weights b. The new weights integrate polynomials of degree below s - 1 exactly.
+        Let s be the number of nodes, and let e_j be the leading coefficient of the Lagrange polynomial of
+        node j. If a polynomial p has a degree below s - 1, the sum of all e_j p(c_j) is zero. Let k be the
+        omitted node. The new weights are b_j - (b_k/e_k) e_j, so the weight of node k is zero. These weights
+        integrate polynomials of degree below s - 1 exactly.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -103,19 +104,22 @@ class Nodes:
         return [x - share * y for x, y in zip(self.b, leading, strict=True)]
 
     def rows(self) -> Matrix:
-        """Return the matrix A of Gauss, Radau IIA and Lobatto IIIA. The module docstring defines A."""
+        """Return the matrix A of the Gauss, Radau IIA or Lobatto IIIA method with these nodes. The module
+        docstring defines A."""
         return [[self.integral(j, x) for j in range(self.s)] for x in self.c]
 
     def columns(self) -> Matrix:
-        """Return the matrix A of Radau IA and Lobatto IIIB. The module docstring defines A."""
+        """Return the matrix A of the Radau IA or Lobatto IIIB method with these nodes. The module docstring
+        defines A."""
         b, stages = self.b, range(self.s)
         return [[b[j] / b[i] * (b[i] - self.integral(i, self.c[j])) for j in stages] for i in stages]
 
     def column(self, k: int, value: Algebraic) -> Matrix:
         """Return a matrix A that satisfies the assumption C(s - 1). All entries of column k are ``value``.
 
-        Multiples of the vector (e_1, ..., e_s) are added to the rows of the matrix :meth:`rows`. The vector
-        is defined in :meth:`without`. The changed rows satisfy C(s - 1).
+        The docstring of :meth:`without` defines e_j. To each row of the matrix :meth:`rows`, a multiple of
+        (e_1, ..., e_s) is added such that the entry in column k becomes ``value``. The changed rows satisfy
+        C(s - 1).
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [
@@ -260,9 +264,10 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
     """Return the roots of a polynomial that has only real roots. Where possible, the roots are expressed by
     square roots.
 
-    If square roots do not suffice, the roots of an irreducible polynomial get the names c1, c2, ... in
-    ascending order. The largest root gets no name: it is the sum of all roots minus the other roots. The
-    coefficients of the polynomial determine the sum of all roots.
+    If square roots do not suffice for an irreducible factor, its roots get the names c1, c2, ... in ascending
+    order. The largest root gets no name: it is the sum of all roots minus the other roots. The coefficients
+    of the factor determine the sum of all roots. If the roots of the factor are symmetric about their mean,
+    the squared distances from the mean are treated in this way instead of the roots.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

@@ -19,9 +19,9 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
     """Return True if two tableaux have equal coefficients. The coefficients of embedded methods are compared,
     too.
 
-    Two balls (intervals) count as equal if they intersect and have similar widths. The larger width is at
-    most 4 times the smaller width. Identical balls are not required, because a file may contain a
-    rounded centre and a rounded radius.
+    Two balls (intervals) count as equal if they intersect, and if the larger width is at most 2^-100 plus 4
+    times the smaller width. The balls of equal coefficients can differ, because the centre and the radius of
+    a ball may be rounded in a file.
 
     >>> from orderconds.tableau import find
     >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))
@@ -48,8 +48,8 @@ def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
 
 
 def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
-    """Return True if two intervals intersect and have similar widths. The larger width is at most 4 times
-    the smaller width. Widths up to 2^-100 always count as similar."""
+    """Return True if two intervals intersect, and if the larger width is at most 2^-100 plus 4 times the
+    smaller width. Thus, widths up to 2^-100 always count as similar."""
     widths = sorted(high - low for low, high in (one, other))
     meet = one[0] <= other[1] and other[0] <= one[1]
     return bool(meet and widths[1] <= 4 * widths[0] + fmpq(1, 2**100))

@@ -12,7 +12,8 @@ from orderconds.tableau.file_format import Coefficient, Data
 from orderconds.tableau.python_numbers import matrix, row
 
 Claimed = Mapping[str, int | bool] | int | None
-"""Claims in Python. A mapping contains claimed orders and properties, as in ``{"rk": 4, "explicit": True}``.
+"""The claims about a method. A mapping contains claimed orders and properties, as in
+``{"rk": 4, "explicit": True}``.
 For a tableau of the family ``rk``, the integer 4 means the same as ``{"rk": 4}``. None means no claims."""
 
 
@@ -127,15 +128,16 @@ def _product(rows: object, where: str) -> Data:
     except TableauError as problem:
         if "of type list" in problem.found:
             problem.expected = (
-                "a number: an exponential is a row of coefficients, and an update is a list of exponentials"
+                "a number: each exponential is a list of numbers, and a stage or an update is a list of "
+                "exponentials"
             )
         raise
     return {"exp": exponentials} if exponentials else {}
 
 
 def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
-    """Return ``data`` with the name, the source and the claims added. If the
-    source is empty or the claims are None, the result has no such key.
+    """Return ``data`` with the keys ``name``, ``source`` and ``claims`` added. If ``source`` is empty, the
+    key ``source`` is not added. If ``claims`` is None, the key ``claims`` is not added.
 
     >>> named({"family": "rk"}, "m", "", {"rkmk(1)": 3, "explicit": True})["claims"]
     {'rkmk': [{'cutoff': 1, 'order': 3}], 'explicit': True}

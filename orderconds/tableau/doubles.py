@@ -27,19 +27,18 @@ ROUNDING = Fraction(1, 2**53)
 """The largest relative error of rounding a number to a double."""
 
 SHORT = 26
-"""The largest number of significant bits of a double that counts as an exact number. A double with more bits
-is probably a rounded number."""
+"""A double counts as an exact number only if it has at most this number of significant bits. A double with
+more bits is probably a rounded number."""
 
 PRINTED = 16
-"""The least number of significant digits of a printed double. A decimal with fewer digits does not count as a
-printed double."""
+"""A decimal counts as a printed double only if it has at least this number of significant digits."""
 
 LARGE = 64
-"""The largest number of bits of the numerator and of the denominator of a double that counts as exact.
-Without this limit, the exact decimal of a double could have hundreds of digits."""
+"""A double counts as an exact number only if its numerator and its denominator each have at most this number
+of bits. Without this limit, the exact decimal of a double could have hundreds of digits."""
 
 LONGEST = 1200
-"""An upper bound. No double has more significant decimal digits than this number."""
+"""The exact decimal of every double has at most this number of significant digits."""
 
 _DOUBLE = re.compile(r"-?(?:\d+\.?\d*|\.\d+)d", re.ASCII)
 
@@ -91,7 +90,7 @@ def decimal_text(text: str) -> str:
 
 
 def is_short(x: float) -> bool:
-    """Return True if a double counts as an exact number. The limits are :data:`SHORT` and :data:`LARGE`.
+    """Return True if a double counts as an exact number. :data:`SHORT` and :data:`LARGE` limit its bits.
 
     >>> is_short(0.375), is_short(0.1)
     (True, False)

@@ -82,8 +82,8 @@ def has_name(text: str) -> bool:
 
 def short_text(x: Element, tableau: Tableau) -> str:
     """Return the text of a coefficient. If the tableau contains doubles, the coefficient is rounded to six
-    digits. In every other tableau, an exact coefficient is not changed. A rounded decimal with more than
-    :data:`SHORT` characters is truncated after :data:`SHORT` digits.
+    digits. In every other tableau, an exact coefficient is not changed. If the text of an inexact coefficient
+    has more than :data:`SHORT` characters, the decimal is cut off after :data:`SHORT` significant digits.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau = Tableau.rk([[0, 0], ["1/2", 0]], [0, 1])
@@ -97,8 +97,8 @@ def short_text(x: Element, tableau: Tableau) -> str:
 
 
 def _decimal(x: Element, tableau: Tableau) -> str:
-    """Return a coefficient as a decimal, truncated after :data:`SHORT` digits. The decimal ends with a tilde.
-    In LaTeX, the tilde becomes ``\\ldots``."""
+    """Return an inexact coefficient as a decimal, cut off after :data:`SHORT` significant digits. A tilde is
+    always appended. In LaTeX, the tilde becomes ``\\ldots``."""
     nearest = Decimal(cast("RealRing", tableau.ring).nearest_float(x))
     return f"{Context(prec=SHORT, rounding=ROUND_DOWN).plus(nearest):f}~"
 
@@ -163,7 +163,7 @@ def _list(row: Sequence[Element], tableau: Tableau) -> list[str]:
 
 
 def _splitting(method: Splitting, tableau: Tableau) -> Iterator[Equation]:
-    """Yield the equation of one step, a product of flows. The rightmost flow acts first."""
+    """Yield the equation that defines one step as a product of flows. The rightmost flow acts first."""
     flows = []
     for part, x in reversed(method.steps):
         time = _latex(x, tableau).replace(r"\tfrac", r"\frac")
@@ -207,8 +207,9 @@ def _stage(stage: Stage, tableau: Tableau) -> list[str]:
 
 
 def _exponential(row: Row, tableau: Tableau) -> list[str]:
-    """Return the formula of one exponential in parts. A line break is allowed after each part. The exponent
-    is h times a linear combination of k_1, k_2, .... The entries of ``row`` are the coefficients."""
+    """Return a list of the parts of the formula of one exponential. A line break is allowed after each part.
+    The exponent is h times a linear combination of k_1, k_2, .... The entries of ``row`` are the
+    coefficients."""
     terms = _sum([(x, f"k_{{{j}}}") for j, x in enumerate(row, start=1)], tableau)
     if len(terms) == 1:
         factor, _, index = terms[0].rpartition("k_")

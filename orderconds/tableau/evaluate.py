@@ -8,8 +8,9 @@ The first of these rules that applies determines the ring:
   most :data:`orderconds.ring.tower.MAX_DEGREE`, the ring is this field.
 - If the degree is larger, all coefficients are balls.
 
-Equal expressions in one file are evaluated only once, so their values are one object. If the values of two
-coefficients are one ball object, the coefficients are equal.
+Equal expressions in one file are evaluated only once, so their values are the same Python object. Two balls
+that are equal need not represent equal coefficients. But if the values of two coefficients are the same ball
+object, the coefficients are equal.
 """
 
 from __future__ import annotations
@@ -30,8 +31,9 @@ MAX_SIZE = 40_000
 
 class NamedRoot(Struct, frozen=True):
     """A real root of a polynomial over Q. ``minpoly`` contains the coefficients of the polynomial, lowest
-    power first. The decimal ``near`` approximates the root. The distance from the root is at most one
-    unit in the last digit. The polynomial must not have another real root within this distance."""
+    power first. The decimal ``near`` approximates the root. The distance between ``near`` and the root is at
+    most one unit in the last digit of ``near``. The polynomial must not have another real root within this
+    distance of ``near``."""
 
     minpoly: tuple[Fraction, ...]
     near: Constant
@@ -117,8 +119,8 @@ def evaluate_in(
 
 
 def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
-    """Convert the values to elements of one field by the function ``lift``. If the values of two keys are one
-    object, the converted values are also one object."""
+    """Convert the values to elements of one field by the function ``lift``. If two keys have the same object
+    as their value, they also have the same object as their converted value."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 

@@ -157,8 +157,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # ``build`` reports the name of the tableau as the place of an error. Replace the name by ``where``,
-    # usually the path of the file.
+    # If ``build`` raises an error, ``problem.where`` contains the name of the tableau. Replace the name by
+    # ``where``, usually the path of the file.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -187,7 +187,8 @@ def _converted(data: Mapping[str, object], where: str) -> Format:
 def _each(
     table: Mapping[str, object], kind: Any, struct: type[Struct], key: str, where: str
 ) -> dict[str, Any]:
-    """Convert the entries of a table one by one. Thus, an error message can name the wrong entry."""
+    """Convert the entries of a table one by one. If an entry is invalid, the error message contains the name
+    of the entry."""
     result = {}
     for name, value in table.items():
         try:
@@ -317,8 +318,8 @@ def _decimal(text: str, where: str) -> Constant:
 
 def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
     """Return the content of the table ``[proof]``, or None if the file has no such table. Raises TableauError
-    if the table contains an unknown name or assumptions that do not fit the reduction. Raises TableauError
-    for a table ``[proof]`` in a file without rounded decimals."""
+    in three cases: the table contains an unknown name, the key ``assumptions`` does not fit the key
+    ``reduction``, or a file without rounded decimals contains the table."""
     given = entry.proof
     if given is None:
         return None

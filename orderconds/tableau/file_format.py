@@ -63,15 +63,16 @@ class ProofEntry(Struct, forbid_unknown_fields=True):
 Number = Coefficient | RootEntry
 """A value in the table ``numbers`` of a tableau file."""
 Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
-"""A value in the table ``claims`` of a tableau file. The key is a property or a family of methods. For a
-property, the value is True or False. For a family, the value is the order of the method in this family. If
-the order depends on the option ``cutoff`` of the family, the value is a list of :class:`CutoffClaim`."""
+"""A value in the table ``claims`` of a tableau file. The key of the value in this table is the name of a
+property or of a family of methods. For a property, the value is True or False. For a family, the value is the
+order of the method in this family. If the order depends on the option ``cutoff`` of the family, the value is
+a list of :class:`CutoffClaim`."""
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     """The base class of all formats. The class defines the keys that all formats share.
 
-    ``family``, for example ``rk``, is the name of the format and the name of a family of methods. ``order``
+    ``family`` is the name of the format, for example ``rk``. A family of methods has the same name. ``order``
     is the claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
     ``claims`` contains the claimed properties, and the claimed orders in other families (:data:`Claim`).
     """
@@ -88,16 +89,16 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """True if a tableau of this format can be stored as named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """The name of an array. If a tableau is stored as arrays, this name identifies the format. For the
-    default format, ``distinctive_key`` is empty (:func:`orderconds.tableau.formats.array_format`)."""
+    """A tableau that is stored as arrays has this format if one of the arrays has this name. For the default
+    format, ``distinctive_key`` is empty (:func:`orderconds.tableau.formats.array_format`)."""
     as_products: ClassVar[bool] = False
     """True if a tableau of this format consists of products of exponentials. If such a tableau is stored as
     arrays, the array ``exponentials`` contains the coefficients (:mod:`orderconds.exchange.arrays`)."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return default values of keys for a tableau that is stored as arrays. ``names`` contains the names
-        of the arrays."""
+        """Return default values for keys of the tableau file, for use if the tableau is stored as arrays.
+        ``names`` contains the names of the arrays."""
         return {}
 
     def coefficients(self) -> Places:

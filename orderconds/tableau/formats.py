@@ -71,8 +71,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     distinctive_key: ClassVar[str] = "A"
 
     def verify(self, where: str) -> None:
-        """Check the number of rows of A, and the lengths of all rows. The number of entries of b is the
-        number of stages."""
+        """Check that A has s rows, and that each row has s entries, where s is the number of entries of b. If
+        the file contains c or embedded weights, check that they also have s entries."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.A) != s:
             raise TableauError(
@@ -188,7 +188,7 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
                 verify_length(row, s, f"{where}: {name}[{i + 1}]")
 
     def coefficients(self) -> Places:
-        """Yield the position and the entry of every coefficient. The sequence is A, b, A_hat, b_hat."""
+        """Yield the position and the entry of every coefficient, in the order A, b, A_hat, b_hat."""
         for name, rows, weights, b in self._parts():
             for i, row in enumerate(rows):
                 yield from row_places(row, f"{name}[{i + 1}]")
@@ -221,8 +221,9 @@ class StageEntry(Struct, forbid_unknown_fields=True):
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """The embedded update, for an error estimate. The update and the embedded update use the same stages. If
-    the method has s stages and ``from`` is s + 1, the embedded update acts on the result of the update."""
+    """The embedded update, for an error estimate. The update and the embedded update use the same stages. Let
+    s be the number of stages. If the key ``from`` of the embedded update has the value s + 1, the embedded
+    update acts on the result of the update."""
 
     order: Annotated[int, Meta(ge=1)]
 
@@ -322,7 +323,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
     """Check that the rows of ``entry.exp`` have at most s entries, where s is the number of stages. Check
-    that the key ``from`` is missing or between 1 and ``before``."""
+    that the key ``from`` is missing or has a value between 1 and ``before``."""
     for r, row in enumerate(entry.exp):
         verify_length(row, s, f"{where}.exp[{r + 1}]")
     if entry.start is not None and not 1 <= entry.start <= before:
@@ -361,8 +362,8 @@ FORMATS: dict[str, type[Format]] = {
 def array_format(names: Collection[str]) -> str:
     """Return the name of the format of a tableau that is stored as arrays. ``names`` contains the names of
     the arrays. A format fits if ``names`` contains the ``distinctive_key`` of the format. If several formats
-    fit, the result is the first name in the alphabet. If no format fits, the result is ``composition``, the
-    default format.
+    fit, the result is the alphabetically first of their names. If no format fits, the result is
+    ``composition``, the default format.
 
     >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])
     ('rk', 'prk', 'composition')

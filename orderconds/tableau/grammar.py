@@ -57,8 +57,9 @@ class Constant(Struct, frozen=True, cache_hash=True):
 
     @property
     def is_double(self) -> bool:
-        """True if the constant is the ball of a double. An exact number has the radius 0. A rounded decimal
-        with n decimal places has the radius 1/10^n. A ball with another radius comes from a double."""
+        """True if the constant is a double. Doubles are recognised by their radius: an exact number has the
+        radius 0, a rounded decimal with n decimal places has the radius 1/10^n, and a double has another
+        radius."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 

@@ -63,8 +63,8 @@ class _Reader:
         self.position = 0
 
     def formula(self, scale: float = 1.0) -> float:
-        """Return the width of the text up to the end of the formula, or up to the closing brace of the
-        current group. ``scale`` is the font size relative to normal text."""
+        """Return the width of the text from the current position up to the closing brace of the current
+        group, or up to the end of the formula. ``scale`` is the font size relative to normal text."""
         total = 0.0
         while self.position < len(self.tokens):
             token = self._next()

@@ -126,8 +126,8 @@ class CommutatorFree:
         return CommutatorFree(tuple(stage.map(convert) for stage in self.stages), self.update.map(convert))
 
     def from_start(self, stage: Stage) -> tuple[Row, ...]:
-        """Return the rows of all exponentials between y0 and the value of ``stage``. The first row acts
-        first."""
+        """Return the rows of all exponentials between y0 and the value of ``stage``. The exponential of the
+        first row acts first."""
         before = () if stage.start is None else self.from_start(self.stages[stage.start])
         return before + stage.exponentials
 

@@ -1,14 +1,15 @@
 """Symmetry of commutator-free methods: their exponentials form a palindrome.
 
 A method with s stages maps y0 to y1 in a step of length h. The method is symmetric if a step of length -h
-maps y1 back to y0. An exponent has s coefficients, one for each stage. In the conjugate of an exponential,
-these coefficients are in reverse order. A sequence of exponentials leads from y0 to y1, and another one leads
-from y0 to each stage value. The method is symmetric if two conditions hold:
+maps y1 back to y0. An exponent has s coefficients, one for each stage. The conjugate of an exponential is the
+exponential with these coefficients in reverse order. One sequence of exponentials leads from y0 to y1. For
+each stage, a sequence of exponentials leads from y0 to the value of the stage. The method is symmetric if two
+conditions hold:
 
 - The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
   original sequence.
-- For every stage i: if each exponential in the sequence from y0 to the value of stage i is replaced by the
-  inverse of its conjugate, the new sequence leads from y1 to the value of stage s + 1 - i.
+- For every stage i, replace each exponential in the sequence of stage i by the inverse of its conjugate. If
+  the new sequence starts at y1 instead of y0, it leads to the value of stage s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """
@@ -25,8 +26,8 @@ def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
     """Return True if a method is symmetric. Return None if the coefficients are balls (intervals) that are
     too wide to decide.
 
-    In a method with s stages, stage i is compared with stage s + 1 - i. Hence the result is False for a
-    symmetric method whose stages are in another order.
+    In a method with s stages, stage i is compared with stage s + 1 - i. If the stages of a symmetric method
+    are numbered such that these stages are not mirror images of each other, the result is False.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]

@@ -133,7 +133,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"step[{k + 1}]", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the splitting."""
+        """Return the splitting method, and None instead of an embedded update."""
         steps = tuple(
             (self.parts.index(name), values[f"step[{k + 1}]"]) for k, (name, _) in enumerate(self.step)
         )
@@ -162,9 +162,9 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"exponents[{k + 1}]", table
 
     def verify(self, where: str) -> None:
-        """Check the terms of all elements and exponents. A term is a node, the name of an element, or a
-        bracket of two terms. The definition of an element may contain only the names of earlier elements. If
-        ``map`` is ``cay``, a term may also be a product of terms."""
+        """Check the terms of all elements and exponents. A term is the number of a quadrature node, the name
+        of an element, or a bracket of two terms. If ``map`` is ``cay``, a term may also be a product of
+        terms. The definition of an element may contain only the names of earlier elements."""
         s = counted(len(self.c), f"{where}: c")
         counted(len(self.exponents), f"{where}: exponents", "exponents")
         known: list[str] = []
@@ -211,16 +211,19 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             )
 
     def coefficients(self) -> Places:
-        """Yield all coefficients with their positions in the file: the nodes, the coefficients of the
-        elements, and the coefficients of the exponents."""
+        """Yield the position in the file and the entry of every coefficient. The coefficients are the nodes
+        c_i and the factors of the terms in the Lie algebra elements and in the exponents."""
         yield from row_places(self.c, "c")
         for place, table in self._tables():
             for key, coefficient in table.items():
                 yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method. Examples of quadratic groups are SO(n) and Sp(2n). Raises TableauError if an
-        exponent contains products and lies outside the Lie algebra of some quadratic group."""
+        """Return the Magnus method, and None instead of an embedded update.
+
+        Raises TableauError if the method contains products, and if there is a quadratic Lie group, such as
+        SO(n) or Sp(2n), for which an exponent does not lie in the Lie algebra of the group.
+        """
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()
@@ -232,7 +235,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             self.map,
         )
         # A product of two elements of a Lie algebra may lie outside the Lie algebra. Verify that each
-        # exponent lies in the Lie algebras of SO(n), Sp(2n) and all other quadratic groups.
+        # exponent lies in the Lie algebra of the group, for every quadratic Lie group.
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():
@@ -242,7 +245,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                         f"exponent {k + 1} contains products and lies outside the Lie algebra of some "
                         f"quadratic groups",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="equal coefficients of a product and the reversed product if the number of "
-                        "factors is odd, and opposite coefficients if the number is even",
+                        expected="pairs such as A*B*C and C*B*A with equal coefficients if the number of "
+                        "factors is odd, and with opposite coefficients if the number of factors is even",
                     )
         return method, None

@@ -80,8 +80,8 @@ class AdjointComposition:
         """Return the composition as a Runge-Kutta tableau. The basic method Phi becomes the explicit Euler
         method. The adjoint Phi* becomes the implicit Euler method.
 
-        The implicit Euler step with step size beta_i h evaluates the vector field at its end point. This end
-        point is the value of stage i. The next explicit Euler step starts there. Hence
+        The implicit Euler step with step size beta_i h evaluates the vector field at the end point of the
+        step. This end point is the value of stage i. The next explicit Euler step starts there. Hence
         b_i = beta_i + alpha_i, a_ii = beta_i, and a_ij = b_j for j < i (HLW, Section II.4).
         """
         b = tuple(y + x for x, y in zip(self.alpha, self.beta, strict=True))
@@ -106,8 +106,8 @@ class AdjointComposition:
 
 
 MOST_WORDS = 10_000
-"""The largest number of products in the expansion of a Magnus method. If the estimated number is larger, the
-exponents are not expanded."""
+"""The exponents of a Magnus method are expanded into sums of products only if the estimated number of
+products is at most this number."""
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ class Magnus:
     Cayley transform, products of the A_i are also allowed.
 
     The exponential of the first entry of ``exponents`` acts first. Each entry of ``elements`` is a
-    name and a Lie element. The exponents and all later elements may contain this name.
+    name and a Lie element. The name may occur in the exponents and in later entries of ``elements``.
     ``transform`` is ``"exp"``, or ``"cay"`` for the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     >>> from orderconds.ring import QQ
@@ -161,21 +161,21 @@ class Magnus:
         return tuple(expand(combination, named, ring) for combination in self.exponents)
 
     def extents(self) -> tuple[tuple[int, int], ...]:
-        """Return a lower and an upper bound of the numbers of factors in the products of each exponent. Each
-        exponent is a sum of products of the A_i."""
+        """Return a pair (m, n) for each exponent. The exponent expands to a sum of products of the A_i. Each
+        of these products has at least m and at most n factors."""
         extent = extents(dict(self.elements))
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
-        """Return True if the exponents expand to at most :data:`MOST_WORDS` products of the A_i. The number
-        of products is estimated: if the method has s nodes and the products in an exponent have up to m
-        factors, the exponent counts as s^m products."""
+        """Return True if the estimated number of products of the A_i in the expansion of all exponents is at
+        most :data:`MOST_WORDS`. Let s be the number of nodes. If the products in one exponent have at most m
+        factors, the estimate for this exponent is s^m."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 
     def is_commutator_free(self, ring: Ring) -> bool:
-        """Return True if every exponent expands to a linear combination of the A_i. All brackets
-        must cancel in the expansion. Return False if the expansion is too long (:meth:`is_expandable`)."""
+        """Return True if every exponent expands to a linear combination of the A_i, so that all brackets
+        cancel. Return False if the expansion is too long (:meth:`is_expandable`)."""
         if not self.is_expandable():
             return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)
