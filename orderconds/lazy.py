@@ -46,8 +46,8 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        # An earlier import may have stored a module as an attribute with the name of an exported object. The
-        # attribute is deleted, because the name must denote the object.
+        # If a module of the package was imported earlier, the module is an attribute of the package. If an
+        # exported object has the same name, the attribute is deleted: the name must denote the object.
         if isinstance(module.__dict__.get(name), ModuleType):
             del module.__dict__[name]
     module.__class__ = _LazyPackage

@@ -57,7 +57,7 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
 
 
 def is_temporary(name: str) -> bool:
-    """Return True if the name has the form of the temporary names in :func:`write_files`.
+    """Return True if ``name`` has the form of the temporary file names that :func:`write_files` creates.
 
     >>> is_temporary(".rigid.c.k3_x91ab" + SUFFIX), is_temporary(".rigid.c")
     (True, False)

@@ -2,11 +2,13 @@
 claims.
 
 The flags ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
-``--orderconds-execute`` and ``--orderconds-tolerance`` correspond to options of ``orderconds check``. Without
-``--orderconds`` or one of the first four flags, the plugin does nothing.
+``--orderconds-execute`` and ``--orderconds-tolerance`` correspond to options of ``orderconds check``. Each of
+these flags except ``--orderconds-tolerance`` activates the plugin, and so does ``--orderconds``. Without an
+activating flag, the plugin does nothing.
 
 Files without a tableau are skipped. At the end, pytest prints the names of the skipped files and the reasons.
-The test of a tableau that claims no order is skipped. With ``--orderconds-require-claims``, this test fails.
+If a tableau does not claim an order, its test is skipped. With ``--orderconds-require-claims``, the test
+fails instead.
 
 A Python file that contains a tableau is parsed and not imported. The file is executed only with
 ``--orderconds-execute``.
@@ -108,7 +110,7 @@ class NoTests(pytest.File):
     from the file."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Return no tests."""
+        """Return an empty tuple, because the file contains no tests."""
         return ()
 
 

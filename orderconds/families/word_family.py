@@ -49,8 +49,8 @@ class WordFamily(Family):
 
     @abstractmethod
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as an index sum. Both sides of the
-        condition contain the factor ``scale(word)``."""
+        """Return the left-hand side of the condition that ``word`` defines. The result is a formula with sums
+        over indices. Both sides of the condition contain the factor ``scale(word)``."""
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -62,7 +62,8 @@ class WordFamily(Family):
         """Return a method whose coefficients are random elements of ``ring``. The number of coefficients is
         sufficient to distinguish the conditions up to ``order``.
 
-        An element of ``ring`` is a vector of residues, so the result can represent several methods.
+        An element of ``ring`` is a vector of residues. If the vectors have n entries, the result represents n
+        methods: entry k of each coefficient is a coefficient of method k.
         """
 
     def independent(self, order: int) -> tuple[Word, ...]:
@@ -107,14 +108,16 @@ class WordFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand sides of ``conditions``. For a condition of a word, the left-hand side is
-        ``scale(word)`` times the coefficient of the word in the series of one step."""
+        """Return the left-hand sides of ``conditions``, evaluated for ``method``. The key of a condition is a
+        word. The left-hand side is ``scale(word)`` times the coefficient of the word in the series of one
+        step."""
         series = self._memo(method, ring)
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return a polynomial that equals the left-hand side of the condition of a word. The variables of the
-        polynomial are left-hand sides of independent conditions."""
+        """Return a polynomial with one variable for each Lyndon word. If the value of each variable is the
+        left-hand side of the condition of its Lyndon word, the value of the polynomial is the left-hand side
+        of the condition of ``word``."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 LINE = 32
-"""The largest width of a line of a left-hand side, in characters. In a column of a two-column article, the
-tree, the right-hand side and the equation number need the remaining space."""
+"""The largest width of a line of a left-hand side, in characters. A wider line would leave too little space
+for the tree, the right-hand side and the equation number in a column of a two-column article."""
 
 _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
@@ -85,8 +85,9 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split a LaTeX formula before plus and minus signs. The formula is not split inside braces, nor
-    inside more than ``within`` nested pairs of brackets."""
+    """Split a LaTeX formula before plus and minus signs. The formula is never split at a sign inside
+    braces. At a sign inside brackets, the formula is split only if at most ``within`` nested pairs enclose
+    the sign."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")

@@ -127,8 +127,8 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Equal factors have equal keys. Only the keys of coefficients are fast to compute. If only one factor is
-    # not a coefficient, no other factor is equal to it, and None is sufficient as its key.
+    # Equal factors have equal keys. Only the keys of coefficients are fast to compute. If all factors except
+    # one are coefficients, the exceptional factor differs from all others, and its key is None.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -209,8 +209,9 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its indices. ``names`` maps free indices to their new names. All
     bound indices get names that no other formula contains.
 
-    If a product contains several results, unique names allow :func:`index_sum` to join the sums into a single
-    sum. :func:`named` replaces the unique names by short names.
+    Therefore two sums from different calls of this function never share a bound index, and :func:`index_sum`
+    can join a product of such sums into a single sum. :func:`named` replaces the unique names by short
+    names.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()

@@ -75,8 +75,8 @@ def subscript(written: str, notation: Notation) -> str:
 def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Notation) -> str:
     """Return the text below a summation sign. ``indices`` are the summation indices.
 
-    Relations are joined to chains: ``i<j`` and ``j<k`` give ``i<j<k``. Each chain begins with a summation
-    index. If i is free and the other indices are summation indices, the chain is ``k>j>i``.
+    Relations are joined to chains: ``i<j`` and ``j<k`` give ``i<j<k``. If i is a free index, and j and k are
+    summation indices, the order is reversed to ``k>j>i``, because each chain begins with a summation index.
 
     >>> chains(["i", "j"], [("i", "<", "j")], TEXT)
     'i<j'

@@ -55,7 +55,8 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
     limits, remaining = [], list(indices)
     while remaining:
         # The result is an argument list of sympy.Sum. The limits of an index may contain only indices that
-        # come later in this list. Therefore the next index must not occur in the limits of remaining indices.
+        # come later in this list. The remaining indices come later than the index that is selected next.
+        # Therefore their limits must not contain the selected index.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

@@ -6,7 +6,7 @@ decimal is the centre of an interval. The radius of the interval is one unit of 
 operator proves that the equations have exactly one solution in these intervals. The operator also encloses
 the solution (:mod:`orderconds.proof.krawczyk`).
 
-In general, the system of equations contains every independent condition of a family. A reduction is a theorem
-by which some conditions follow from the others (:mod:`orderconds.proof.equations`). The module
+By default, the equations are all independent conditions of a family. The ``[proof]`` table can also select a
+reduction: a theorem by which fewer equations are sufficient (:mod:`orderconds.proof.equations`). The module
 :mod:`orderconds.proof.implications` derives the order in one family from orders in other families.
 """

@@ -1,4 +1,5 @@
-"""Proof that an exact solution exists near the decimals of a tableau file."""
+"""Proof that the equations in the ``[proof]`` table of a tableau file have an exact solution near the rounded
+decimals in the file."""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ class Misrounded:
 
 @dataclass(frozen=True)
 class Certificate:
-    """A proved solution of the order conditions near the decimals of a tableau file.
+    """A solution of the equations in the [proof] table of a tableau file. It is proved that the solution
+    exists near the decimals in the file.
 
     - ``tableau``: the coefficients of the solution, as balls.
     - ``facts``: the orders that the equations imply, as pairs (family, order).
@@ -75,8 +77,8 @@ class Certificate:
 
 
 def certify(tableau: Tableau, bits: int = 256) -> Certificate:
-    """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near its
-    decimals.
+    """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near the
+    decimals of ``tableau``.
 
     The proof uses ball arithmetic with at least ``bits`` bits. The precision grows with the number of digits
     of the decimals. If the proof fails, :class:`~orderconds.proof.krawczyk.NotProved` is raised with the
@@ -110,8 +112,8 @@ class _Key:
 
     @property
     def content(self) -> Mapping[str, object] | None:
-        """The content of the tableau file, or None if there is no file. If the [proof] table of the tableau
-        was replaced, the file does not describe the tableau, and the content is None."""
+        """The content of the tableau file, or None if there is no file. Also None if the tableau does not
+        have the [proof] table of the file, because then the file does not describe the tableau."""
         file = self.tableau.file
         return None if file is None or file.proof is not self.tableau.proof else file.data
 
@@ -150,7 +152,8 @@ def _certify(key: _Key, least: int) -> Certificate:
 
 def _mismatch(conditions: int, unknowns: int) -> str:
     advice = (
-        f'add {unknowns - conditions} of the unknowns to the list "pins" in [proof] (pins are exact numbers)'
+        f'add {unknowns - conditions} of the unknowns, by name, to the list "pins" in [proof]; '
+        "the decimals of the names in this list count as exact numbers"
         if unknowns > conditions
         else "name a reduction: a theorem by which some of the equations follow from the others"
     )

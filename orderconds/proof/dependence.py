@@ -4,8 +4,9 @@ satisfy the formulas of a tableau file.
 The left-hand side of each dependent condition is a polynomial in left-hand sides of independent conditions.
 The coefficients of the polynomial are computed modulo primes and then converted to fractions.
 
-Conditions that are independent over Q can be dependent modulo a prime. In this case, the polynomial is wrong.
-Therefore :class:`orderconds.proof.exact_member.ExactMember` verifies each polynomial in exact arithmetic.
+Conditions that are independent over Q can be dependent modulo the primes. In this case, the polynomial that
+was computed for such a condition is wrong. Therefore :class:`orderconds.proof.exact_member.ExactMember`
+verifies each polynomial in exact arithmetic.
 """
 
 from __future__ import annotations
@@ -28,12 +29,13 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The initial number of random methods of the sub-family. If ``SPARE`` requires more random methods, the
-computation is repeated."""
+"""The number of random methods of the sub-family in the first computation. If this number is smaller than
+:data:`SPARE` requires, the computation is repeated with more random methods."""
 
 SPARE = 24
-"""The number of random methods must exceed the number of unknown coefficients of a polynomial by ``SPARE``.
-With fewer random methods, independent conditions could seem dependent by accident."""
+"""Each random method gives one linear equation for the unknown coefficients of a polynomial. The number of
+random methods must be at least the number of unknown coefficients plus ``SPARE``. With fewer random methods,
+independent conditions could seem dependent by accident."""
 
 PRIME_BITS = 61
 """The size, in bits, of the primes modulo which conditions are evaluated. A residue modulo such a prime fits
@@ -44,10 +46,11 @@ MAX_PRIMES = 24
 primes. Coefficients with larger numerators and denominators need more primes."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""A map from each dependent condition to a linear combination of monomials. Modulo one prime, the left-hand
-side of the condition is equal to the linear combination. A monomial is a product of left-hand
-sides of conditions. A pair (x, y) denotes the coefficient x + y sqrt(d) of a monomial, where sqrt(d) is the
-only square root in the tableau file."""
+"""The result of the computation modulo one prime: a map from each dependent condition to a polynomial. Modulo
+this prime, the left-hand side of the condition is equal to the polynomial. The polynomial is a map from
+monomials to coefficients. A monomial is a product of left-hand sides of independent conditions. A pair (x, y)
+of residues denotes the coefficient x + y sqrt(d), where sqrt(d) is the only square root in the tableau file.
+If there is no such square root, y is zero."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +70,8 @@ class Dependences:
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
         """Yield a pair (condition, combination) for each dependent condition. The combination expresses the
         left-hand side of the condition as a polynomial in left-hand sides of independent conditions. If the
-        primes do not determine the polynomial, the combination is None."""
+        residues modulo ``primes`` do not determine the coefficients of the polynomial, the combination is
+        None."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -91,12 +95,13 @@ def dependences(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> Iterator[Dependences]:
-    """Yield the independent and the dependent conditions of a sub-family. After each suitable
-    prime, the result combines the residues modulo all suitable primes so far.
+    """Yield the independent and the dependent conditions of a sub-family, once after each suitable prime.
+    Each yielded object contains the results for all suitable primes so far.
 
-    A prime is unsuitable if fewer conditions are independent modulo this prime than modulo another prime. At
-    most :data:`MAX_PRIMES` primes are tried. ``candidates`` contains the conditions of each order. ``draws``
-    selects the primes and the random numbers. ``surd`` is the only radical in the formulas, or None.
+    A prime is unsuitable if the formulas cannot be evaluated modulo this prime, or if a condition is
+    dependent modulo this prime but independent modulo another prime. At most :data:`MAX_PRIMES` primes are
+    tried. ``candidates`` contains the conditions of each order. ``draws`` selects the primes and the random
+    numbers. ``surd`` is the only radical in the formulas, or None.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -134,8 +139,8 @@ def dependences(
 def _modulo(
     sampling: _Sampling, candidates: Sequence[Sequence[OrderCondition]], surd: Surd | None
 ) -> tuple[tuple[OrderCondition, ...], Residues] | None:
-    """Return two values: the independent conditions modulo one prime, and a map from each dependent condition
-    to a polynomial in the independent conditions.
+    """Find the conditions that are independent modulo one prime. Return these conditions, and a map from each
+    dependent condition to a polynomial in the left-hand sides of independent conditions.
 
     If the formulas contain a square root sqrt(d), the polynomials have coefficients x + y sqrt(d). Let r
     be a square root of d modulo the prime. Each polynomial is computed twice, with r and with -r in place of
@@ -187,11 +192,12 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """The two sides of a product of conditions, evaluated modulo a prime.
+    """The product of the left-hand sides and the product of the right-hand sides of some conditions, modulo a
+    prime.
 
     - ``factors``: the conditions.
-    - ``members``: the products of the left-hand sides, one for each random method of the sub-family.
-    - ``flow``: the product of the right-hand sides. The right-hand sides belong to the exact flow.
+    - ``members``: the product of the left-hand sides, with one residue for each random method.
+    - ``flow``: the product of the right-hand sides.
     """
 
     factors: Monomial
@@ -208,7 +214,8 @@ class _Value:
 
 @dataclass(frozen=True)
 class _Sampling:
-    """Conditions of a family, evaluated modulo a prime at random methods of the sub-family."""
+    """The input of an evaluation of ``conditions`` modulo ``prime`` for random methods. The coefficients of
+    these methods satisfy the formulas in ``symbolic``."""
 
     family: Family
     symbolic: SymbolicCoefficients
@@ -218,9 +225,11 @@ class _Sampling:
     read: Reading | None
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
-        """Return the left-hand sides of the conditions at ``count`` random methods, and the right-hand sides.
-        The residue ``root`` is used as the value of the only square root in the formulas. If ``root`` is
-        None, random residues are used as the values of roots."""
+        """Return both sides of each condition. The left-hand sides are evaluated for ``count`` random
+        methods.
+
+        If the only radical in the formulas is a square root, the residue ``root`` is its value. If ``root``
+        is None, the values of all radicals are random residues (:class:`_Members`)."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
@@ -234,9 +243,12 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """A ring whose elements consist of ``count`` residues modulo a prime, one for each random method. The
-    value of a root is not computed, but replaced by random residues. If the formulas contain only one square
-    root, its value is the residue ``square_root``."""
+    """The ring of the coefficients of ``count`` random methods. An element contains one residue modulo a
+    prime for each random method.
+
+    Random residues are used instead of the values of roots: a polynomial identity that holds for all values
+    of the roots also holds for the true values. There is one exception: if ``square_root`` is not None, this
+    residue is the value of every square root."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)
@@ -244,13 +256,15 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return residues that replace the ``index``-th root of x. Equal arguments give equal residues."""
+        """Return the residues that are used as the ``index``-th root of x. The residues are random, unless
+        ``index`` is 2 and ``square_root`` is not None. Equal arguments give equal residues."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))
 
     def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
-        """Return random residues that replace the root ``name``. Equal names give equal residues."""
+        """Return random residues that are used as the root of ``minpoly``. Equal names give equal
+        residues."""
         return self._drawn(name)
 
     def _drawn(self, key: object) -> Sample:

@@ -7,9 +7,9 @@ verified exactly, from the formulas in the file and not from the decimals:
 
 - ``symmetric``: a palindromic composition of a symmetric method. The order of such a composition is even.
   Therefore only conditions of odd order are needed. There is one condition for each Lyndon word in the
-  letters 1, 3, 5, ... (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). A
-  composition of midpoint rules has the same order in the families ``rk`` and ``cg``, for example (Bogfjellmo
-  and Marthinsen, Lemma 3.5.4).
+  letters 1, 3, 5, ... (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). The order
+  of a composition of midpoint rules is the same in the families ``rk`` and ``cg`` (Bogfjellmo and Marthinsen,
+  Lemma 3.5.4).
 - ``symmetric``, for a Magnus method on s Gauss nodes: each condition is defined by a word. Up to order 2s,
   words in the letters 1, ..., s are sufficient (Iserles and Norsett 1999).
 - ``low-storage``: a scheme with two registers (2N scheme). The order on a group is equal to the order on a
@@ -19,8 +19,9 @@ verified exactly, from the formulas in the file and not from the decimals:
 - ``spelling``: some coefficients are formulas in other coefficients. The formulas define a sub-family of
   methods, in which some conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
-A 2N scheme may contain an embedded method. The embedded method applies one additional exponential.
-The equations for the embedded method are the conditions of rooted trees (docs/explanation/two_registers.md).
+A 2N scheme may contain an embedded method. The update of the embedded method consists of the exponentials of
+the scheme and one additional exponential. The equations for the embedded method are the conditions of rooted
+trees (docs/explanation/two_registers.md).
 """
 
 from __future__ import annotations
@@ -49,27 +50,28 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations for the decimals of ``tableau``.
+    """The equations for the unknowns of ``tableau``. Each unknown is the exact value of a rounded decimal in
+    the tableau. The decimals of the names in ``pins`` are not unknowns.
 
-    ``facts`` contains pairs (family, order). If a method satisfies the equations, it has at least this order
-    in this family.
+    ``facts`` contains pairs (family, order). If a method satisfies the equations, then for each pair, the
+    method has at least the given order in the given family.
     """
 
     tableau: Tableau
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """The number s, if the method is a Magnus method on s Gauss nodes and the order in ``proof`` is at most
-    2s. Then only conditions for words in the letters 1, ..., s are used. For other methods, the value is
-    None."""
+    """If the method is a Magnus method on s Gauss nodes and ``proof.order`` is at most 2s, the value is s.
+    Then only conditions for words in the letters 1, ..., s are used. Otherwise, the value is None."""
     kept: tuple[OrderCondition, ...] | None = None
-    """For the reductions ``spelling`` and ``low-storage``, the conditions that remain after the reduction.
-    Otherwise, the value is None."""
+    """The conditions that remain after the reduction ``spelling`` or ``low-storage``. The value is None if
+    ``proof`` names neither of these reductions."""
     lower: tuple[OrderCondition, ...] = ()
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
     conditions follow the conditions of the scheme."""
     lower_facts: tuple[tuple[str, int], ...] = ()
-    """The orders of the embedded method that follow from ``lower``, as pairs (family, order)."""
+    """The orders of the embedded method, as pairs (family, order). If the embedded method satisfies the
+    conditions in ``lower``, it has at least these orders."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
@@ -122,8 +124,9 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
     orders = range(1, order + 1, step)
-    # ``family.conditions`` omits conditions that depend on other conditions modulo primes. The proof
-    # requires that the omitted conditions also depend on other conditions over the rationals Q.
+    # Dependent conditions follow from other conditions, and ``family.conditions`` omits them. Dependence is
+    # tested modulo primes. The proof requires that the omitted conditions are also dependent over the
+    # rationals Q.
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
@@ -197,8 +200,9 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
     """Return the conditions of the embedded method of a low-storage (2N) scheme.
 
-    The embedded update must consist of the exponentials of the method and one additional exponential. The
-    order of the embedded method must not exceed the order in ``proof``. Otherwise the result is empty.
+    The result is empty unless the embedded update consists of the exponentials of the method and one
+    additional exponential. The result is also empty if the order of the embedded method exceeds the order in
+    ``proof``.
     """
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
@@ -209,8 +213,9 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the order conditions that remain after the reduction ``spelling``. Together with the
-    formulas in the tableau file, these order conditions imply all conditions up to the order in ``proof``."""
+    """Return the order conditions that are the equations of a proof with ``reduction = "spelling"``. Together
+    with the formulas in the tableau file, these order conditions imply all conditions up to the order in
+    ``proof``."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -276,10 +281,10 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the indices of all equations except identities. An identity holds for all values of the
     unknowns.
 
-    ``values`` contains one jet for each equation. A jet encloses the value and the gradient of the equation
-    over a box by balls. If a ball of the jet does not contain zero, the equation is not an identity. All
-    other equations are evaluated exactly, with random numbers for the unknowns
-    (:mod:`orderconds.tableau.random_member`).
+    ``values`` contains one jet for each equation. The jet consists of balls that enclose the function
+    "left-hand side minus right-hand side" and its partial derivatives for all unknowns in a box. If a ball of
+    the jet does not contain zero, the equation is not an identity. All other equations are evaluated exactly,
+    with random numbers for the unknowns (:mod:`orderconds.tableau.random_member`).
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

@@ -1,5 +1,6 @@
 """Exact verification that the left-hand side of one order condition is a polynomial in the left-hand sides of
-other conditions. The left-hand sides are evaluated at one random method.
+other conditions. The left-hand sides are evaluated in exact arithmetic for one random method. If the
+polynomial is wrong, the verification fails, except with negligible probability.
 
 The formulas in a tableau file define a sub-family of methods. A *member* is a method of the sub-family.
 Random members are constructed in :mod:`orderconds.tableau.random_member`. If the only radical in the file is
@@ -55,9 +56,8 @@ class Surd:
 
 
 def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
-    """Return the only radical in the formulas of a tableau file. The radical must be the square root of an
-    exact rational number. If the formulas contain no radical, several radicals or another radical, return
-    None.
+    """If the formulas of a tableau file contain exactly one radical, and this radical is the square root of
+    an exact rational number, return the radical. Otherwise, return None.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["sqrt(12)"]\\n'
@@ -93,19 +93,19 @@ class ExactMember:
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Return True if a condition holds at this random member. If the condition does not hold for the
-        whole sub-family, the probability of the result True is negligible
+        """Return True if a condition holds at this random member. If the condition fails for at least one
+        member of the sub-family, the probability of the result True is negligible
         (:mod:`orderconds.tableau.random_member`)."""
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
-        """Return True if ``condition`` follows from the conditions in ``combination``. Return False if
-        ``combination`` is None.
+        """Return True if ``condition`` follows from the other conditions that occur in the polynomial
+        ``combination``. Return False if ``combination`` is None.
 
-        ``combination`` is a polynomial p. If p is evaluated at the left-hand sides of the other conditions,
-        the value must be the left-hand side of ``condition``. The same must hold for the right-hand sides.
-        The left-hand sides are compared only at this random member. If the result is True, the probability
-        of an error is negligible.
+        The left-hand sides of the other conditions are inserted into the polynomial. The value must be the
+        left-hand side of ``condition``. The same must hold for the right-hand sides. The left-hand sides are
+        evaluated only for this random member. If the result is True, the probability of an error is
+        negligible.
         """
         if combination is None:
             return False
@@ -127,7 +127,8 @@ def exact_member(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> ExactMember | None:
-    """Evaluate the left-hand sides of ``conditions`` at a random member of a sub-family.
+    """Evaluate the left-hand sides of ``conditions`` for a random member (method) of a sub-family, and return
+    them as an :class:`ExactMember`.
 
     ``symbolic`` describes the sub-family, and ``draws`` generates the random numbers. ``surd`` is the result
     of :func:`lone_square_root`. Return None if the numbers become too large or if a divisor is zero.
@@ -163,8 +164,8 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """The field Q(sqrt(d)), in which the formulas of a tableau file are evaluated. Random numbers replace
-    the rounded decimals and the roots of polynomials."""
+    """The field Q(sqrt(d)), in which the formulas of a tableau file are evaluated. To construct a random
+    member, random numbers are used instead of the rounded decimals and the roots of polynomials."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd

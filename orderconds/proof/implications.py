@@ -28,8 +28,8 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
 
 
 def least_order(facts: Iterable[Fact], family: Family) -> int:
-    """Return the largest lower bound of the order in ``family`` that follows from ``facts``. If ``facts``
-    imply no bound, return 0.
+    """Return the largest n such that every method with the orders in ``facts`` has at least order n in
+    ``family``. If ``facts`` imply no order, return 0.
 
     >>> least_order([("sprk", 6), ("rk", 6)], families.get("vrkmk(2)"))
     5
@@ -39,7 +39,8 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return a map from labels of families to lower bounds of the order that follow from ``facts``.
+    """Return lower bounds of the orders of a method, as a map from labels of families to orders. The bounds
+    follow from ``facts``, which contains lower bounds for some families.
 
     >>> consequences([("vrkmk(1)", 3)])
     {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}
@@ -57,9 +58,10 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
     """Return the exact order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. If order n in
-    ``family`` always implies order n in a second family, the exact order in the second family is an upper
-    bound of the order in ``family``. The order is determined if a lower bound is equal to an upper bound.
+    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. Suppose that
+    every method of order n in ``family`` has order n in a second family. Then the exact order in the second
+    family is an upper bound of the order in ``family``. The order is determined if a lower bound is equal to
+    an upper bound.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

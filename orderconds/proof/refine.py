@@ -26,8 +26,8 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""A bound on the change of a decimal in Newton's method. After a larger change, the result would be a
-different method."""
+"""A bound on the absolute difference between a value in Newton's method and the decimal in the file. A larger
+difference would lead to a different method."""
 
 
 @dataclass(frozen=True)
@@ -70,8 +70,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # Equations that hold for all coefficients are omitted. To find them, ``independent`` needs the
-        # values of the equations on a box.
+        # ``independent`` omits equations that hold for all values of the unknowns. Its second argument
+        # encloses the values of the equations over a box around the decimals.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)

@@ -1,13 +1,14 @@
 """The independent conditions of a sub-family of methods. If the table ``[proof]`` of a tableau file contains
-``reduction = "spelling"``, these conditions are the equations for the coefficients.
+``reduction = "spelling"``, these conditions are the equations for the unknown coefficients in the file.
 
 Formulas such as ``b3 = "1 - b1 - b2"`` in the file restrict a family to a sub-family. In the sub-family,
 fewer conditions are independent. A condition is omitted if it follows from retained conditions. The
 left-hand side of an omitted condition is a polynomial in the left-hand sides of retained conditions. The same
 polynomial in the right-hand sides gives the right-hand side of the omitted condition.
 
-The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). A computation modulo primes
-is not a proof. Therefore each polynomial is verified exactly at one random method of the sub-family
+The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). A polynomial can be correct
+modulo the primes and wrong over Q. Therefore each polynomial is verified in exact arithmetic for one random
+method of the sub-family. A wrong polynomial passes this verification only with negligible probability
 (:mod:`orderconds.proof.exact_member`). A condition without a verified polynomial is retained.
 """
 

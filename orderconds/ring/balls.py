@@ -1,8 +1,8 @@
 """Rigorous enclosures of real numbers by balls of the library Arb, with a fixed working precision.
 
-A ball is an interval with a midpoint and a radius. The ball contains one unknown real number. If the midpoint
-and the radius are zero, the unknown number is zero. If the ball contains zero and other numbers, it is not
-known whether the unknown number is zero.
+A ball is an interval, given by a midpoint and a radius. The ball represents a real number x. It is only known
+that x is in the interval. If the midpoint and the radius are zero, x is zero. If the interval contains zero
+and other numbers, it is not known whether x is zero.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Balls:
         return self.bits
 
     def rational(self, p: int, q: int = 1) -> Ball:
-        """Return a ball around p/q. The radius is zero if ``bits`` bits represent p/q exactly."""
+        """Return a ball around p/q. The radius is zero if p/q is a binary number of at most ``bits`` bits."""
         with precision(self.bits):
             return Ball(arb(fmpq(p, q)), self.bits)
 
@@ -61,8 +61,8 @@ class Balls:
     def root(self, x: Ball, index: int) -> Ball:
         """Return the real ``index``-th root of x.
 
-        If ``index`` is even, x must be proved to be nonnegative. If ``index`` is odd, x must be proved to be
-        nonnegative or negative. Otherwise ValueError is raised.
+        If ``index`` is even, all numbers in the ball x must be nonnegative. If ``index`` is odd, the numbers
+        must be all nonnegative or all negative. Otherwise ValueError is raised.
         """
         with precision(self.bits):
             if x.value >= 0:
@@ -156,8 +156,9 @@ class Enclosures:
     """The ring of real balls, whose elements have python-flint's type ``arb``.
 
     The caller sets the working precision in a block ``with precision(bits)``. Arithmetic is faster than in
-    :class:`Balls`. The resulting balls are equal, with one exception: division by a ball that contains zero
-    returns a ball that is not finite. In :class:`Balls`, this division raises an error.
+    :class:`Balls`. Every operation gives the same ball as in :class:`Balls`, with one exception: division by
+    a ball that contains zero returns a ball that is not finite. In :class:`Balls`, this division raises an
+    error.
 
     >>> with precision(128):
     ...     R = Enclosures(128)
@@ -208,7 +209,8 @@ def _supported_places(radius: fmpq) -> int:
     Let a ball have this radius, and round its midpoint to d decimal places. The rounded midpoint differs from
     each number in the ball by at most 10^-d.
     """
-    # The digits of flint integers are counted, because ``str`` of a Python integer is limited to 4300 digits.
+    # ``radius.p`` and ``radius.q`` are flint integers. They are not converted to Python integers, because
+    # ``str`` of a Python integer is limited to 4300 digits.
     places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:
         places -= 1

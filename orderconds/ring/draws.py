@@ -14,8 +14,9 @@ from flint import fmpz
 
 
 class Draws:
-    """A generator of pseudorandom numbers. The constructor takes texts that describe the tested object. Each
-    pseudorandom number is computed from the texts, a name and a number of bits.
+    """A generator of pseudorandom numbers. The arguments of the constructor are texts, for example a
+    description of the coefficients that are tested with the pseudorandom numbers. Each pseudorandom number is
+    computed from the texts, a name and a number of bits.
 
     >>> draws = Draws("one file")
     >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)

@@ -27,7 +27,8 @@ LARGE = 8
 computed by Euclid's algorithm."""
 
 REMEMBERED = 1000
-"""The largest number of converted elements of smaller fields that a field stores in its cache."""
+"""The maximal number of elements in the cache of a field. The cache stores elements that were converted from
+smaller fields."""
 
 
 class Generator(Struct, frozen=True):
@@ -372,7 +373,7 @@ class Algebraic:
     def __eq__(self, other: object) -> bool:
         try:
             pair = self._pair(other)
-        except TypeError:  # Numbers in fields of different towers count as unequal.
+        except TypeError:  # The fields are in different towers. Then the numbers count as unequal.
             return False
         return pair is not None and bool(pair[0].polynomial == pair[1].polynomial)
 

@@ -16,8 +16,10 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""A safety margin in bits. Let P be the probability that random numbers have an equally good relation by
-chance. If P is larger than about 2^-GUARD, the function :func:`relation` returns None."""
+"""A safety margin in bits. Random numbers can have an approximate integer relation by chance. Suppose that
+:func:`relation` has found a relation. Let P be the probability that random numbers have a relation with
+equally small integers and an equally small error. If P is larger than about 2^-GUARD, :func:`relation`
+returns None."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
@@ -62,8 +64,9 @@ def root_of(d: int, bits: int) -> Fraction:
 def quadratic_field(x: Fraction, bits: int) -> int | None:
     """Return a square-free integer d > 1 such that x is close to an irrational element of Q(sqrt(d)).
 
-    The element is a root of a quadratic polynomial with small integer coefficients. At x, the value of the
-    polynomial is a small multiple of 2^-bits. Return None if no such element is found.
+    The function finds a quadratic polynomial with small integer coefficients. The element of Q(sqrt(d)) is a
+    root of the polynomial. The value of the polynomial at x is a small multiple of 2^-bits. Return None if no
+    such element is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

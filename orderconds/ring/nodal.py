@@ -16,8 +16,8 @@ Order conditions of such a method can be computed with rational polynomials. Rat
 than arithmetic in a large number field: five Radau nodes generate a field of degree 24.
 
 Candidates for the rational coefficients are computed with balls (intervals) and then verified exactly in the
-number field. For a collocation method, multiplication by A maps a polynomial p to its integral from 0 to z,
-modulo M. For other methods, :class:`NodalAlgebra` adds corrections to the integral.
+number field. For a collocation method, multiplication by A maps a polynomial p in the variable z to its
+integral from 0 to z, modulo M. For other methods, :class:`NodalAlgebra` adds corrections to the integral.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ from orderconds.ring.protocol import Element, Ring
 
 BITS = 512
 """The precision, in bits, of the polynomial interpolation at the nodes. The interpolation returns a ball
-around each coefficient. The candidate for a coefficient is a rational number in its ball with the smallest
-denominator."""
+around each coefficient. Among the rational numbers in the ball, one with the smallest denominator is the
+candidate for the coefficient."""
 
 Matrix = Sequence[Sequence[Element]]
 
@@ -84,13 +84,14 @@ class NodalAlgebra:
         self.moments = [(k, q) for k, m in enumerate(functional) if (q := m - fmpq(1, k + 1))]
 
     def multiply(self, x: fmpq_poly, y: fmpq_poly) -> fmpq_poly:
-        """Return the product x y modulo M. If x and y represent two vectors, the result represents their
-        componentwise product."""
+        """Return the product x y modulo the polynomial M of the algebra. If x and y represent two vectors,
+        the result represents their componentwise product."""
         return x * y % self.modulus
 
     def apply(self, kind: int, x: fmpq_poly) -> fmpq_poly:
-        """Return the polynomial that represents the vector A v. Here A is the matrix with index ``kind``, and
-        v is the vector that x represents."""
+        """Return the polynomial that represents the vector A v. Here v is the vector that x represents, and A
+        is the matrix of the method with index ``kind`` in the argument ``matrices`` of
+        :func:`nodal_algebra`."""
         image = x.integral() % self.modulus
         for k, correction in self.corrections[kind]:
             image = image + correction * x[k]
@@ -107,8 +108,9 @@ class NodalAlgebra:
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
         """Return the matrices of two linear maps in the basis 1, z, z^2, ... of the algebra.
 
-        The first map multiplies a vector by A - e b^T, and the second map multiplies a vector by A. Here A is
-        the first matrix of the method, b is the vector of the weights, and e is the vector of ones.
+        Let p represent the vector v. The first map gives the polynomial that represents (A - e b^T) v, and
+        the second map gives the polynomial that represents A v. Here A is the first matrix of the method, b
+        is the vector of the weights, and e is the vector of ones.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))
@@ -130,7 +132,9 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
     - ``ring`` is not a :class:`NumberField`, or its degree is 1.
     - Two nodes are equal.
-    - The method lacks one of the rationality properties in the module docstring.
+    - The polynomial M with the roots c_i has an irrational coefficient.
+    - For a matrix A of the method and a number k below the number of stages, the polynomial of the vector
+      A c^k has an irrational coefficient, or the number sum_i b_i c_i^k is irrational.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))
@@ -192,8 +196,8 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """A function that takes the values of a polynomial at the nodes. The function returns a rational
-    candidate for each coefficient of the polynomial, computed by interpolation with balls."""
+    """A function that interpolates at the nodes with balls. The argument contains the values of a polynomial
+    at the nodes. The result contains a rational candidate for each coefficient of the polynomial."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)
@@ -232,8 +236,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return the polynomial whose values at the nodes are ``values``. Return None if its coefficients differ
-    from the rational candidates ``guess(values)``."""
+    """Return the polynomial whose values at the nodes are ``values``. ``guess(values)`` contains a rational
+    candidate for each coefficient. If a candidate differs from the coefficient, return None."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

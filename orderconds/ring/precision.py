@@ -12,7 +12,7 @@ from flint import ctx
 
 
 class precision:  # noqa: N801 - a lower-case name, because the class is used as ``with precision(200):``
-    """A context manager that sets the working precision of balls to ``bits`` in a ``with`` block. At the end
+    """A context manager that sets flint's working precision to ``bits`` bits in a ``with`` block. At the end
     of the block, the previous precision is restored.
 
     >>> from flint import arb

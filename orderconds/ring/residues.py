@@ -18,7 +18,8 @@ PRIMES = (2147483647, 2147483629)
 
 
 class Residues:
-    """The ring of vectors of ``samples`` residues modulo ``prime``, with componentwise arithmetic.
+    """The ring of vectors of residues modulo ``prime``, with componentwise arithmetic. The number of entries
+    of each vector is ``samples``.
 
     >>> R = Residues(101, 2)
     >>> R.text(R.rational(1, 2) * 2 + R.one)
@@ -43,7 +44,7 @@ class Residues:
         return hash((self.prime, self.samples))
 
     def rational(self, p: int, q: int = 1) -> Residue:
-        """Return the vector with p/q in every entry. Raises ZeroDivisionError if the prime divides q."""
+        """Return the vector with p/q in every entry. Raises ZeroDivisionError if ``self.prime`` divides q."""
         p, q = int(p) % self.prime, int(q) % self.prime
         if q == 0:
             raise ZeroDivisionError(f"the denominator of a fraction is divisible by the prime {self.prime}")
@@ -59,7 +60,7 @@ class Residues:
         return Residue(self, generator.integers(0, self.prime, self.samples, dtype=np.int64))
 
     def is_zero(self, x: Residue) -> bool:
-        """Return True if all samples are zero."""
+        """Return True if all entries of the vector x are zero."""
         return not x.values.any()
 
     def text(self, x: Residue) -> str:

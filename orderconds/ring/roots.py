@@ -104,8 +104,9 @@ def _meets(x: arb, near: fmpq, unit: fmpq) -> bool:
 
 
 def real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
-    """Return balls around the real roots of a polynomial, in ascending order. The index of a root in the
-    result does not depend on the precision ``bits``. The polynomial need not be monic.
+    """Return balls around the real roots of the polynomial ``monic``, in ascending order. The index of a root
+    in the result does not depend on the precision ``bits``. Despite the name of the parameter, the leading
+    coefficient need not be 1.
 
     >>> [float(x) for x in real_roots(fmpq_poly([-1, 0, 4]), 64)]
     [-0.5, 0.5]

@@ -43,7 +43,7 @@ class Samples:
         return Sample(self, nmod_poly([int(p) * pow(int(q), -1, self.prime)], self.prime))
 
     def element(self, values: Sequence[int]) -> Sample:
-        """Return the vector with the samples ``values``."""
+        """Return the vector whose entries are the residues of ``values``."""
         total = nmod_poly([0], self.prime)
         for k, value in enumerate(values):
             other = self.modulus // nmod_poly([-k, 1], self.prime)
@@ -57,7 +57,7 @@ class Samples:
         )
 
     def is_zero(self, x: Sample) -> bool:
-        """Return True if all samples are zero."""
+        """Return True if all entries of the vector x are zero."""
         return bool(x.polynomial.is_zero())
 
     def constant(self, x: Sample) -> int | None:
@@ -65,9 +65,9 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial that represents x, by ascending powers. A
-        linear dependence of vectors of samples is also a linear dependence of their coefficient lists, and
-        conversely."""
+        """Return the coefficients of the polynomial that represents the vector x (module docstring), by
+        ascending powers. The length of the list is the number of entries of x. A linear dependence of vectors
+        of samples is also a linear dependence of their coefficient lists, and conversely."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 

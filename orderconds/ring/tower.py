@@ -4,11 +4,11 @@ a method.
 Let K = Q(a) be a real number field, and b a real root of a polynomial p over K. The root is adjoined in three
 steps:
 
-1. In the algebra K[x]/(p), find an element c whose powers span the algebra. The element is c = x + m a with
-   an integer m, or c = a x.
+1. In the algebra K[x]/(p), find an element c whose powers span the algebra over Q. The element is c = x + m a
+   with an integer m, or c = a x.
 2. Factor the characteristic polynomial of c over Q.
-3. Insert x = b into c. The result is a real number r. Choose the irreducible factor with the root r. Balls
-   around r exclude the other factors.
+3. Insert x = b into c. The result is a real number r. Choose the irreducible factor with the root r. The
+   value of each other factor on a sufficiently small ball around r does not contain zero.
 
 The number r generates K(b). Therefore the degree of the chosen factor is the degree of K(b) over Q. If K(b)
 and K have equal degrees, then K contains b, and K is not extended. For example, if K contains sqrt(2), then
@@ -33,7 +33,8 @@ from orderconds.ring.roots import isolate
 MAX_DEGREE = 24
 """The largest degree over Q of the field of a :class:`Tower`."""
 MAX_DIMENSION = 64
-"""The largest dimension over Q of the algebra K[x]/(p) that is used to adjoin a root of p to a field K."""
+"""A root of p is adjoined to a field K only if the dimension of the algebra K[x]/(p) over Q is at most
+MAX_DIMENSION."""
 
 
 class DegreeError(ArithmeticError):
@@ -70,8 +71,9 @@ class Tower:
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the current field, and a function that converts the elements of this tower to elements of
-        the current field. If the current field has degree 1, the returned field is QQ."""
+        """Return the field of this tower with all roots that were adjoined so far, and a function that
+        converts the elements of this tower to elements of the returned field. If the degree is 1, the
+        returned field is QQ."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -82,7 +84,8 @@ class Tower:
         return max(int(polynomial.numer().height_bits()), int(polynomial.denom().bit_length()))
 
     def root(self, x: Algebraic, index: int) -> Algebraic:
-        """Return the real ``index``-th root of x. If the field does not contain the root, it is adjoined.
+        """Return the real ``index``-th root of x. If the field does not contain the root, the root is
+        adjoined to the field.
 
         Raises ValueError if x is negative and ``index`` is even. Raises :class:`DegreeError` if the field
         would become too large.
@@ -134,8 +137,8 @@ class Tower:
         return root
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
-        """Return the only real root of a polynomial in [near - unit, near + unit]. ``minpoly`` contains the
-        coefficients of the polynomial by ascending powers.
+        """Return the real root of a polynomial that lies in the interval [near - unit, near + unit].
+        ``minpoly`` contains the coefficients of the polynomial by ascending powers.
 
         Raises ValueError if the interval does not contain exactly one root. Raises :class:`DegreeError` if
         the field would become too large.
@@ -196,11 +199,11 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Find an element c that generates the algebra K[x]/(p) over Q. Return the value m that defines c, and
-    the :class:`_Relation` of c. Here K = Q(a) is ``field``, and p is the polynomial x^k - sum_j powers[j] x^j
-    with k = len(powers).
+    """Find an element c that generates the algebra K[x]/(p) over Q. Here K = Q(a) is ``field``, and p is the
+    polynomial x^k - sum_j powers[j] x^j with k = len(powers).
 
-    Let b be the residue class of x. If m is an integer, then c = b + m a. If m is None, then c = a b.
+    Let b be the residue class of x. Return m and the :class:`_Relation` of c. If m is an integer, then
+    c = b + m a. If m is None, then c = a b.
     """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
@@ -229,10 +232,11 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of an element of the algebra K[x]/(p) and c. See :func:`_primitive` for K, p, b and
-    c. The argument ``multiplier`` is the value m that defines c.
+    """Multiply an element of the algebra Q(a)[x]/(p) by an element c. Let b be the residue class of x. If
+    ``multiplier`` is an integer m, then c = b + m a. If ``multiplier`` is None, then c = a b. The arguments
+    ``powers`` define p, see :func:`_primitive`.
 
-    The element is given by the list ``vector`` of its coefficients of 1, b, b^2, and so on.
+    In ``vector`` and in the result, an element v_0 + v_1 b + v_2 b^2 + ... is the list [v_0, v_1, v_2, ...].
     """
     field = powers[0].field
     top = vector[-1]
@@ -255,8 +259,8 @@ def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
 
 
 def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
-    """Return the monic irreducible factor of ``characteristic`` with a given real root. The function
-    ``enclosure`` computes balls around the root."""
+    """The function ``enclosure`` computes balls around a real root of ``characteristic``. Return the monic
+    irreducible factor of ``characteristic`` that has this root."""
     factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
     bits = 64
     while len(factors) > 1:

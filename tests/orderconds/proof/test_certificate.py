@@ -76,7 +76,10 @@ def test_equations_that_hold_whatever_the_decimals_are_do_not_count() -> None:
 
 
 REFUSED: dict[str, tuple[str, str]] = {
-    "too few equations": (kutta3(ZEROS), "3 equations for 4 unknowns; add 1 of the unknowns to the list"),
+    "too few equations": (
+        kutta3(ZEROS),
+        "3 equations for 4 unknowns; add 1 of the unknowns, by name, to the list",
+    ),
     "too many equations": (
         kutta3(ZEROS, 'conditions = "rk"\norder = 4\npins = ["x"]'),
         "7 equations for 3 unknowns; name a reduction",
