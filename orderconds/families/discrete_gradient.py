@@ -59,5 +59,5 @@ class DiscreteGradientFamily(Family):
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None, because a step evaluates no vector field whose evaluations could be counted."""
+        """Return None: a step evaluates no vector field, so there are no evaluations to count."""
         return None

@@ -81,8 +81,9 @@ def weight_conditions(
 ) -> tuple[OrderCondition, ...]:
     """Return the order conditions of the trees. Each condition is a :func:`weight_condition`.
 
-    The elementary weights of some trees depend on the weights of other trees. The function ``switching``
-    returns these relations as polynomials. If ``switching`` is given, the conditions store the relations.
+    The elementary weights of some trees are polynomials in the elementary weights of other trees. The
+    function ``switching`` returns the polynomial of a tree. If ``switching`` is given, each condition of such
+    a tree stores the polynomial as text.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -117,10 +118,13 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return an index sum over ``indices`` and over the vertices of ``tree`` below the root.
+    """Return an index sum for ``tree``. Each term is the product of ``factors`` and of the factors that
+    come from the branches at the root.
 
-    Each term is the product of ``factors`` and of one coefficient a_ij or ahat_ij for each edge. The last
-    item of ``indices`` is the index of the root. See :func:`elementary_weight` for ``below``.
+    A leaf gives a factor c_i or chat_i. A larger branch gives a factor a_ij or ahat_ij, a new summation index
+    j, and the factors of its own branches. If larger branches are equal, the factor is a power of one inner
+    sum. The other summation indices are ``indices``. The last item of ``indices`` is the index of the root.
+    The function ``below`` returns the branches at the root of a tree (see :func:`elementary_weight`).
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)
@@ -135,7 +139,7 @@ def _multiply(
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> None:
     counted: dict[tuple[int, TreeT], int] = {}
-    # Leaves give the factors c_i. In the product, the factors c_i come before the sums of larger branches.
+    # The branches are sorted so that the factors c_i of leaves come before the factors of larger branches.
     for branch in sorted(below(tree), key=lambda x: len(x[1]) > 1):
         counted[branch] = counted.get(branch, 0) + 1
     for (kind, child), times in counted.items():

@@ -1,13 +1,13 @@
 """Fer methods for Y' = A(t) Y. A step is a product of exponentials, exp(F_1) exp(F_2).
 
-Let A_i be h times the value of A at node i. Then F_1 = sum_i b_i A_i. The exponent F_2 is a combination
-of brackets. If all brackets are expanded, F_2 = sum_{ij} phi_ij A_j A_i + .... If a method has more than
-two exponentials, exp(F_2) denotes the product of all factors except exp(F_1).
+Let A_i be h times the value of A at node i. Then F_1 = sum_i b_i A_i. If a method has two exponentials, the
+exponent F_2 is a combination of brackets. If a method has more exponentials, F_2 denotes the logarithm of
+the product of all factors except exp(F_1). In both cases F_2 = sum_{ij} phi_ij A_j A_i + ....
 
-Each condition belongs to a Lyndon word. The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... A
-word with one letter gives a condition on the quadrature rule with the nodes c_i and the weights b_i. If these
-conditions hold, F_1 approximates F, the integral of A over one step. Let Y be the exact flow. The conditions
-of longer words compare F_2 with the logarithm of exp(-F) Y.
+There is one condition for each Lyndon word. The letters are numbers. The number k denotes X_k in
+A(t) = X_1 + t X_2 + .... A word with one letter gives a condition on the quadrature rule with the nodes c_i
+and the weights b_i. If these conditions hold, F_1 approximates F, the integral of A over one step. Let Y be
+the exact flow. The conditions of longer words compare F_2 with the logarithm of exp(-F) Y.
 
 Sources: Fer (1958); Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3;
 Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259.
@@ -41,8 +41,8 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Fer methods. The exponent F_1 acts last and contains no commutators. All terms of the other exponents
-    are commutators.
+    """Fer methods. The exponent of the exponential that acts last contains no commutators. All terms of the
+    other exponents are commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -55,18 +55,21 @@ class FerFamily(MagnusFamily):
         "Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), where F_1 = sum_i b_i A_i and F_2 contains "
         "only brackets."
     )
-    implies: ClassVar[Mapping[str, str]] = {"magnus": "the step of a Fer method is also a single exponential"}
+    implies: ClassVar[Mapping[str, str]] = {
+        "magnus": "the product of the exponentials of a Fer method is equal to a single exponential"
+    }
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because the file of a Fer method states its order in the family ``magnus``."""
+        """Return None: the tableau file of a Fer method does not state the order in this family. The file
+        states the order in the family ``magnus``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` if the exponents do not have the form of a Fer method.
 
-        The exponent F_1 acts last and must not contain commutators. All terms of the other exponents must be
-        commutators.
+        The exponent of the exponential that acts last must not contain commutators. All terms of the other
+        exponents must be commutators.
         """
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
@@ -75,16 +78,17 @@ class FerFamily(MagnusFamily):
                 "the exponent that acts last contains commutators, or another exponent has terms without "
                 "commutators",
                 where=f"family {self.name}",
-                expected="no commutators in the exponent that acts last, only commutators in other exponents",
+                expected="no commutators in the exponent that acts last, and only commutators as terms of "
+                "the other exponents",
                 hint="use the family 'magnus'",
             )
 
     def exact(self, word: Word) -> Fraction:
         """Return the right-hand side of the condition of a word.
 
-        For a word that consists of one letter k, the right-hand side is 1/k. Let Y be the exact flow and F
-        the integral of A over one step. For a longer word, the right-hand side is the coefficient of the
-        word in the series log(exp(-F) Y).
+        For a word that consists of one letter k, the right-hand side is 1/k. Let Y be the exact flow of
+        Y' = A(t) Y, and let F be the integral of A over one step. For a longer word, the right-hand side is
+        the coefficient of the word in the series log(exp(-F) Y).
         """
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
@@ -100,9 +104,9 @@ class FerFamily(MagnusFamily):
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
         """Return a function that maps each word to the left-hand side of its condition.
 
-        The exponent F_1 acts last. Let F_2 be the logarithm of the product of all other exponentials. The
-        left-hand side of a word with one letter is its coefficient in F_1. The left-hand side of a longer
-        word is its coefficient in F_2.
+        Let F_1 be the exponent of the exponential that acts last. Let F_2 be the logarithm of the product of
+        all other exponentials. For a word with one letter, the left-hand side is the coefficient of the word
+        in F_1. For a longer word, the left-hand side is the coefficient of the word in F_2.
         """
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)

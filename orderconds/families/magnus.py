@@ -70,8 +70,8 @@ class MagnusFamily(WordFamily):
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the method does not use the map :attr:`transform`,
-        ``exp`` or ``cay``."""
+        """Raise :class:`~orderconds.errors.InputError` if the map of the method differs from the map of
+        this family, :attr:`transform`. A map is the string "exp" or "cay"."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:
             raise InputError(
@@ -89,7 +89,8 @@ class MagnusFamily(WordFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a Magnus method with the map :attr:`transform`, else None.
 
-        The tableau file of the method should state the order in the returned family.
+        If this family is returned, the tableau file should state up to which order the method satisfies the
+        conditions of this family.
         """
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
@@ -112,8 +113,8 @@ class MagnusFamily(WordFamily):
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the coefficient of a word in Omega as a linear combination of coefficients of Lyndon
-        words."""
+        """Return the coefficient of ``word`` in the series Omega, as a linear combination of the
+        coefficients of Lyndon words in Omega."""
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -121,15 +122,15 @@ class MagnusFamily(WordFamily):
         return product_logarithm(ring, exponent_values(ring, expect(method, Magnus)), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return a random product of ``order`` exponentials or ``order`` Cayley transforms."""
+        """Return a random method: a product of ``order`` exponentials, or of ``order`` Cayley transforms."""
         return random_product(ring, generator, order, self.transform)
 
 
 def node_sum(name: str, word: Word) -> Formula:
     """Return the coefficient of a word as a sum over the nodes i, j, ....
 
-    Let k_1, k_2, ... be the letters of the word, and let ``name`` be "omega", for example. Then the terms of
-    the sum are omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ....
+    Let p, q, ... be the letters of the word. If ``name`` is "omega", the terms of the sum are
+    omega_{ij...} c_i^(p - 1) c_j^(q - 1) ....
 
     >>> from orderconds.formula import named
     >>> named(node_sum("omega", (2, 1, 3))).text()

@@ -1,5 +1,5 @@
-"""Runge-Kutta-Munthe-Kaas methods, rewritten as programs with few brackets. The compiler emits such a program
-for a method of the family ``rkmk`` without truncation of dexpinv.
+"""Runge-Kutta-Munthe-Kaas methods, rewritten as programs with few brackets. For a method of the family
+``rkmk`` that does not truncate dexpinv, the compiler emits such a program.
 
 The order of the program is checked with the order conditions of ``rkmk``. The left-hand sides of the
 conditions are coefficients of the Lie-Butcher series of the program.
@@ -46,8 +46,8 @@ class MinimalBrackets(MuntheKaasFamily):
         return BracketedSeries(ring, inner.program)
 
     def converted(self, convert: Callable[[Element], Element]) -> MinimalBrackets:
-        """Return a copy of this family. In the copy, ``convert`` is applied to each coefficient of the
-        program."""
+        """Return a copy of this family. Each coefficient x of :attr:`program` is replaced by
+        ``convert(x)``."""
 
         def row(given: Row) -> Row:
             return {name: convert(x) for name, x in given.items()}
@@ -63,5 +63,6 @@ class MinimalBrackets(MuntheKaasFamily):
         )
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None, because the theorem on the truncation of dexpinv does not apply to ``program``."""
+        """Return None, so that all conditions are evaluated. The conditions are those of :attr:`program`, but
+        the theorem on the truncation of dexpinv is about the tableau ``method``."""
         return None

@@ -91,8 +91,8 @@ class OrderedForestFamily(Family):
 
 @lru_cache(maxsize=1 << 16)
 def scale(forest: Forest) -> int:
-    r"""Return the product of the factorials of the lengths of all words in a forest. A forest is a word, and
-    its letters are trees. The branches at each vertex also form a word.
+    r"""Return a product of factorials. A forest is a word, and its letters are trees. The branches at each
+    vertex also form a word. A word of length n gives the factor n!.
 
     >>> scale(b"\0\1\1\0")
     4

@@ -66,22 +66,25 @@ class PartitionedFamily(Family):
         return weight_conditions(self.name, trees, bicoloured.text, rooted_weight)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[BicolouredTree, Callable[[], OrderCondition]]]:
-        """Yield a pair (tree, function) for each tree. The function returns the condition of the tree."""
+        """Yield a pair (tree, function) for each tree with ``order`` vertices. The function returns the
+        condition of the tree."""
         for tree in bicoloured.bicoloured_rooted_trees(order):
             yield tree, partial(weight_condition, self.name, tree, bicoloured.text, rooted_weight)
 
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the elementary weights of a pair of tableaux, one for each element of ``conditions``."""
+        """Return the elementary weight of the tree of each condition, for a pair of tableaux."""
         return rooted_weights(as_pair(method), ring, conditions)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a pair of tableaux that is not symplectic, else None.
+        """Return this family for a pair of tableaux unless the pair is proved to be symplectic. Otherwise
+        return None.
 
-        The tableau file of such a pair should state the order of the method in this family. The file of a
-        symplectic pair should state the order in the family ``sprk_separable``.
+        If this family is returned, the tableau file should state up to which order the pair satisfies the
+        conditions of this family. The file of a symplectic pair should state up to which order the pair
+        satisfies the conditions of the family ``sprk_separable``.
         """
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
@@ -97,8 +100,8 @@ class PartitionedFamily(Family):
         """For a symplectic pair with b = bhat and non-zero weights, return the family ``sprk`` and the first
         tableau of the pair. For other methods, return None.
 
-        For these pairs, the conditions of ``sprk`` imply all conditions of ``prk``. The family ``sprk`` has
-        fewer conditions, one for each free tree (HLW VI.7, Theorem 7.4).
+        If a symplectic pair has non-zero weights b = bhat, the conditions of ``sprk`` imply all conditions of
+        ``prk``. The family ``sprk`` has fewer conditions, one for each free tree (HLW VI.7, Theorem 7.4).
         """
         if not isinstance(method, PartitionedRungeKutta):
             return None

@@ -45,7 +45,8 @@ class SameWeightsFamily(PartitionedFamily):
         return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[DirectedTree, Callable[[], OrderCondition]]]:
-        """Yield a pair (tree, function) for each tree. The function returns the condition of the tree."""
+        """Yield a pair (tree, function) for each tree with ``order`` vertices. The function returns the
+        condition of the tree."""
         for tree in directed.directed_rooted_trees_in_turn(order):
             yield tree, partial(weight_condition, self.name, tree, directed.text)
 
@@ -56,8 +57,8 @@ class SameWeightsFamily(PartitionedFamily):
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the weights b and bhat are not proved to be
-        equal."""
+        """Raise :class:`~orderconds.errors.InputError` if the weights b and bhat differ, or if it is
+        undecided whether b and bhat are equal."""
         pair = as_pair(method)
         for i, (x, y) in enumerate(zip(pair.b, pair.b_hat, strict=True), 1):
             if x is not y and ring.is_zero(x - y) is not True:
@@ -71,7 +72,7 @@ class SameWeightsFamily(PartitionedFamily):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the elementary weights of a pair of tableaux, one for each element of ``conditions``."""
+        """Return the elementary weight of the tree of each condition, for a pair of tableaux."""
         pair = as_pair(method)
         weights = ElementaryWeights[DirectedTree](ring, (pair.A, pair.A_hat), pair.b, kept_branches)
         return tuple(weights(condition.key) for condition in conditions)

@@ -14,8 +14,8 @@ reductions:
   truncation, they are not evaluated (:mod:`orderconds.families.dexpinv_cut`).
 
 The assumptions of a reduction are verified for each tableau in exact arithmetic. If the coefficients are
-balls (intervals), only the third reduction is used. The balls must be proved to contain a solution of the
-order conditions.
+balls (intervals), only the third reduction is used. In this case, a separate proof must show that the balls
+contain a solution of the order conditions.
 """
 
 from __future__ import annotations
@@ -56,9 +56,10 @@ class UnseenCut(Struct, frozen=True):
 class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
-    ``even`` is true if the method is symmetric, because the order of a symmetric method is even.
-    ``substitute`` contains a family whose conditions imply the conditions of the original family, or None.
-    ``cut`` describes the conditions that the truncation of dexpinv does not change, or is None.
+    ``even`` is true if the method is symmetric. Then the order of the method is even. ``substitute`` contains
+    a family whose conditions imply the conditions of the original family, or is None. If the method truncates
+    the series dexpinv, ``cut`` describes which conditions are the same with and without truncation. Without a
+    description, ``cut`` is None.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]
@@ -76,8 +77,8 @@ class Reductions(Struct, frozen=True):
 
     def rest_follows(self, n: int) -> bool:
         """Return True if ``substitute.method`` satisfies the conditions of order n of
-        ``substitute.family``. These conditions imply all conditions of order n. Return False if
-        ``substitute`` is None."""
+        ``substitute.family``. Then all conditions of order n of the original family hold, too. If
+        ``substitute`` is None, return False."""
         if self.substitute is None:
             return False
         family, method = self.substitute.family, self.substitute.method
@@ -85,9 +86,11 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Return True if ``cut`` implies the condition of order ``n`` of the tree or forest ``key``.
+        """Return True if the description ``cut`` proves the condition of the tree or forest ``key``. The
+        condition has the order ``n``.
 
-        Without truncation of dexpinv, all conditions up to the order ``cut.order`` hold. With truncation, the
-        unchanged conditions among them also hold.
+        Without truncation of dexpinv, the method satisfies all conditions up to the order ``cut.order``. If
+        the truncation does not change the left-hand side of one of these conditions, the method with
+        truncation satisfies this condition, too.
         """
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

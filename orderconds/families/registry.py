@@ -143,8 +143,8 @@ def with_conditions() -> tuple[str, ...]:
 
 
 def installed_names() -> tuple[str, ...]:
-    """Return :func:`names`, followed by the names of families that installed packages provide and that are
-    not registered.
+    """Return :func:`names`, followed by the names of other families. Installed packages provide these
+    families, which are not registered yet.
 
     >>> set(names()) <= set(installed_names())
     True
@@ -195,8 +195,8 @@ def family_class(name: str) -> type[Family]:
 
 
 def _installed(name: str) -> type[Family] | None:
-    """Register the family ``name`` of an installed package and return its class. Return None if no package
-    has this family."""
+    """Register the family ``name`` of an installed package and return the class of the family. If no
+    installed package provides this family, return None."""
     from importlib import metadata
 
     for entry in metadata.entry_points(group=ENTRY_POINT_GROUP, name=name):

@@ -32,7 +32,8 @@ monomial is a sorted tuple of keys. The dictionary maps each monomial to the coe
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
 """A function that moves the root of a tree along each edge at the root. For each edge, the function yields
 three trees u, v, w. Without the edge, the tree consists of two trees: u contains the root, and v does not.
-The tree w = v o u is the tree v with u as an additional branch of the root of v."""
+The tree w is the result of the move: the given tree with the root of v as its root. In the notation
+w = v o u, the tree u is an additional branch at the root of v."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
@@ -79,9 +80,12 @@ def multiply(x: Polynomial, y: Polynomial) -> Polynomial:
 
 
 class RootSwitching:
-    """The elementary weights of a symplectic method as polynomials in the elementary weights of independent
-    trees. ``independent(n)`` returns the independent trees with n vertices. ``moves`` is a function of type
-    :data:`Moves`.
+    """A function that maps a tree to a polynomial. For a symplectic method, the elementary weight of the tree
+    is this polynomial in the elementary weights of independent trees.
+
+    The call ``independent(n)`` returns the independent trees with n vertices. The elementary weights of these
+    trees and of smaller trees determine the elementary weight of each tree with n vertices. ``moves`` is a
+    function of type :data:`Moves`.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING
     >>> from orderconds.trees.levels import parse, text
@@ -94,7 +98,7 @@ class RootSwitching:
         self._known: dict[bytes, Polynomial] = {}
 
     def __call__(self, tree: bytes) -> Polynomial:
-        """Return the elementary weight of a tree as a polynomial in the weights of independent trees."""
+        """Return the elementary weight of ``tree``, as a polynomial in those of independent trees."""
         if tree not in self._known:
             self._known[tree] = self._reduced(tree)
         return self._known[tree]
@@ -121,10 +125,11 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions. Each dependent condition stores its relation as text.
+    """Return the conditions. Each dependent condition is replaced by a copy that stores a polynomial as text.
 
-    The function ``polynomial`` maps the key of a condition to its left-hand side, written as a polynomial in
-    left-hand sides of independent conditions. The function ``text`` converts a key to text.
+    The left-hand side of a dependent condition is a polynomial in left-hand sides of independent conditions.
+    The function ``polynomial`` maps the key of a condition to this polynomial. The function ``text`` converts
+    a key to text. Independent conditions are returned unchanged.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
@@ -155,8 +160,9 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The product of the coefficients of ``factors`` is the coefficient of their shuffle product. In the
-    # shuffle product, the factor of ``word`` is ``repeated``. All other words are lexicographically smaller.
+    # The product of the coefficients of the words in ``factors`` is the coefficient of the shuffle product of
+    # these words. The shuffle product contains ``word`` with multiplicity ``repeated``. All other words in
+    # the shuffle product are lexicographically smaller.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}

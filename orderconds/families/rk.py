@@ -86,7 +86,8 @@ class RungeKuttaFamily(Family):
 
 
 def symmetric_tableau(method: Method, ring: Ring) -> bool:
-    """Return True if a tableau, or each tableau of a pair, is proved to be symmetric.
+    """Return True if a tableau is proved to be symmetric. For a partitioned method, each of the two tableaux
+    must be proved to be symmetric.
 
     >>> from orderconds.tableau import find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -114,8 +115,8 @@ def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
 
 
 def has_weights(tableau: Tableau, *, nonzero: bool = False) -> bool:
-    """Return True for a Runge-Kutta tableau or a composition. If ``nonzero`` is true, all numbers in
-    :func:`weights_of` must also be proved to be non-zero.
+    """Return True for a Runge-Kutta tableau or a composition. If ``nonzero`` is true, return True only if
+    also all numbers in :func:`weights_of` are proved to be non-zero.
 
     >>> from orderconds.tableau import find
     >>> cg4 = Tableau.load(find("cg4"))

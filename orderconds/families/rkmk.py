@@ -1,13 +1,13 @@
 """Runge-Kutta-Munthe-Kaas methods. The methods use dexpinv, the inverse of the differential of exp. The
 function dexpinv is a power series in the operator ad. The family ``rkmk(r)`` truncates the series after the
-power r of ad. The family ``rkmk`` does not truncate the series.
+term with ad^r. The family ``rkmk`` does not truncate the series.
 
 There is one condition for each Lyndon word over ordered trees. The left-hand side of the condition is a
 multiple of the coefficient of the word in the Lie-Butcher series of the method.
 
 Let p be the order of the tableau as a Runge-Kutta method. If r >= 2 is even, let R = r + 1. Otherwise let
 R = r. A method of ``rkmk(r)`` has the order min(p, R + 2). For even r >= 2 the Bernoulli number B_{r+1} is
-zero, so truncation after the powers r and R gives the same method.
+zero, so ``rkmk(r)`` and ``rkmk(r + 1)`` are the same method.
 """
 
 from __future__ import annotations
@@ -91,17 +91,19 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word in the forest ``key``. The trees of the forest form a word,
-        and the branches of each vertex form a word."""
+        """Return the length of the longest word in the forest ``key``. The words are sequences of trees: the
+        forest itself, and the branches at each vertex."""
         assert isinstance(key, bytes)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .`` of the given order.
+        """Return the condition of one word. The first letter of the word is the tree with two vertices. The
+        other ``order`` - 2 letters are trees with one vertex.
 
-        The word has one tree with two vertices and ``order`` - 2 trees with one vertex. The module docstring
-        defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies the returned condition
-        and all other conditions up to this order. If dexpinv is not truncated or ``order`` < 3, return None.
+        The module docstring defines R. Let ``order`` be R + 3. If a method with truncated dexpinv satisfies
+        all other conditions up to the order R + 3, the method violates the returned condition.
+
+        If dexpinv is not truncated or ``order`` < 3, return None.
         """
         if self.cutoff is None or order < 3:
             return None
@@ -111,10 +113,10 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return independent conditions of the given order. Together with the conditions of lower order, the
         returned conditions imply all :meth:`conditions` of the given order.
 
-        Without truncation of dexpinv, there is one independent condition for each rooted tree. A truncation
-        of dexpinv adds one condition of order R + 3, where R is the number in the module docstring. A method
-        with truncation cannot satisfy all conditions up to order R + 3. The order of the method is at most
-        R + 2.
+        Without truncation of dexpinv, there is one independent condition for each rooted tree. The module
+        docstring defines R. A truncation of dexpinv adds one condition of order R + 3. Because this condition
+        contradicts the other conditions up to this order (:meth:`first_unmet`), the order of the method is at
+        most R + 2.
 
         The computation requires NumPy. If ``order`` is above :data:`RANKED`, return all :meth:`conditions`.
 
@@ -141,9 +143,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         )
 
     def highest_order(self, limit: int) -> int:
-        """Return the highest order of methods that truncate dexpinv after the power ``self.cutoff`` of ad.
-        The result is at most ``limit``. Raises ValueError if ``limit`` is above :data:`RANKED`, because the
-        independent conditions are not computed above this order.
+        """Return the highest order of methods that truncate dexpinv after the term with ad^r, where r is
+        ``self.cutoff``. The result is at most ``limit``. Raises ValueError if ``limit`` is above
+        :data:`RANKED`, because the independent conditions are not computed above this order.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -161,7 +163,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
 
 class _Words:
-    """The coefficients of words in the series of the exponents, as index sums.
+    """Index sums for the coefficients of words in the series u_i and exp(u_i). The letters of a word are
+    trees.
 
     Let u_i be the exponent of stage i, and let k_j be the value of the vector field at stage j. Let
     dexpinv_u be the inverse of the differential of exp at u. Then u_i = sum_j a_ij dexpinv_{u_j}(k_j). If
@@ -216,9 +219,10 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # The series dexpinv_u(x) is a sum of terms q u^n x u^m with numbers q. In a word, x gives the
-                # letter ``tree``, u^m gives the letters before it, and u^n gives the letters after it. The
-                # power u^m with m > 0 gives m or more letters, and u^0 gives none.
+                # The series dexpinv_u(x) is a sum of terms q u^n x u^m with numbers q. In the word, x gives
+                # the letter ``tree``, u^m gives the letters before ``tree``, and u^n gives the letters after
+                # ``tree``. Each factor u gives one or more letters. Hence u^m gives at least m letters, and
+                # u^0 gives none.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
                     # In the product u^n x u^m, the factor u^m acts first. The letters of a word appear in
                     # the order in which they act, so the letters of u^m come first.
@@ -233,8 +237,8 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # With ``order`` stages, the elementary weights of trees with ``order`` vertices are linearly
-        # independent.
+        # The tableau has n = ``order`` stages. As functions of such a tableau, the elementary weights of the
+        # trees with n vertices are linearly independent.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 

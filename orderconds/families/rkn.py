@@ -3,8 +3,9 @@ brackets of T and V are zero.
 
 Let x and y be functions of q alone. Then [x,[T,y]] is also a function of q alone, because T is quadratic in
 p. Let F be the smallest set that contains V and, for all x and y in F, also [x,[T,y]]. All elements of F are
-functions of q alone, so [x,y] = 0 for all x and y in F. In the free algebra over T and V, the brackets [x,y]
-generate an ideal. For x != y, the shortest bracket [x,y] is [V,[V,[V,T]]], up to the sign.
+functions of q alone, so [x,y] = 0 for all x and y in F. If T and V are instead the generators of a free
+algebra, the brackets [x,y] need not be zero. These brackets generate an ideal. The shortest non-zero bracket
+is the bracket of x = V and y = [V,[T,V]]. Up to the sign, it is [V,[V,[V,T]]].
 
 A functional is a linear combination of words over T and V. The functionals that are zero on the ideal form a
 vector space. There is one condition for each functional in a basis of the vector space. The numbers of
@@ -49,8 +50,9 @@ T, V = 0, 1
 
 @register
 class NystroemFamily(Family):
-    """Splittings into the flows of T and V. The key ``rkn`` of the tableau file states which part is V. Each
-    condition corresponds to a linear combination of words over T and V.
+    """Splittings of the Hamiltonian T + V, where T is quadratic in p and V depends on q only. A step is a
+    product of flows of T and V. The key ``rkn`` of the tableau file states which part is V. Each condition
+    corresponds to a linear combination of words over T and V.
 
     >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]
@@ -108,7 +110,8 @@ class NystroemFamily(Family):
         return tuple(results)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknowns of a method with ``stages`` stages: the step sizes of a splitting T + V."""
+        """Return the unknowns of a splitting T + V. Each of the ``stages`` stages has two unknowns, the step
+        sizes of the flows of T and V."""
         form = SplittingFamily().in_stages(stages, explicit=explicit)
         return StageForm(form.names, lambda values, ring: _nystroem(form.method(values, ring)))
 
@@ -117,20 +120,23 @@ class NystroemFamily(Family):
         """Return this family if the method is a splitting and its tableau file contains the key ``rkn``.
         Otherwise return None.
 
-        The tableau file should state the order of the method in the returned family.
+        If this family is returned, the tableau file should state up to which order the method satisfies the
+        conditions of this family.
         """
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return pairs (family, bound) for a symmetric method that has the order ``order`` in this family.
-        The order of the method in ``family`` is at least ``bound``.
+        """Return pairs (label, bound), where ``label`` is the label of a family. If a symmetric method
+        satisfies the conditions of this family up to ``order``, it satisfies the conditions of the family
+        ``label`` up to the order ``bound``.
 
-        The bound in this family is ``order``. The bound in the family ``splitting`` is min(``order``, 4).
+        The bound for this family is ``order``. The bound for the family ``splitting`` is min(``order``, 4).
 
-        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Up to order three, this
-        family and the family ``splitting`` therefore have the same conditions. The order of a symmetric
-        method is even. Hence a symmetric splitting of order three has order four.
+        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Therefore both families
+        have the same conditions up to order three. The order of a symmetric method is even. Hence a symmetric
+        splitting that satisfies these conditions up to order three has order four in the family
+        ``splitting``.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
@@ -219,8 +225,8 @@ def independent(order: int) -> tuple[Functional, ...]:
 def _potentials(weight: int) -> tuple[Series, ...]:
     """Return the elements of F whose words have ``weight`` letters. The module docstring defines the set F.
 
-    The result contains only one of the two elements [x,[T,y]] and [y,[T,x]] for x and y in F, because their
-    difference is in the ideal.
+    For x and y in F, the result contains only one of the two elements [x,[T,y]] and [y,[T,x]]. The difference
+    of the two elements is [T,[x,y]], which is in the ideal that the commutators [x,y] generate.
     """
     if weight == 1:
         return (expand(V),)
@@ -235,8 +241,8 @@ def _potentials(weight: int) -> tuple[Series, ...]:
 
 @lru_cache(maxsize=32)
 def _ideal(order: int) -> tuple[Series, ...]:
-    """Return generators of the ideal of the module docstring: commutators [x, y], where x and y are
-    elements of F. The words of [x, y] have at most ``order`` letters."""
+    """Return the commutators [x, y] whose words have at most ``order`` letters, where x and y are elements
+    of the set F. The module docstring defines F. The commutators generate an ideal."""
     known = [(n, x) for n in range(1, order) for x in _potentials(n)]
     return tuple(
         bracket
@@ -287,8 +293,8 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return all products of functionals from :func:`independent` whose orders add up to ``order``. No factor
-    has an order above ``heaviest``."""
+    """Return all products with functionals from :func:`independent` as factors. The orders of the factors add
+    up to ``order``. No factor has an order above ``heaviest``."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:

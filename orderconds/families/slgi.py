@@ -1,9 +1,9 @@
 """Symplectic Lie group integrators (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*,
 PhD thesis, NTNU Trondheim, 2014, Section 2.5).
 
-The methods are those of the family ``vrkmk(0)``: variational Runge-Kutta-Munthe-Kaas methods. The identity
-replaces dexpinv, the inverse of the differential of exp. Hence a step computes no brackets, and the order is
-at most two. The methods with one stage are theta-methods.
+The methods are those of the family ``vrkmk(0)``: variational Runge-Kutta-Munthe-Kaas methods. In these
+methods the identity map is used instead of dexpinv, which is the inverse of the differential of exp. Hence a
+step computes no brackets, and the order is at most two. The methods with one stage are theta-methods.
 """
 
 from __future__ import annotations
@@ -42,13 +42,13 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return self.name
 
     def claim(self, order: int) -> OrderClaim:
-        """Return an :class:`OrderClaim`: a method has the order ``order`` in the family ``slgi``."""
+        """Return the claim that a method has the order ``order`` in the family ``slgi``."""
         return OrderClaim(self.name, None, order)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: tableau files do not state the order in the family ``slgi``, because the methods of
-        ``slgi`` have the same order in the family ``vrkmk(0)``."""
+        """Return None: tableau files do not state the order in the family ``slgi``. They state the order in
+        the family ``vrkmk(0)``, and the two orders are equal."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -58,7 +58,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order of a method in this family.
 
-        ``orders`` maps the labels of other families to the orders of the method. The bound is at least the
-        order in the family ``vrkmk(0)``.
+        ``orders`` maps the labels of other families to the orders of the method in these families. One lower
+        bound is the order in the family ``vrkmk(0)``. The base class gives another lower bound. The result is
+        the larger of the two.
         """
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

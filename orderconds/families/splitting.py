@@ -42,8 +42,9 @@ MAX_PARTS = 6
 
 @register
 class SplittingFamily(WordFamily):
-    """Splittings of a vector field into ``parts`` fields, called parts. A word is a sequence of the indices
-    0, 1, ... of the parts. In the printed form of a word, the letters A, B, ... replace the indices.
+    """Splittings of a vector field into a sum of vector fields, called parts. The number of parts is
+    ``parts``. The parts have the indices 0, 1, .... A word is a sequence of indices of parts. In the printed
+    form of a word, the letters A, B, ... replace the indices.
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -131,7 +132,8 @@ class SplittingFamily(WordFamily):
         """Return this family if the method is a splitting or a composition of a method with its adjoint.
         Otherwise return None.
 
-        The tableau file should state the order of the method in the returned family.
+        If this family is returned, the tableau file should state up to which order the method satisfies the
+        conditions of this family.
         """
         method = tableau.method
         if isinstance(method, AdjointComposition):
@@ -153,13 +155,13 @@ class SplittingFamily(WordFamily):
         return "rkn" if nystroem else self.label()
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
-        """Return a function that maps each word to its coefficient in the series of one step."""
+        """Return the series of one step, as a callable object that maps each word to its coefficient."""
         steps = expect(method, Splitting).steps
         return ProductOfExponentials(ring, len(steps), lambda J, k: steps[J][1] if steps[J][0] == k else None)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknowns of a method with ``stages`` stages: the step sizes of a splitting. Every stage
-        contains the flows of all parts."""
+        """Return the unknowns of a splitting with ``stages`` stages. Every stage contains one flow for each
+        part of the vector field. The unknowns are the step sizes of the flows."""
         refuse_explicit(self.label(), explicit)
         letters = "abcdef"[: self.parts]
         names = tuple((x, (str(i),)) for i in range(1, stages + 1) for x in letters)
@@ -195,9 +197,9 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # The equal letters of a block belong to stage i, and the next block belongs to stage j. In each
-            # stage, A acts before B, B acts before C, and so on. Hence i = j requires that the letter ``one``
-            # comes before the letter ``two`` in the alphabet.
+            # A block consists of equal letters ``one`` from stage i. The next block consists of equal letters
+            # ``two`` from stage j. In each stage, A acts before B, B acts before C, and so on. Hence i = j is
+            # possible only if the letter ``one`` comes before the letter ``two`` in the alphabet.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -214,7 +216,8 @@ def two_part_formula(word: Word) -> Formula:
     Let c_i = a_1 + ... + a_i. A letter B in stage i gives the factor b_i. If the first letter B is in stage
     i, each letter A before this B gives the factor c_i. If two consecutive letters B are in the stages i
     and j, each letter A between them gives the factor c_j - c_i. If the last letter B is in stage i, each
-    letter A after this B gives the factor sum_j a_j - c_i.
+    letter A after this B gives the factor c_s - c_i. Here s is the number of stages, and c_s is printed as
+    sum_j a_j.
 
     >>> from orderconds.formula import named
     >>> named(two_part_formula((0, 0, 1, 0, 1))).text()

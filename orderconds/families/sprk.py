@@ -1,13 +1,15 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i. The tableau (a, b)
 is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 
-An edge of a tree that points away from the root gives a factor a_ij in the elementary weight. An edge that
-points to the root gives a factor ahat_ij. If another vertex becomes the root, no edge changes its direction.
+Each edge of a tree is an arrow from one of its two vertices to the other. If the arrow points away from the
+root, the edge gives a factor a_ij in the elementary weight. If the arrow points towards the root, the edge
+gives a factor ahat_ij. If another vertex becomes the root, the arrows stay the same.
 
 Let two trees differ only in the root, and let the two roots be neighbours. Because b_i ahat_ij + b_j a_ji =
 b_i b_j, the elementary weights of the two trees add up to a product of elementary weights of smaller trees.
 If the conditions of the smaller trees hold, the conditions of the two trees are equivalent. A free tree is a
-tree without a root. Therefore one condition suffices for each free tree (Abia and Sanz-Serna 1993; HLW VI.7).
+tree without a root. For each free tree, it is sufficient to choose one vertex as the root and to evaluate the
+condition of this rooted tree (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -105,9 +107,11 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if ``tableau`` has the form (A, b) without zero weights. Otherwise return None.
+        """Return this family for a Runge-Kutta tableau or a composition, if all weights are proved to be
+        non-zero. Otherwise return None.
 
-        The tableau file should state the order of the method in the returned family.
+        If this family is returned, the tableau file should state up to which order the method satisfies the
+        conditions of this family.
         """
         return cls() if has_weights(tableau, nonzero=True) else None
 

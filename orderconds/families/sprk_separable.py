@@ -1,12 +1,14 @@
 """Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q).
 
 The tableaux (a, b) and (ahat, bhat) form a symplectic pair if b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all
-i and j. The weights b and bhat may differ, for example if the pair is equivalent to a splitting.
+i and j. The weights b and bhat may differ. For example, a splitting into the flows of T and V is equivalent
+to such a pair, and b and bhat usually differ.
 
 There is one condition for each rooted tree whose vertices have two colours, one for p and one for q.
-Neighbouring vertices differ in colour, because H is separable. Let all conditions of lower order hold. If two
-trees differ only in the choice of the root, their conditions are equivalent. A free tree is a tree without
-a root. Therefore one condition suffices for each free tree (Abia and Sanz-Serna 1993; HLW VI.7.2).
+Neighbouring vertices differ in colour, because H is separable. If two trees differ only in the choice of the
+root, and if all conditions of lower order hold, the conditions of the two trees are equivalent. A free tree
+is a tree without a root. For each free tree, it is sufficient to choose one vertex as the root and to
+evaluate the condition of this rooted tree (Abia and Sanz-Serna 1993; HLW VI.7.2).
 """
 
 from __future__ import annotations
@@ -34,7 +36,8 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. The independent trees are the free trees, each with one chosen root."""
+of independent trees. For each free tree (a tree without a root), one vertex is chosen as the root. The
+resulting rooted trees are the independent trees."""
 
 
 @register
@@ -92,9 +95,10 @@ class SeparableFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if ``tableau`` is a symplectic pair. Otherwise return None.
+        """Return this family if ``tableau`` is a pair that is proved to be symplectic. Otherwise return None.
 
-        The tableau file should state the order of the method in the returned family.
+        If this family is returned, the tableau file should state up to which order the method satisfies the
+        conditions of this family.
         """
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)

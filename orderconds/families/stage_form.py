@@ -32,8 +32,8 @@ class StageForm(Struct, frozen=True):
 
 def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> StageForm:
     """Return the :class:`StageForm` of a Butcher tableau (A, b) with ``stages`` stages. The matrix A is
-    strictly lower triangular if ``explicit`` is true, otherwise full. The result stores ``divides`` as an
-    attribute.
+    strictly lower triangular if ``explicit`` is true, otherwise full. ``divides`` must be true if the
+    left-hand sides of the order conditions contain divisions by weights b_i.
 
     >>> tableau_form(2, explicit=True).names
     (('b', ('1',)), ('b', ('2',)), ('a', ('2', '1')))

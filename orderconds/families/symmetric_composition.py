@@ -86,8 +86,11 @@ class SymmetricCompositionFamily(CompositionFamily):
         return tuple(lyndon_words(range(1, order + 1, 2), order, int)) if order % 2 else ()
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the coefficient of ``word`` in the series of one step, as a polynomial in the coefficients
-        of Lyndon words of odd weight. The weight of a word is the sum of its letters."""
+        """Return a polynomial in Lyndon words of odd weight. The weight of a word is the sum of its letters.
+
+        If each Lyndon word is replaced by its coefficient in the series of one step, the value of the
+        polynomial is the coefficient of ``word`` in this series.
+        """
         return dict(_polynomial(word))
 
     def formula(self, word: Word) -> Formula:
@@ -107,10 +110,11 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if a tableau file can state an order of its method in this family.
+        """Return this family if the method is a composition of a symmetric method and the step sizes are
+        proved to form a palindrome. Otherwise return None.
 
-        The method must be a composition of a symmetric method. The step sizes must form a palindrome. For
-        any other method, the result is None.
+        If this family is returned, the tableau file should state up to which order the method satisfies the
+        conditions of this family.
         """
         method = tableau.method
         if not isinstance(method, Composition):

@@ -51,8 +51,8 @@ class SymplecticFamily(Family):
     symplectic = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of the given order, one for each free tree that no edge
-        divides into two equal halves."""
+        """Return the independent conditions of the given order. Each free tree gives one condition, except a
+        free tree in which some edge joins the roots of two equal rooted trees."""
         return _conditions(essential_free_trees(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:

@@ -5,7 +5,7 @@ coefficients of a method are alpha_iJj and beta_Jj. The following formulas defin
 
 - The position of stage i is ``Q_i = exp(X_im) ... exp(X_i1) q0``. The number m may depend on i.
 - The exponents are ``X_iJ = h sum_j alpha_iJj xi_j`` for J = 1, ..., m.
-- The formula for the position after the step is that for Q_i, with beta_Jj instead of alpha_iJj.
+- The formulas for Q_i and X_iJ, with beta_Jj instead of alpha_iJj, define the position after the step.
 - The weight of stage i is ``b_i = sum_J beta_Ji``.
 - The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)``.
 
@@ -96,9 +96,11 @@ class VariationalCommutatorFree(ActionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should state the order in this family, else None.
+        """Return this family if the method is commutator-free and all weights b_i are proved to be non-zero.
+        Otherwise return None.
 
-        The file should state this order if the method is commutator-free and has no zero weights b_i.
+        If this family is returned, the tableau file should state up to which order the method satisfies the
+        conditions of this family.
         """
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):

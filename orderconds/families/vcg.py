@@ -1,9 +1,9 @@
 """Variational Crouch-Grossman methods: integrators on the cotangent bundle T*G of a Lie group G. A Butcher
 tableau defines the method; each non-zero coefficient a_ij or b_i gives one exponential.
 
-Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the methods. Proposition 3.5.7 states the six
-conditions of order 3. The module computes the conditions of all orders from the action series, the
-expansion of the discrete action.
+Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the methods. Proposition 3.5.7 of the same
+paper states the six conditions of order 3. The module computes the conditions of all orders from the action
+series, the expansion of the discrete action.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class VariationalCrouchGrossman(ActionFamily):
     illustrates = ("action",)
     implies: ClassVar[Mapping[str, str]] = {
         "cg": "if H is linear in p, the positions q are computed by the CG method for a vector field on G",
-        "sprk": "a vector space is a Lie group, on which a VCG method is an SPRK method",
+        "sprk": "on a vector space, which is a Lie group under addition, a VCG method is an SPRK method",
         "vcf": "VCG methods are VCF methods in which each exponential contains the velocity of one stage",
     }
     abelian = "sprk"

@@ -1,11 +1,12 @@
 """Variational Runge-Kutta-Munthe-Kaas methods ``vrkmk(r)``. The series dexpinv is the inverse of the
-differential of exp. The methods truncate this series after the power r of ad.
+differential of exp. The methods truncate this series after the term with ad^r.
 
-Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncation. Let p be the order of the
-symplectic partitioned Runge-Kutta method with the tableau of the method ``vrkmk(r)``.
+Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncation. For even r >= 2, the
+Bernoulli number B_(r+1) is zero, so r and r + 1 define the same method. Let R = r + 1 for even r >= 2, and
+R = r for all other r.
 
-For even r >= 2, the Bernoulli number B_(r+1) is zero, so r and r + 1 define the same method. Let R = r + 1
-for even r >= 2, and R = r for all other r. The order of ``vrkmk(r)`` is min(p, R + 2). For some r, this
+A tableau defines a method of ``vrkmk(r)`` and also a symplectic partitioned Runge-Kutta (SPRK) method. Let p
+be the order of the SPRK method. The order of the method of ``vrkmk(r)`` is min(p, R + 2). For some r, this
 number is larger than the bound in Theorem 3.5.3 of Bogfjellmo and Marthinsen.
 """
 
@@ -60,17 +61,19 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return MuntheKaasActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     def longest_word(self, key: Key) -> int:
-        """Return the maximal length of the words from which the coefficient of the action tree ``key`` is
-        computed. The letters of the words are smaller trees."""
+        """Return the length of the longest word in the formula for the coefficient of the action tree
+        ``key``. The letters of a word are smaller trees."""
         assert isinstance(key, Velocity)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return a condition of the given order that shows the effect of the truncation at order R + 3.
+        """Return one condition of the given order.
 
-        The module docstring defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies the
-        returned condition and all other conditions up to this order. Below order R + 3, the truncation
-        changes no condition. If dexpinv is not truncated or ``order`` < 3, return None.
+        The module docstring defines R. Let ``order`` be R + 3. If a method with truncated dexpinv satisfies
+        all other conditions up to the order R + 3, the method violates the returned condition. The truncation
+        does not change the conditions of order R + 2 and below.
+
+        If dexpinv is not truncated or ``order`` < 3, return None.
         """
         if self.cutoff is None or order < 3:
             return None

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
 @register
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
-    """The family ``vrkmk_pade(r)``. A tableau (A, b) without zero weights defines a method. The option
-    ``cutoff`` is the number r: the series of dexp is truncated after the power r of ad.
+    """The family ``vrkmk_pade(r)``. A tableau (A, b) in which no weight b_i is zero defines a method. The
+    option ``cutoff`` is the number r: the series of dexp is truncated after the term with ad^r.
 
     If ``cutoff`` is None, dexp is not truncated, and the methods are those of ``vrkmk`` without truncation.
 
@@ -74,7 +74,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because tableau files do not state the order in this family."""
+        """Return None: no tableau file states the order of its method in the family ``vrkmk_pade``."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -82,10 +82,15 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order: the smaller of 2 and the order in the family ``rk``. Bounds for
-        truncated dexpinv are not used, because this family truncates dexp."""
+        """Return a lower bound of the order of a method in this family.
+
+        ``orders`` maps the labels of other families to the orders of the method in these families. The
+        conditions of orders 1 and 2 are the same as in the family ``rk``. Hence the bound is the order in the
+        family ``rk``, but at most 2.
+        """
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None, because the description in ``vrkmk`` requires a truncation of dexpinv, not of dexp."""
+        """Return None, so that all conditions are evaluated. The base class describes which conditions a
+        truncation of dexpinv does not change, but this family truncates dexp."""
         return None
