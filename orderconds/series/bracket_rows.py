@@ -17,7 +17,8 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 
 
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
-    """Return a program that computes the arguments of ``program``, if possible with fewer terms.
+    """Return a program that computes the same arguments u_1, ..., u_s and u of the exponentials as
+    ``program``. If possible, the returned program has fewer terms.
 
     In each step, the function adds a multiple of one bracket to a later bracket with the same left factor.
     The function stops when no step reduces the number of terms. The ring must have division and a test for
@@ -68,8 +69,8 @@ def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
 def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
-    """Return the program that computes the bracket B_r + t B_q in place of the bracket B_r. ``names``
-    contains the names of B_q and B_r."""
+    """Return a program in which the bracket B_r + t B_q replaces the bracket B_r. ``names`` contains the
+    names of B_q and B_r. These two brackets must have the same left factor."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:

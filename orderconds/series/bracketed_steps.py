@@ -15,8 +15,8 @@ from orderconds.trees.levels import Forest, branches
 
 
 class BracketedSeries:
-    """The Lie-Butcher series of one step of a :class:`BracketProgram`, with coefficients in ``ring``. A call
-    returns the coefficient of an ordered forest.
+    """The Lie-Butcher series of one step of a :class:`BracketProgram`, with coefficients in ``ring``. The
+    series is called with an ordered forest and returns the coefficient of the forest.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.brackets import fewest_brackets

@@ -3,13 +3,14 @@ simplified in a graded free Lie algebra.
 
 A linear combination x of the stage values k_1, ..., k_s has grade g if h x is of order h^g, where h is the
 step size. The combination q_j is the sum of k_j and multiples of k_1, ..., k_(j-1). The multiples maximise
-the grade of q_j. For order p, terms above grade p - 1 can be omitted from the arguments of the stages, and
-terms above grade p from the argument of the step (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999)
-957; Casas and Owren, BIT 43 (2003) 723).
+the grade of q_j. A method of order p does not need all terms: terms above grade p - 1 can be omitted from the
+arguments of the stages, and terms above grade p can be omitted from the argument of the step (Munthe-Kaas and
+Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
 
 A search expresses the arguments one after another by stage values, earlier brackets and few new brackets. A
-linear combination of two arguments may seem to need fewer brackets than each of the two. In this case, the
-search expresses the combination before the two arguments.
+test finds linear combinations of two arguments that may need fewer brackets than each of the two arguments. A
+search with these combinations expresses each combination before the two arguments. A search without these
+combinations is also tried.
 """
 
 from __future__ import annotations
@@ -64,8 +65,8 @@ class BracketProgram:
     grades: tuple[int, ...]
 
     def text(self, ring: Ring) -> str:
-        """Return a text with one line for each bracket and each argument. The step size h is omitted, and
-        indices start at 1."""
+        """Return a text with one line for each bracket, for each argument u_i of a stage, and for the
+        argument u of the step. The step size h is omitted, and indices start at 1."""
         lines = [
             f"B{r + 1} = [{_spell(x, ring)}, {_spell(y, ring)}]" for r, (x, y) in enumerate(self.brackets)
         ]
@@ -76,15 +77,16 @@ class BracketProgram:
 def fewest_brackets(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int, attempts: int = 4
 ) -> BracketProgram:
-    """Return a program with few brackets for an explicit tableau (A, b). The order of the program equals the
-    order of the Runge-Kutta-Munthe-Kaas method of the tableau.
+    """Return a program with few brackets for the Runge-Kutta-Munthe-Kaas method (RKMK) of an explicit tableau
+    (A, b). The program has the same order as the RKMK method.
 
-    The order of the tableau must be ``order``. The ring must have division and decide whether an element is
-    zero. The first search allows as many brackets as a lower bound for their number. If a search fails, it is
-    repeated with one more bracket.
+    The order of the Runge-Kutta method (A, b) must be ``order``. The ring must have division and decide
+    whether an element is zero. The first searches allow as many brackets as a lower bound for the number of
+    brackets. If these searches fail, one more bracket is allowed, and the searches are repeated.
 
-    The coefficients of the program solve equations with free parameters. First, all parameters are set to
-    zero. Then ``attempts`` choices of small pseudorandom numbers are tried. Raises
+    The coefficients of the program are solutions of equations. A solution may contain free parameters. For
+    each allowed number of brackets, the first search sets all parameters to zero. If this search fails,
+    pseudorandom parameters are tried, at most ``attempts`` times. Raises
     :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
@@ -126,8 +128,9 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return a pair (grade, coefficients) for each combination q_j of the module docstring. The list
-    ``coefficients`` contains numbers c_1, ..., c_j with q_j = c_1 k_1 + ... + c_j k_j."""
+    """Return a pair (grade, coefficients) for each stage j. The module docstring defines the combination q_j
+    = c_1 k_1 + ... + c_j k_j of stage values. The list ``coefficients`` contains the numbers c_1, ..., c_j.
+    ``grade`` is the grade of q_j, but at most ``order``."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -149,8 +152,8 @@ def _graded_bases(
 def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
-    """Return the arguments u_1, ..., u_s of the stages and u of the step, divided by h. The arguments are
-    polynomials in the combinations q_j of the module docstring."""
+    """Return the arguments u_1, ..., u_s of the stages and the argument u of the step, as polynomials in the
+    elements h q_j. Here h is the step size, and the module docstring defines q_j."""
     ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
@@ -167,11 +170,12 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return, for each stage i, the combinations of arguments that the program computes before u_i.
+    """Return combinations u_j - c u_i of two stage arguments, as a map from stages i to lists. The program
+    computes the combinations in the list of stage i, and then u_i.
 
-    A combination has the form u_j - c u_i with a number c and a later stage j. The combination probably needs
-    fewer brackets than u_i, and fewer than u_j. Terms of u_j that are single letters not known before u_i are
-    omitted.
+    Here j is a later stage than i. The number c is chosen such that the combination may need fewer brackets
+    than u_i, and fewer than u_j. A term of u_j is omitted if it is a single letter that is not known before
+    u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -189,18 +193,19 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
 
 @dataclass(frozen=True)
 class _Shape:
-    """The shape of the new brackets that are used to express one argument.
+    """The number and the form of the brackets that the search adds to a program in order to express one
+    element, for example an argument u_i.
 
-    The pool is the list of known elements, and q_1 is its first element. The symbols x, y, z_n and w_n denote
-    unknown linear combinations of elements of the pool.
+    The pool is the list of elements that are known before the brackets are added. The first element of the
+    pool is q_1. The symbols x, y, z_n and w_n denote unknown linear combinations of elements of the pool.
 
     - ``inner``: the number k of nested brackets C_1, ..., C_k. The bracket C_n is [q_1, z_n + C_(n+1)], where
       C_(k+1) is zero.
     - ``outer``: True if there is a bracket [q_1 + x, y + C_1].
-    - ``leading``: if False, x is zero. If True, x may be non-zero, and the coefficient of the second pool
-      element in y is one.
-    - ``extra``: indices of pool elements. For each index n there is a bracket [e_n, w_n], where e_n is the
-      pool element with the index n.
+    - ``leading``: if False, x is zero. If True, x may be non-zero, and y is the sum of the second pool
+      element and a linear combination of later pool elements.
+    - ``extra``: indices of pool elements, counted from 0. For each index n in ``extra``, there is a bracket
+      [e_n, w_n], where e_n is the pool element with the index n.
     """
 
     outer: bool = False
@@ -210,13 +215,13 @@ class _Shape:
 
     @property
     def brackets(self) -> int:
-        """Return the number of new brackets."""
+        """Return the number of brackets that a program with this shape adds."""
         return self.outer + self.inner + len(self.extra)
 
 
 def _shapes(pool: int) -> Iterator[_Shape]:
     """Yield an infinite sequence of shapes (:class:`_Shape`), sorted by the number of brackets. ``pool`` is
-    the number of elements in the pool."""
+    the number of known elements from which the brackets are formed."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -226,11 +231,12 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """A search for a program. Each argument of an exponential is expressed by known elements and new
-    brackets.
+    """A search for a :class:`BracketProgram`. Each argument of an exponential is expressed by known elements
+    and new brackets.
 
-    ``pool`` contains a pair (element, row) for each known element. The row expresses the element by stage
-    values and brackets (:class:`BracketProgram`). ``most`` is the largest allowed number of brackets.
+    ``pool`` contains a pair (element, row) for each known element. The row of an element contains its
+    coefficients with respect to stage values and brackets (:class:`BracketProgram`). ``most`` is the largest
+    allowed number of brackets in the program.
     """
 
     def __init__(
@@ -245,8 +251,9 @@ class _Search:
         self, arguments: Sequence[Polynomial], before: Mapping[int, Sequence[Polynomial]], least: int
     ) -> BracketProgram | None:
         """Return a program that computes ``arguments[0]``, ``arguments[1]``, ... in this order. Before
-        ``arguments[i]``, the program computes the elements ``before[i]``. If the search needs more than
-        ``most`` brackets, return None. ``least`` becomes an attribute of the program."""
+        ``arguments[i]``, the program computes the elements ``before[i]``. Return None if the search finds no
+        program with the allowed number of brackets. ``least`` is a lower bound for the number of brackets,
+        and is stored in the program."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:
@@ -275,8 +282,8 @@ class _Search:
         Return the row of the argument, or None if no suitable brackets are found.
 
         The equations contain products of the unknowns x and y of :class:`_Shape`, and are solved by
-        iteration. Each iteration gives one factor of each product a known value, and solves the linear
-        equations that remain."""
+        iteration. In each iteration, one of the two factors of each product is set to a known value. Then the
+        equations are linear."""
         if shape.leading and len(self.pool) < 3:
             return None
         for fixed_left in (False, True) if shape.leading else (False,):
@@ -303,8 +310,8 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices of the elements of least grade in ``pool[2:]``. The combination x of
-        :class:`_Shape` contains only elements of ``pool[2:]``."""
+        """Return the indices n > 1 of the pool elements of least grade. The pool elements with the indices 0
+        and 1 do not occur in the combination x of :class:`_Shape`."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -325,8 +332,9 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. If
-        there are several solutions and the search uses random numbers, the choice is sometimes random."""
+        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. If the
+        search uses random numbers and there are several solutions, a random one is chosen with probability
+        0.6."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -367,12 +375,12 @@ class _Search:
     def _built(
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
-        """Add the new brackets that ``shape`` describes to the pool. ``numbers`` maps the names of the
-        unknowns to their values. Return three values:
+        """Compute an element from new brackets of the given shape, and add the brackets to the pool.
+        ``numbers`` maps the names of the unknowns to their values. Return three values:
 
-        - the row of the argument that these brackets express
-        - this argument as a polynomial
-        - the linear combination y of :class:`_Shape` as a polynomial
+        - the row of the element (:class:`BracketProgram`)
+        - the element as a polynomial
+        - the linear combination y in the outer bracket [q_1 + x, y + C_1] of :class:`_Shape`, as a polynomial
         """
         one, size = self.ring.one, len(self.pool)
 

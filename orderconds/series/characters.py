@@ -2,8 +2,8 @@
 
 The series of a step represents the step. The series has one coefficient for each tree or forest. The function
 that maps a tree or forest to its coefficient is called a character. The coefficient of the empty forest is 1.
-A cut (:mod:`orderconds.series.cuts`) may remove several components. In this case, the coefficients of the
-components are multiplied.
+In the composition of two steps, a coefficient is a sum over cuts (:mod:`orderconds.series.cuts`). A cut may
+remove several components. The summand of the cut contains the product of the coefficients of all components.
 
 A B-series has a coefficient a(t) for each canonical rooted tree t. The series is y1 = y0 + sum_t h^|t|
 a(t)/sigma(t) F(t), where y0 and y1 are the values before and after a step of size h. Here |t| is the number
@@ -49,8 +49,8 @@ operator of its first tree acts first."""
 
 
 class Character:
-    """A step of size h, given by the coefficients of trees or forests in its series. The coefficients are
-    elements of ``ring``.
+    """A step of size h, represented by the character of its series. The character maps a tree or forest to
+    its coefficient in the series. The coefficients are elements of ``ring``.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -105,7 +105,7 @@ class Character:
         return self.inverse().scaled(self.ring.rational(-1))
 
     def scaled(self, factor: Element) -> Character:
-        """Return the step of this method with the step size ``factor`` times h."""
+        """Return the step of the same method with another step size: ``factor`` times h in place of h."""
 
         def value(forest: bytes) -> Element:
             power = self.ring.one
@@ -116,9 +116,10 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Return a sum over the admissible cuts of a tree or forest. For each cut, multiply the coefficient
-        of the rest in ``other`` by the coefficients of the components in this step. If ``whole`` is false,
-        omit the cut that removes nothing."""
+        """Return a sum over the admissible cuts of a tree or forest. A cut removes parts, called components,
+        and leaves a part, called the rest. The summand is the coefficient of the rest in the series of
+        ``other``, multiplied by the coefficients of all components in the series of ``self``. If ``whole`` is
+        false, omit the cut that removes nothing."""
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):
             if components or whole:

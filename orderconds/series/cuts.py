@@ -4,7 +4,7 @@ is a sum over its admissible cuts.
 A cut removes parts, called components, from a tree or forest. The part that remains is called the rest.
 
 - For unordered trees, a cut is a set of edges, with at most one edge on each path from the root (Connes and
-  Kreimer 1998; HLW III.1.4, ordered subtrees). One additional cut removes the whole tree.
+  Kreimer 1998; in HLW III.1.4, the rest is an ordered subtree). One additional cut removes the whole tree.
 - For ordered forests, a left admissible cut removes some of the leftmost trees. The removed trees form one
   component. At each remaining vertex, the cut may also remove some of the leftmost branches. The branches
   removed at one vertex form one component (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
@@ -21,8 +21,9 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""A cut, as a pair (components, rest). If a cut removes a whole tree or forest, this tree or forest is the
-only component, and the rest is empty."""
+"""A cut, as a pair (components, rest). If a cut removes a whole tree, this tree is the only component. If a
+cut removes a whole forest, all trees of the forest together are one component. In both cases, the rest is
+empty."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 

@@ -6,9 +6,9 @@ ad_u x = [u, x]. The numbers B_k are the Bernoulli numbers with B_1 = -1/2 (HLW 
 
 The truncation index r is the highest power of ad_u. If dexpinv is not truncated, r is infinite.
 
-The computation uses words of ordered trees. The first letter of a word acts first. In the product x y, the
-factor y acts first. Hence each word of the product x y begins with letters of y. HLW denotes Hairer, Lubich
-and Wanner, *Geometric Numerical Integration*.
+The computation uses words of ordered trees. The first letter of a word acts first. In the product x y of two
+series x and y, the factor y acts first. Hence each word of the product consists of letters of y, followed by
+letters of x. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        # ``_rows[0]`` computes the stage arguments with the rows of A. ``_rows[1]`` computes the argument of
-        # the step with the row b.
+        # ``_rows[0]`` contains the rows of A, which give the arguments u_1, ..., u_s of the stages.
+        # ``_rows[1]`` contains the row b, which gives the argument of the step.
         self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
@@ -69,9 +69,9 @@ class DexpinvSeries:
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return coefficients of ``word`` in exponentials. If ``step`` is 0, the list has one entry for each
-        stage: the coefficient in exp(u_i), where u_i is the argument of stage i. If ``step`` is 1, the only
-        entry is the coefficient in exp(u), where u is the argument of the step."""
+        """Return the coefficients of ``word`` in the exponentials of arguments. If ``step`` is 0, the list
+        has one entry for each stage i: the coefficient in exp(u_i), where u_i is the argument of the stage.
+        If ``step`` is 1, the only entry is the coefficient in exp(u), where u is the argument of the step."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -84,9 +84,9 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return coefficients of ``word`` in n-th powers. If ``step`` is 0, the list has one entry for each
-        stage: the coefficient in u_i^n, where u_i is the argument of stage i. If ``step`` is 1, the only
-        entry is the coefficient in u^n, where u is the argument of the step."""
+        """Return the coefficients of ``word`` in the n-th powers of arguments. If ``step`` is 0, the list has
+        one entry for each stage i: the coefficient in u_i^n, where u_i is the argument of the stage. If
+        ``step`` is 1, the only entry is the coefficient in u^n, where u is the argument of the step."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -117,7 +117,7 @@ class DexpinvSeries:
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
         """Return a list with one entry for each stage j: the coefficient of the word v k_j w in the truncated
-        series dexpinv_{u_j} k_j. Return None if no term of the series contains such words.
+        series dexpinv_{u_j} k_j. If no term of the series can contain a word v k_j w, return None.
 
         Stage j has the argument u_j and the stage value k_j. The stage value is treated as one letter. The
         word v is ``start`` and has ``before`` letters. The word w is ``end`` and has ``behind`` letters.
@@ -135,11 +135,12 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q u^n x u^m of dexpinv_u x that may contain a word v x w, as triples (q, m, n)
-        with a number q. The word v has ``before`` letters, and w has ``behind`` letters.
+        """Return the terms of the series dexpinv_u x that may contribute to the coefficient of a word v x w.
+        The word v has ``before`` letters, and w has ``behind`` letters.
 
-        In a product, the rightmost factor acts first. In a word, the first letter acts first. Hence v is a
-        word in u^m, and w is a word in u^n.
+        A term q u^n x u^m with a number q is returned as the triple (q, m, n). In a product, the rightmost
+        factor acts first. In a word, the first letter acts first. Hence the letters of v come from the factor
+        u^m, and the letters of w come from the factor u^n.
         """
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
@@ -176,7 +177,7 @@ def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     )
 
 
-@cache  # The cache has no size limit, because B_k is computed from B_0, ..., B_(k-1).
+@cache  # The cache has no size limit, because the recursion for B_k uses all values B_0, ..., B_(k-1).
 def bernoulli(k: int) -> Fraction:
     """Return the Bernoulli number B_k, with B_1 = -1/2.
 

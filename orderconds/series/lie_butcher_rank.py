@@ -4,8 +4,8 @@ row for each method and one column for each condition. Linear algebra shows whic
 
 A condition is omitted if it follows from earlier conditions. In this case, its left-hand side is a linear
 combination of earlier left-hand sides and of products of left-hand sides of lower order. The right-hand sides
-are the coefficients in the exact flow. The linear relation must also hold for the right-hand sides. For this
-reason, one row of the matrix contains the right-hand sides.
+are the coefficients of the forests in the exact flow. The linear relation must also hold for the right-hand
+sides. For this reason, one row of the matrix contains the right-hand sides.
 """
 
 from __future__ import annotations
@@ -22,12 +22,13 @@ from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 
 RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
-"""A function that evaluates the series of many random methods of a family, called samples. A coefficient is a
-vector with one number modulo a prime for each sample."""
+"""A function that returns the common series of many random methods of a family. The methods are called
+samples. Each coefficient of the series is a vector of residues modulo one prime, with one residue for each
+sample."""
 
 SPARE_SAMPLES = 20
-"""The number of samples beyond the largest possible rank. With additional samples, accidental dependences are
-improbable."""
+"""The number of samples is the largest possible rank of the matrix of left-hand sides, plus this number. The
+additional samples make accidental linear dependences improbable."""
 
 
 def independent_forests(
@@ -40,8 +41,8 @@ def independent_forests(
     The order condition of a forest requires equal coefficients in the method and in the exact flow. If
     ``with_exact_flow`` is false, only the coefficients in the method are tested for independence.
 
-    The forests are selected modulo two primes, and the larger selection is returned. A selection may
-    lack a forest, because a rank modulo a prime can be less than the rank over Q.
+    The forests are selected modulo two primes, and the larger selection is returned. Modulo a prime, the rank
+    of the matrix of left-hand sides can be less than over Q. In this case, the selection lacks a forest.
 
     >>> from orderconds.trees.ordered import ordered_forests
     >>> from orderconds.series.dexpinv import DexpinvSeries
@@ -58,8 +59,10 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # For each order, a matrix has one row for each sample. The rank of the matrix is at most the number of
-    # ordered forests of the order. Hence the highest order determines the number of samples.
+    # For each order, the left-hand sides and the products of left-hand sides of lower order are the columns
+    # of a matrix with one row for each sample. The rank of the matrix is at most the number of ordered
+    # forests of the order, and this number grows with the order. Hence the number for the highest order, with
+    # the spare samples added, suffices for all orders.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

@@ -2,7 +2,7 @@
 
 An exponent is a linear combination of words. The exponent is represented by a function that maps a word to
 its coefficient. The letter k denotes the matrix A_k in A(t) = sum_k t^(k-1) A_k, and has the weight k. The
-first letter of a word acts first.
+first letter of a word acts first: the word (k, l) denotes the matrix product A_l A_k.
 """
 
 from __future__ import annotations
@@ -28,17 +28,18 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""A pair of functions for each transform: the exponential and the Cayley transform. The first function
-returns the coefficients of the power series of the transform, without the constant term 1. The second
-function returns the coefficients of the power series of the inverse function."""
+"""The exponential (``exp``) and the Cayley transform (``cay``). Each transform has a pair of functions. The
+first function returns the coefficients of the power series of the transform, without the constant term 1. The
+second function returns the coefficients of the power series of the inverse function."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:
-    """Return the function that maps a word to its coefficient in Omega. The exponential of Omega is the
-    product of the exponentials of ``exponents``. The exponential of ``exponents[0]`` acts first.
+    """Return the logarithm Omega of a product of exponentials, as a function that maps a word to its
+    coefficient in Omega. The factors of the product are the exponentials of ``exponents``. The exponential of
+    ``exponents[0]`` acts first.
 
     If ``transform`` is ``cay``, the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2) replaces the
-    exponential.
+    exponential, and its inverse replaces the logarithm.
 
     >>> from orderconds.ring import QQ
     >>> A, B = ({(k,): QQ.one}.get for k in (1, 2))

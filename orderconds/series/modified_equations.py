@@ -1,11 +1,11 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
 One step of size h of a method equals the flow of a modified vector field f~ = f + h f_2 + ... over time h.
-Let a(t) and b(t) be the coefficients of the tree t in the step and in f~. A linear map L is defined on
-functions c of trees: the value (L c)(t) is the sum of b(u) c(r) over all edges of t. If the edge is removed,
-t falls into a subtree u and the part r with the root. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (HLW IX.9.1). On
-ordered forests, see Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295. HLW denotes Hairer, Lubich and
-Wanner, *Geometric Numerical Integration*.
+Let a(t) and b(t) be the coefficients of the tree t in the step and in f~. If an edge of t is removed, t falls
+into a subtree u and a part r that contains the root. A linear map L is defined on functions c of trees: the
+value (L c)(t) is the sum of b(u) c(r) over all edges of t. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (HLW
+IX.9.1). For series over ordered forests, see Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295. HLW
+denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -66,17 +66,18 @@ class VectorField:
 
     def beyond_first(self, forest: bytes) -> Element:
         """Return the difference of two coefficients of a tree or forest: the coefficient in the flow minus
-        the coefficient in the vector field. The difference depends only on the coefficients of smaller trees
-        or forests in the vector field."""
+        the coefficient in the vector field. To compute the difference, only smaller trees or forests and
+        their coefficients in the vector field are needed."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value of L^(n-1) b for a tree or forest. Here b(forest) is the coefficient of a forest
-        in this vector field. The value (L c)(forest) is the sum of b(component) c(rest) over all cuts that
-        remove one component and leave a non-empty rest."""
+        """Return the value of the function L^(n-1) b for a tree or forest. Here b maps a tree or forest to
+        its coefficient in this vector field. The linear map L is defined on functions c of trees or forests:
+        the value (L c)(forest) is the sum of b(component) c(rest) over all cuts of ``forest`` that remove one
+        component and leave a non-empty rest."""
         if n == 1:
             return self(forest)
         if n > len(forest):
@@ -107,10 +108,10 @@ def modified_field(step: Character) -> VectorField:
 def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, Element], ...]:
     """Return the trees t and coefficients b(t)/sigma(t) of the modified Hamiltonian.
 
+    A free tree has no root. It is represented by a rooted tree t: one of its vertices is chosen as the root.
     The modified Hamiltonian is the sum of h^(|t|-1) b(t)/sigma(t) H(t) over free trees with at most ``order``
-    vertices. A free tree has no root. In each summand, the rooted tree t represents a free tree. Here |t| is
-    the number of vertices of t, b(t) is the coefficient of t in the field, and sigma(t) is the order of the
-    symmetry group of t.
+    vertices. Here |t| is the number of vertices of t, b(t) is the coefficient of t in the field, and sigma(t)
+    is the order of the symmetry group of t.
 
     For a tree t with the branches t_1, ..., t_m, the elementary Hamiltonian is H(t) = H^(m)(F(t_1), ...,
     F(t_m)). Here H^(m) is the m-th derivative of the Hamiltonian, and F denotes elementary differentials. If

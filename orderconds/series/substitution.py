@@ -1,15 +1,16 @@
-"""Substitution: the series of a step in which the vector field f is replaced by a vector field that is a
-series in f.
+"""Substitution: the series of a step is given as a series in the vector field f. Then f is replaced by
+another vector field, which is itself a series in f.
 
 For B-series, the coefficient of a tree is a sum over all partitions of the tree into connected components.
 Each partition has a quotient tree, in which each component becomes one vertex. The summand is the coefficient
 of the quotient tree in the step, multiplied by the coefficients of the components in the field (Chartier,
 Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
 
-For Lie-Butcher series, each vertex of an ordered forest denotes the vector field f. The image of a forest is
-the linear combination of forests that results if f is replaced. Images are computed recursively. For a tree,
-the image of the forest of its branches is grafted onto the series that replaces f. For a forest, the images
-of its trees are concatenated (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+For Lie-Butcher series, each vertex of an ordered forest denotes the vector field f. If f is replaced by the
+other field, a forest becomes a linear combination of forests, called its image. Images are computed
+recursively. The branches of a tree form a forest. To obtain the image of the tree, the image of this forest
+is grafted onto the series of the other field. The image of a forest is the concatenation of the images of its
+trees (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -85,7 +86,8 @@ def modifying_field(step: Character) -> VectorField:
 
     def value(tree: Tree) -> Element:
         # The sum over all partitions must equal ``flow(tree)``. The partition into one component has the
-        # summand ``field(tree)``, because the step is consistent. The equation is solved for ``field(tree)``.
+        # summand ``step(vertex) * field(tree)``. A consistent step has step(vertex) = 1. Hence the equation
+        # is solved for ``field(tree)``.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -123,7 +125,8 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
     """Partition a tree by removing edges. ``cut`` begins with one flag for each edge of the tree in preorder.
-    An edge is removed if its flag is true. The remaining flags belong to edges outside the tree.
+    An edge is removed if its flag is true. If the tree is part of a larger tree, flags for edges of the
+    larger tree follow.
 
     Return four values: the component of the root, a list of the other components, the quotient tree, and the
     remaining flags.
@@ -149,8 +152,9 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """The images of ordered forests if ``field`` replaces the vector field f. An image is a linear
-    combination of ordered forests. Forests with more than a given number of vertices are omitted."""
+    """The images of ordered forests under the substitution that replaces the vector field f by ``field``. An
+    image is a linear combination of ordered forests. Forests with more than a given number of vertices are
+    omitted."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

@@ -3,9 +3,11 @@
 The registers are y and k. At the start of a step, k is zero. Stage i replaces k by A_i k + h f(y), and then
 replaces y by exp(B_i k) y. The series of a step is a linear combination of words in the letters K and D. The
 letter K (kick) is the derivative along the vector field k' = f(y). The letter D (drift) is the derivative
-along the vector field y' = k y. The last letter of a word acts first. Because k is zero at the start, only
-words with two properties are needed: The numbers of letters K and D are equal, and no suffix contains more
-letters K than letters D.
+along the vector field y' = k y. The last letter of a word acts first. Each letter D introduces one factor k,
+and each letter K replaces one factor k by f(y). If a suffix of a word contains more letters K than letters D,
+the result is zero, because no factor k is left to replace. If a word contains more letters D than letters K,
+a factor k remains in the result, and k is zero at the start. Hence only words with two properties are needed:
+the numbers of letters K and D are equal, and no suffix contains more letters K than letters D.
 
 A linear combination of words is a differential operator. The operator is zero on all groups if and only if it
 is zero on all vector spaces (proof: docs/explanation/two_registers.md). Hence the order of a 2N scheme on
@@ -31,8 +33,10 @@ from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
 """A product of derivatives, from left to right. Each factor is the derivative along a vector field. The
-factor None denotes the derivative along y' = k y, where k is the register. A factor that is a product P of
-derivatives denotes the derivative along P f, where f is the vector field of the problem."""
+factor None denotes the derivative along the vector field y' = k y, where y and k are the two registers. Each
+other factor is itself a product of derivatives. If this product is applied to the vector field f of the
+problem, the result is a vector field, and the factor denotes the derivative along this vector field. Hence
+the factor () denotes the derivative along f."""
 
 Combination = dict[Operator, int]
 
@@ -57,8 +61,8 @@ def words(order: int) -> tuple[str, ...]:
 
 
 def on_group(word: str) -> dict[Forest, int]:
-    """Return the differential operator that a word denotes on a group. The letters of the word are K (kick)
-    and D (drift). The operator is a map from ordered forests to coefficients.
+    """Return a differential operator on a group: the operator that ``word`` denotes. The letters of the word
+    are K (kick) and D (drift). The operator is a map from ordered forests to coefficients.
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_group("KDKD").items()}
@@ -130,7 +134,8 @@ def independent_trees(order: int) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=16)
 def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
-    """Express the coefficients in the Lie-Butcher series of two-register (2N) schemes by elementary weights.
+    """Return formulas in elementary weights for the coefficients in the Lie-Butcher series of two-register
+    (2N) schemes.
 
     The value of a rooted forest is the product of the elementary weights of the trees in the forest. In a 2N
     scheme, the coefficient of an ordered forest is a linear combination of the values of rooted forests. The
@@ -176,8 +181,9 @@ def _symmetry(forest: Forest) -> int:
 
 @lru_cache(maxsize=1 << 12)
 def _applied(word: str, ordered: bool) -> Combination:
-    """Return the differential operator that a word in K and D denotes, as a linear combination of products of
-    derivatives. ``ordered`` is true on a group and false on a vector space."""
+    """Return a linear combination of products of derivatives: the differential operator that ``word``
+    denotes. The letters of the word are K (kick) and D (drift). ``ordered`` is true on a group and false on a
+    vector space."""
     result: dict[Operator, int] = defaultdict(int)
     if not word:
         return {(): 1}
@@ -191,7 +197,7 @@ def _applied(word: str, ordered: bool) -> Combination:
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
     """Apply the operator D (drift) to a product of derivatives by the product rule. D is the derivative along
-    y' = k y, where k is the register."""
+    the vector field y' = k y, where y and k are the two registers."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -200,7 +206,8 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
     """Apply the operator K (kick) to a product of derivatives by the product rule. In each term of the
-    result, the vector field f replaces the register k in one derivative."""
+    result, the derivative along f replaces one derivative along y' = k y, where f is the vector field of the
+    problem and k is a register."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:
@@ -210,8 +217,9 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Return a sum over the factors of a product of derivatives, without the factors that are None. In each
-    summand, ``act`` is applied to one factor. The function ``act`` is :func:`_drift` or :func:`_kick`."""
+    """Return a sum over the factors of a product of derivatives. In each summand, the function ``act`` is
+    applied to one factor. Factors that are None have no summand. The function ``act`` is :func:`_drift` or
+    :func:`_kick`."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

@@ -19,8 +19,9 @@ Let A be the matrix of the coefficients a_ij of stage j in stage i. If the three
 satisfies linear equations: sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each
 column j. Equations of this form are called a transportation problem.
 
-The rows and columns of A are the nodes of a graph. Each entry a_ij is an edge between row i and column j. The
-equations are solved for the entries that form a spanning tree of the graph.
+The rows and columns of A are the nodes of a graph. Each entry a_ij is an edge between row i and column j. A
+spanning tree of the graph is chosen. The equations determine the entries a_ij that are edges of the spanning
+tree. All other entries can be chosen freely.
 """
 
 from __future__ import annotations
@@ -78,9 +79,10 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
     equation sum_i b_i a_ij = b_j (1 - m_j), where m_i are the abscissae and b_i are the weights. The formulas
     contain the abscissae, the weights and the remaining entries of A.
 
-    ``b`` contains the texts of the weights. ``fixed`` maps the names of known entries to their values. All
-    other entries of A are free. Each free entry a_ij is an edge between row i and column j in a graph. Raises
-    :class:`~orderconds.errors.InputError` if this graph is not connected.
+    ``b`` contains the texts of the weights. ``fixed`` maps the names of known entries to their values. The
+    rows and columns of A are the nodes of a graph. Each entry a_ij without a known value is an edge between
+    row i and column j. The formulas are for the entries that are edges of a spanning tree. Raises
+    :class:`~orderconds.errors.InputError` if the graph is not connected.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
@@ -115,7 +117,7 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
             component = [row if x == column else x for x in component]
     if len(kept) != 2 * s - 1:
         raise InputError(
-            "the free entries a_ij of A do not connect all rows and columns",
+            "a graph with an edge between row i and column j for each free entry a_ij of A is not connected",
             where=WHERE,
             expected="more free entries",
         )
@@ -125,15 +127,15 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
     """Find an entry that is the only unknown in its row or column. Return a triple (row, column, by_row).
 
-    Rows are tested first. If the entry is the only unknown in its row, ``by_row`` is True. If it is the only
-    unknown in its column, ``by_row`` is False.
+    Rows are tested first. If the entry is the only unknown in its row, ``by_row`` is True. Otherwise, the
+    entry is the only unknown in its column, and ``by_row`` is False.
     """
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
                 return (*entry, by_row)
     raise InputError(
-        "as edges between row i and column j, the free entries a_ij of A form a cycle",
+        "a graph with an edge between row i and column j for each free entry a_ij of A has a cycle",
         where=WHERE,
         expected="a graph without cycles",
     )
@@ -151,9 +153,9 @@ def symmetric_transport(
     - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
-    The abscissa m_i determines the sum of row i of ``own``. For each column j in the first half, the sum of
-    b_i (x_ij - x_ik) over the rows i of ``own`` is C_j, where k = s + 1 - j, and b_i are the weights. The
-    formula for C_j does not contain entries of ``own``.
+    The abscissa m_i determines the sum of row i of ``own``. For each column j in the first half, let k = s +
+    1 - j. The sum of b_i (x_ij - x_ik) over the rows i of ``own`` must be C_j, where b_i are the weights. The
+    value of C_j does not depend on ``own``.
 
     The function solves these equations for the last entry of each row and the first half of the last row. It
     returns formulas for these entries and for C_j. In the formulas, y_J is the sum of row J of ``update``.

@@ -2,11 +2,11 @@
 unknown coefficients.
 
 The file describes a method with a given number of stages. The coefficients of the method have names such as
-a21 and b1. The coefficients are evaluated in three kinds of arithmetic:
+a21 and b1. The coefficients are evaluated in three ways:
 
-- recording of the operations: the record is a program for the numerical search
-- integers modulo primes, for the ranks of the conditions
-- interval arithmetic (balls), for the proof of the order
+- with a record of all operations; the record is a program for the numerical search
+- with integers modulo primes, for the ranks of the conditions
+- with interval arithmetic (balls), for the proof of the order
 """
 
 from __future__ import annotations
@@ -28,10 +28,11 @@ class Ansatz:
     - ``free``: the names of the free coefficients (the unknowns)
     - ``numbers``: formulas for all other named coefficients
     - ``body``, ``tail``: the lines of the file before and after the table [numbers]
-    - ``cells``: the names of all coefficients that are not constants
+    - ``cells``: the names of all coefficients that are not constants; their values are free or given by
+      ``numbers``
     - ``family``: the label of the method family whose order conditions are solved
-    - ``reduction``: the name of the theorem that makes some order conditions unnecessary in the proof
-      (:mod:`orderconds.proof.equations`)
+    - ``reduction``: the name of the theorem that makes some order conditions unnecessary in the proof of the
+      order (:mod:`orderconds.proof.equations`)
     - ``abelian``: if True, the order conditions are evaluated for the Runge-Kutta method to which the
       commutator-free method reduces on abelian groups
     - ``measured``: the label of the family in which the principal error is computed; None means ``family``

@@ -1,10 +1,10 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
 Coefficients that the order conditions do not determine are rounded to short decimals. Newton's method
-computes all other coefficients to high precision. Lattice reduction tries to find closed forms of the
-computed coefficients in one number field. With closed forms, the order is checked exactly. If there are no
-closed forms or the check fails, the file contains rounded decimals. In this case, interval arithmetic proves
-that the order conditions have a solution near the decimals.
+computes all other coefficients to high precision. Lattice reduction tries to find one number field that
+contains all computed coefficients, and gives their closed forms in this field. With closed forms, the order
+is checked exactly. If there are no closed forms or the check fails, the file contains rounded decimals. In
+this case, interval arithmetic proves that the order conditions have a solution near the decimals.
 """
 
 from __future__ import annotations
@@ -48,8 +48,9 @@ STEPS = (
     Fraction(1, 1000),
 )
 """Rounding units, tried in this order. Coefficients that the order conditions do not determine are rounded to
-multiples of a unit. The order conditions are then solved for all other coefficients. The solution must
-satisfy the bound :data:`WORSE`, and no singular value of the Jacobian may be near zero.
+multiples of a unit. The order conditions are then solved for all other coefficients. The unit is accepted if
+two conditions hold: the largest coefficient and the principal error increase by less than the factor
+:data:`WORSE`, and the Jacobian of the order conditions has no singular value near zero.
 """
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
@@ -60,7 +61,8 @@ DIGITS = 50
 """A rounded coefficient in the tableau file has at least this number of decimal places."""
 
 BITS = 1400
-"""The working precision of Newton's method in bits. Lattice reduction needs numbers of high precision."""
+"""The working precision of Newton's method in bits. The precision is high, because lattice reduction must
+find closed forms of the computed numbers."""
 
 WORSE = 1.5
 """Rounding must not increase the largest coefficient or the principal error by more than this factor."""
@@ -165,8 +167,8 @@ def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
 
 
 def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
-    """Return True if the Jacobian with respect to the coefficients with the indices ``solved`` has no
-    singular value near zero."""
+    """Return True if a Jacobian has no singular value near zero. The Jacobian contains the derivatives of the
+    order conditions with respect to the coefficients with the indices ``solved``."""
     if not solved:
         return True
     _, slopes = problem.tape.jacobians(point[None])
@@ -200,8 +202,9 @@ def determined(slopes: Floats) -> list[int]:
 def _newton(
     problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
 ) -> dict[int, arb]:
-    """Compute the coefficients with the indices ``solved`` to nearly :data:`BITS` bits by Newton's method.
-    ``pinned`` maps the indices of the other coefficients to their fixed values.
+    """Compute coefficients by Newton's method, with a precision of nearly :data:`BITS` bits. ``solved``
+    contains the indices of these coefficients. ``pinned`` maps the indices of the other coefficients to their
+    fixed values.
 
     Raises NotProved if the Jacobian is singular or if Newton's method does not converge.
     """
@@ -244,8 +247,8 @@ def _newton(
 
 
 def _square_roots(problem: Problem) -> dict[str, arb]:
-    """Return a map from texts to values. The map contains all square roots of rational numbers that occur in
-    the ansatz."""
+    """Return a map from formulas, for example ``sqrt(2)``, to their values. The map contains all square roots
+    of rational numbers that occur in the ansatz."""
     roots = {}
     with precision(BITS):
         for radical in radicals(problem.ansatz.symbolic()):
@@ -265,8 +268,8 @@ def _roots(forms: dict[str, ClosedForm]) -> list[str]:
 
 
 def _exact(problem: Problem, text: str, source: str) -> Solution | None:
-    """Return the solution with the exact coefficients in the tableau file ``text``. Return None if exact
-    arithmetic does not prove the required order."""
+    """Return the solution that a tableau file with exact coefficients describes. ``text`` is the content of
+    the file. Return None if exact arithmetic does not prove the required order."""
     tableau = Tableau.loads(text)
     label = problem.measured.label()
     try:

@@ -31,8 +31,8 @@ MAX_TEXT = 160
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """The formula ``text`` of a number in a tableau file. The formula may contain the name ``r``. The lines
-    ``root`` of the file define ``r``."""
+    """A formula for a number in a tableau file. ``text`` is the formula, and may contain the name ``r``.
+    ``root`` contains the lines of the file that define ``r``."""
 
     text: str
     root: tuple[str, ...] = ()
@@ -45,14 +45,16 @@ def closed_forms(
     closed form has more than :data:`MAX_TEXT` characters.
 
     ``bits`` is the precision of the numbers in bits. ``radicals`` maps texts of square roots to their values.
-    A closed form is a rational combination of basis elements. Three bases are tried:
+    A closed form is a rational combination of basis elements. The degree of a number is the degree of its
+    minimal polynomial. Each number must have a degree of at most :data:`MAX_DEGREE`. Three bases are tried:
 
     - 1 and the square roots
-    - all products of an element of the first basis and a power of one number in ``numbers``
-    - a basis of the field that one number of highest degree generates
+    - the products e r^k, where e is an element of the first basis, r is one of the numbers, d is the degree
+      of r, and k = 0, ..., d - 1
+    - the powers r^0, ..., r^(d-1), where d is the highest degree of the numbers, and r generates the same
+      field as one number of degree d
 
-    Without ``radicals``, only the third basis is tried. The degree of a number is the degree of its minimal
-    polynomial. Each number must have a degree of at most :data:`MAX_DEGREE`.
+    Without ``radicals``, only the third basis is tried.
 
     >>> with precision(400):
     ...     root = arb(3).sqrt()
@@ -88,9 +90,10 @@ def _extended(
 ) -> dict[str, ClosedForm] | None:
     """Return the numbers as rational combinations of basis elements, or None if no basis is found.
 
-    The basis contains 1 and the square roots ``radicals``. If a number r is not a combination of 1 and
-    ``radicals``, a new basis is used. The new basis contains all products of an old basis element and a power
-    of r. The new basis has at most 2 MAX_DEGREE elements.
+    The basis contains 1 and the square roots ``radicals``. If a number is not a combination of these
+    elements, a new basis is used. Let r be such a number of least degree d. The new basis contains the
+    products e r^k, where e is an element of the old basis and k = 0, ..., d - 1. The new basis has at most 2
+    MAX_DEGREE elements.
     """
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
@@ -165,8 +168,9 @@ def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
         rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
     reduced = fmpz_mat(rows).lll()
     shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
-    # Without a relation between the n numbers, the entries of the shortest lattice vector have about known/n
-    # bits. With a relation, the entries are much smaller.
+    # Let n be the number of ``values``. If there is no relation between the values, the entries of the
+    # shortest lattice vector have about ``known`` divided by n bits. If there is a relation, the entries are
+    # much smaller.
     longest = max(abs(c) for c in shortest).bit_length()
     if 2 * longest * (len(values) + 1) > known:
         return None
@@ -178,9 +182,11 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return sqrt(n), the text of sqrt(n), and an empty tuple. The roots of the quadratic polynomial p have
-    the form u + v sqrt(n) with rational numbers u and v. The tuple is empty, because a square root needs no
-    definition in a tableau file."""
+    """Return three values: sqrt(n) for an integer n, the text of sqrt(n), and an empty tuple.
+
+    The roots of the quadratic polynomial p have the form u + v sqrt(n) with rational numbers u and v. The
+    tuple is empty, because a square root needs no definition in a tableau file.
+    """
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():
@@ -190,8 +196,8 @@ def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
 
 
 def _named(x: arb, p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return x, the name ``r`` for x, and the lines of a tableau file that define ``r``. The number x is an
-    approximate root of p."""
+    """Return three values for an approximate root x of p: the number x, its name ``r`` in a tableau file, and
+    the lines of the file that define ``r``."""
     monic = fmpq_poly([fmpq(c) for c in p.coeffs()]) / fmpq(p[p.degree()])
     place = min(
         range(len(real_roots(monic, 128))), key=lambda k: float(abs(real_roots(monic, 128)[k] - x).mid())

@@ -1,5 +1,5 @@
-"""Elimination of coefficients of an ansatz by linear constraints, and the texts of the coefficients in a
-tableau file."""
+"""Elimination of coefficients of an ansatz by linear constraints. After the elimination, a tableau file
+contains a number, a name or a formula for each coefficient."""
 
 from __future__ import annotations
 
@@ -11,14 +11,15 @@ from orderconds.solve.linear import Constraint, Elimination, equality, spell
 from orderconds.solve.spec import Spec
 
 Nodes = Mapping[str, Sequence[str]]
-"""Maps the name of a node (abscissa) to the names of some coefficients. The node (for example c2) is the sum
-of the coefficients."""
+"""Maps the name of a node (abscissa), for example c2, to the names of the coefficients whose sum is the
+node."""
 
 
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Impose ``constraints`` and the constraints of the option ``--fix`` on the coefficients ``names``.
+    """Eliminate coefficients by linear constraints. The constraints are ``constraints`` and the constraints
+    of the option ``--fix``. ``names`` contains the names of all coefficients.
 
     A constraint of ``--fix`` may contain names of nodes (for example c2). Raises InputError if a constraint
     of ``--fix`` contains an unknown name, or if constraints contradict each other.
@@ -45,7 +46,8 @@ def eliminated(
 
 @dataclass(frozen=True)
 class Cells:
-    """The texts of the coefficients in a tableau file, after elimination of the linear constraints.
+    """The coefficients in the form in which a tableau file contains them. Each coefficient is a number, a
+    name or a name with a formula. ``elimination`` contains the result of the linear constraints.
 
     ``extra`` maps names to additional formulas. Examples are formulas for the abscissae m1, m2, ..., and for
     coefficients that depend non-linearly on other coefficients.
@@ -73,7 +75,7 @@ class Cells:
         return {**texts, **(self.extra or {})}
 
     def unknown(self, names: Sequence[str]) -> tuple[str, ...]:
-        """Return the names of the coefficients in ``names`` that are not constants."""
+        """Return the elements of ``names`` whose coefficients are not constants."""
         return tuple(name for name in names if self.written(name) == name)
 
 
