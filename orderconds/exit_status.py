@@ -36,7 +36,7 @@ SIGNALS = ("SIGTERM", "SIGHUP")
 """The signals that the program handles like Ctrl-C."""
 
 MAX_TEXT = 300
-"""The maximal number of characters that a message about an internal error shows of the exception's text."""
+"""A message about an internal error contains at most this number of characters from the exception's text."""
 
 
 class Terminated(KeyboardInterrupt):
@@ -119,7 +119,7 @@ class Run:
         """Print the message of an error. With ``--json``, also print ``record`` as JSON if this run has not
         yet printed a JSON document.
         """
-        with contextlib.suppress(OSError):  # A failed output must not change the exit status.
+        with contextlib.suppress(OSError):  # If writing fails, the exit status remains the same.
             click.echo(f"orderconds: {record['message']}", err=True)
         if self.as_json and not self.documents:
             with contextlib.suppress(OSError):

@@ -34,8 +34,8 @@ NARROW = ("16", "32", "complex", "int", "bool")
 """Parts of the names of types such as ``float32`` and ``int64``. An array of such a type is not evaluated,
 because the type is complex or cannot store all doubles."""
 COPYING_CALLS = ("array", "Matrix", "ImmutableMatrix", "matrix")
-"""Constructors of arrays that copy their argument. ``list`` and ``tuple`` share the rows of the argument.
-``asarray`` copies a list, but returns an array of NumPy itself."""
+"""Constructors of arrays that copy their argument and its rows. ``list`` and ``tuple`` copy only the outer
+array and share its rows. ``asarray`` copies a list, but returns a NumPy array without copying it."""
 QUOTIENT_CALLS = ("Fraction", "Rational")
 ROOTS = {"sqrt": 2, "cbrt": 3}
 LIBRARIES = ("fractions", "decimal", "math", "numpy", "sympy", "mpmath", "jax", "cupy", "autograd")
@@ -54,10 +54,11 @@ class Array:
     items: list[Value]
     integral: bool = False
     memory: int = field(default_factory=count().__next__, compare=False)
-    """The number of the memory that contains the entries. Arrays with equal numbers may share memory."""
+    """An integer that identifies the memory in which the entries are stored. If this integer is equal for two
+    arrays, the arrays may share memory, and a change of one array may change the other."""
 
     def parts(self) -> set[int]:
-        """Return the memory numbers of this array and of its rows."""
+        """Return the values of :attr:`memory` of this array and of its rows."""
         return {self.memory}.union(*(x.parts() for x in self.items if isinstance(x, Array)))
 
 
@@ -86,8 +87,8 @@ class _NotLiteral(Exception):
 class Values:
     """The names that a module has assigned so far, with their values.
 
-    ``text`` is the source of the module. Comments in the source may define numbers, whose names are in
-    ``named``.
+    ``text`` is the source of the module. A comment ``# numbers: {...}`` in the source can define numbers with
+    names. ``named`` contains these names.
 
     >>> values = Values("x = 2*(1 - sqrt(2))", ())
     >>> values.assign("x", values.value(ast.parse(values.text).body[0].value))
@@ -103,8 +104,9 @@ class Values:
     ``from sympy import Rational as R``, the key ``R`` has the value ``Rational``.
     """
     sources: dict[str, tuple[frozenset[str], frozenset[int]]] = field(default_factory=dict)
-    """For a variable that is not evaluated: the variables in its definition, and the memories of their arrays
-    at that time.
+    """A map from the name of a variable to a pair of sets. If the variable is not evaluated, the first set
+    contains the variables from which its value may come. The second set contains :attr:`Array.memory` of each
+    array that these variables contained at the time of the assignment. Otherwise both sets are empty.
     """
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
@@ -119,16 +121,20 @@ class Values:
             return Computed(f"{problem.found}", node.lineno)
 
     def assign(self, name: str, value: Value, mentioned: Collection[str] = ()) -> None:
-        """Assign a value to a name. A name in ``named`` keeps the number that a comment defines.
+        """Assign a value to a name. A name in ``named`` is not changed, because a comment defines its value.
 
-        ``mentioned`` lists the variables in the definition of a value that is not evaluated.
+        If the right-hand side of the assignment is not evaluated, ``mentioned`` lists the variables in it.
         """
         if name not in self.named:
             traced = self._traced(mentioned) if isinstance(value, Computed) else (frozenset(), frozenset())
             self.known[name], self.sources[name] = value, traced
 
     def change(self, names: Collection[str], mentioned: Collection[str], line: int) -> None:
-        """Mark the variables ``names`` as unknown. Later their values may share those of ``mentioned``."""
+        """Mark the variables ``names`` as unknown after a statement that may change them.
+
+        ``mentioned`` lists all variables in the statement. After the statement, an array in one of ``names``
+        may share memory with an array in one of ``mentioned``.
+        """
         traced = self._traced({*names, *mentioned})
         self.forget(names, line)
         for name in {*names}.difference(self.named):
@@ -136,7 +142,11 @@ class Values:
             self.sources[name] = traced
 
     def _traced(self, names: Collection[str]) -> tuple[frozenset[str], frozenset[int]]:
-        """Return ``names`` and the variables in their definitions, and the memories of all their arrays."""
+        """Return a pair of sets in the form of :attr:`sources`.
+
+        The first set contains ``names`` and the variables from which their values may come. The second set
+        contains :attr:`Array.memory` of all arrays in these variables.
+        """
         reached, memories = set(names), set[int]()
         for name in names:
             more, shared = self.sources.get(name, (frozenset(), frozenset()))
@@ -163,7 +173,11 @@ class Values:
         return False
 
     def _forget_others(self, changed: Array, line: int) -> None:
-        """Mark each variable as unknown that may share the memory of ``changed`` without containing it."""
+        """Mark other arrays as unknown after a change of the array ``changed``.
+
+        An array is marked if it may share memory with ``changed``, unless ``changed`` is the array itself or
+        one of its rows.
+        """
         for name, other in self.known.items():
             if isinstance(other, Array) and changed.memory in other.parts() and not _contains(other, changed):
                 self.known[name] = Computed("another statement may change the value", line)
@@ -328,7 +342,8 @@ def _require_digits(node: ast.Call) -> None:
     """Raise an error if a call such as ``Float('0.577', 2)`` drops digits of its text."""
     text = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
     digits = sum(x.isdigit() for x in text) if isinstance(text, str) else 17
-    # A text may contain two digits more than its precision in bits needs.
+    # The keyword ``precision`` is a number of bits. One bit corresponds to log10(2) = 0.30103 digits. The
+    # text may contain two digits more than this conversion gives.
     allowed = [(x, 1.0, 0) for x in node.args[1:]]
     allowed += [(k.value, 0.30103, 2) if k.arg == "precision" else (k.value, 1.0, 0) for k in node.keywords]
     for given, factor, more in allowed:
@@ -357,12 +372,14 @@ def _array(function: str, given: Value) -> Value:
 
 
 def _copy(value: Value, integral: bool) -> Value:
-    """Copy an array and its rows, and set their attribute ``integral``. Return other values unchanged."""
+    """Return a copy of an array and of its rows. In the copies, the attribute ``integral`` has the value of
+    the argument ``integral``. Return a value that is not an array unchanged."""
     return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 
 def _twin(value: Array, integral: bool) -> Array:
-    """Return a copy of an array that may share the memory of the array."""
+    """Return a new Array for the result of ``asarray(value)``. The attributes ``memory`` of the result and of
+    ``value`` are equal, because ``asarray`` may return its argument."""
     items = [_twin(x, integral) if isinstance(x, Array) else x for x in value.items]
     return Array(items, integral, value.memory)
 

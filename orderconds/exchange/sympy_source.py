@@ -1,4 +1,4 @@
-"""Conversion between tableaux and SymPy, as Python source or as SymPy matrices."""
+"""Conversion of tableaux to and from SymPy matrices and Python source that uses SymPy."""
 
 from __future__ import annotations
 

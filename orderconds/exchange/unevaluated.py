@@ -22,7 +22,11 @@ ONE = Constant(Fraction(1))
 
 
 class CoefficientTooLong(TableauError):
-    """The error for a coefficient that becomes too long when formulas replace its named numbers."""
+    """The error for a coefficient whose text is too long for a file.
+
+    A tableau file can give names to numbers. The text of a coefficient becomes longer when the definitions of
+    these numbers replace their names.
+    """
 
 
 class Unevaluated:
@@ -76,7 +80,8 @@ def _joined(operator: str, left: Unevaluated, right: Element) -> Unevaluated:
 
 
 class UnevaluatedNumbers:
-    """A ring whose elements are expressions. In their texts, ``~`` follows each inexact constant.
+    """A ring whose elements are expressions. The method :meth:`text` writes ``~`` after each inexact
+    constant.
 
     >>> R = UnevaluatedNumbers()
     >>> R.text(R.constant(Fraction(1, 4), Fraction(1, 100)) * 3 - R.rational(1, 2))
@@ -111,7 +116,8 @@ class UnevaluatedNumbers:
     def named_root(
         self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
     ) -> Unevaluated:
-        """Store the root of ``minpoly`` in [near - unit, near + unit]. Return its name as an expression."""
+        """Store the root of ``minpoly`` in [near - unit, near + unit]. Return an expression that consists of
+        the name of the root."""
         self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
         return Unevaluated(Name(name))
 
@@ -148,7 +154,8 @@ class UnevaluatedNumbers:
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
     """Return the tableau with unevaluated coefficients.
 
-    The coefficients are the expressions in ``file``, with formulas in place of the names of numbers.
+    The coefficients are the expressions in ``file``. The table ``numbers`` of the file defines numbers with
+    names. In the coefficients, these definitions replace the names.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'

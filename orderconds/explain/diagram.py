@@ -51,8 +51,9 @@ class Vertex:
 
     If the vertex is a letter, ``label`` is the printed text of the letter. Otherwise ``label`` is empty.
 
-    The first n branches of a force in an action tree are velocities. If n > 0, ``legs`` is a pair (m, n): the
-    edge to the parent comes after the first m velocities. For all other vertices, ``legs`` is None.
+    The first branches of a force in an action tree are velocities. Let n be the number of these velocities,
+    and let m be the number of velocities before the edge to the parent. If n > 0, ``legs`` is the pair
+    (m, n). For all other vertices, ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

@@ -41,8 +41,8 @@ def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
     ``f[x]`` is the derivative of the vector field f along the vector field x. ``f[x y]`` is the derivative of
-    ``f[y]`` along x. In this derivative, the components of y in a frame of invariant vector fields are
-    constants.
+    ``f[y]`` along x. During this differentiation, y is frozen: its components in a frame of invariant vector
+    fields are held constant.
 
     The operator of a forest is the product of the operators of its trees. The factors are separated by spaces
     (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).

@@ -47,7 +47,8 @@ class ShownTree:
 
     @property
     def condition(self) -> OrderCondition | None:
-        """The order condition of the tree in the family ``kind.family()``, or None if there is none."""
+        """The order condition of this tree for methods of the family ``kind.family()``. None if the tree has
+        no condition in this family."""
         return self.kind.conditions(self.order).get(self.member)
 
     def drawing(self, *, ascii_only: bool = False) -> str:

@@ -22,7 +22,7 @@ that contain the levels of its vertices."""
 
 
 MAX_TREES = 7_000
-"""The highest number of trees of one order for which conditions are derived."""
+"""If an order has more trees than this number, the conditions of this order are not derived."""
 
 
 @dataclass(frozen=True)
@@ -35,10 +35,10 @@ class Kind:
     - ``count`` computes the number of members of an order without enumeration.
     - ``text`` returns the text of a member.
     - ``diagram`` returns the drawing of a member.
-    - ``names`` returns the elementary differential or Hamiltonian of a member as text.
+    - ``names`` returns the text of the elementary differential or of the elementary Hamiltonian of a member.
 
-    The members have order conditions in the family of methods that :meth:`family` returns. If ``independent``
-    is true, these order conditions are independent of each other.
+    The members index order conditions of the family of methods that :meth:`family` returns. If
+    ``independent`` is true, the order conditions of the members are independent of each other.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -54,9 +54,9 @@ class Kind:
     independent: bool = False
 
     def family(self) -> Family:
-        """Return the family of methods that the command ``orderconds trees --explain`` uses for this kind.
+        """Return the family of methods whose order conditions ``orderconds trees --explain`` shows.
 
-        The command shows each tree with its order condition in this family.
+        The command shows each tree of this kind with the order condition that the tree has in this family.
         """
         for name in families.names():
             family = families.family_class(name)
@@ -131,8 +131,8 @@ def of_family(label: str) -> Kind | None:
 
 
 def refuse_too_many_trees(family: Family, order: int) -> None:
-    """Raise an InputError if ``family`` has more than :data:`MAX_TREES` trees of an order between 1 and
-    ``order``.
+    """Raise an InputError if a single order n has more than :data:`MAX_TREES` trees. The function tests all n
+    from 1 to ``order``, but none above ``family.order_bound``. The trees are those of ``family``.
 
     >>> refuse_too_many_trees(families.get("rk"), 12)
     """
@@ -153,7 +153,8 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
 def named_by(condition: OrderCondition) -> str:
     """Return the elementary differential or Hamiltonian of the tree of a condition.
 
-    If :func:`of_family` returns None for the family of the condition, the result is ``condition.tree``.
+    The result is ``condition.tree`` if the conditions of the family are not indexed by one of the kinds in
+    this module.
 
     >>> from orderconds.derivation import derive
     >>> print(*map(named_by, derive("vcg", order=2).conditions))
@@ -294,9 +295,10 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # The function ``partitioned_differential`` needs a tree with vertices of two colours. If the edge
-        # from a vertex to its parent points to the parent, the vertex becomes white. All other vertices
-        # become black. Except at the root, the encodings of directions and colours are equal.
+        # The function ``partitioned_differential`` needs a tree with black and white vertices. A vertex
+        # becomes white if the edge between the vertex and its parent points to the parent, and black if the
+        # edge points to the vertex. The byte that encodes this direction is also the byte that encodes the
+        # colour. The root has no parent, and ``coloured`` makes it black.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

@@ -29,9 +29,9 @@ RAISED = str.maketrans("()0123456789", "⁽⁾⁰¹²³⁴⁵⁶⁷⁸⁹")
 class Layout:
     """A vertex with its branches and its horizontal position ``x`` relative to its parent.
 
-    ``left`` contains one number for each level of the drawing: the position of the left end, relative to the
-    vertex. ``right`` contains the positions of the right ends. The unit of length is the distance between
-    neighbouring vertices.
+    ``below`` contains the layouts of the branches. ``left`` and ``right`` contain one number for each level
+    of the subtree whose root is the vertex: the horizontal positions of the left end and of the right end of
+    the level, relative to the vertex. The unit of length is the least distance between neighbouring vertices.
     """
 
     x: float
@@ -42,8 +42,8 @@ class Layout:
 
 
 def lay_out(vertex: Vertex) -> Layout:
-    r"""Return the layout of a vertex. Neighbouring branches are drawn as close together as possible without
-    an overlap. The vertex is centred below the branches.
+    r"""Return the layout of a vertex. The vertex is drawn below its branches, and in the middle between
+    the first and the last branch. Neighbouring branches are as close together as possible without an overlap.
 
     The method is that of E. M. Reingold and J. S. Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
 
@@ -69,7 +69,7 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # A text such as ``›*`` is drawn to the right of a vertex with ``legs`` and needs room.
+    # If ``vertex.legs`` is not None, a text such as ``›*`` is drawn to the right of the vertex.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 

@@ -1,7 +1,5 @@
-"""The base class of families of variational methods. The order conditions of these methods belong to action
-trees.
-
-The module :mod:`orderconds.series.action_trees` defines action trees.
+"""The base class of families of variational methods. These methods have one order condition for each action
+tree (:mod:`orderconds.series.action_trees`).
 """
 
 from __future__ import annotations
@@ -62,8 +60,9 @@ class ActionFamily(Family):
         """Return the action series of a random method of this family. The method has coefficients in
         ``ring``.
 
-        In some rings, an element is a vector with one entry for each of several methods. The number of
-        stages grows with ``order``. With too few stages, independent conditions could seem dependent.
+        If the elements of ``ring`` are vectors with n entries, the result contains the series of n random
+        methods: the k-th entries are the coefficients of the k-th method. The number of stages grows with
+        ``order``. With too few stages, independent conditions could seem dependent.
         """
 
     @abstractmethod
@@ -89,8 +88,8 @@ class ActionFamily(Family):
 
         The keys of the result are the trees of the dependent conditions. The polynomial is equal to the
         left-hand side of the dependent condition. The variables of the polynomial are the left-hand sides of
-        independent conditions. A polynomial is a tuple of terms (q, trees). The value of a term is the number
-        q times the product of the left-hand sides of the conditions of ``trees``.
+        independent conditions. A polynomial is a tuple of terms (q, trees). A term is the number q times
+        one factor for each tree in ``trees``: the left-hand side of the condition of this tree.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
@@ -126,8 +125,8 @@ class ActionFamily(Family):
         return tuple(map(self.condition, representatives(order)))
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Velocity, Callable[[], OrderCondition]]]:
-        """Yield a pair (tree, function) for each of the :meth:`decisive_conditions`. Each function
-        constructs the condition of the tree."""
+        """Yield a pair (tree, function) for each condition that :meth:`decisive_conditions` returns. The
+        function constructs the condition of the tree."""
         for of_class in classes_in_turn(order):
             yield of_class[0], partial(self.condition, of_class[0])
 
@@ -157,9 +156,11 @@ class ActionFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a Runge-Kutta tableau or composition without zero weights, else None.
+        """Return this family if the tableau is a Runge-Kutta tableau or a composition, and if all its weights
+        are proved to be non-zero. Otherwise return None.
 
-        The file of such a method should state the order of the method in this family.
+        If the family is returned, the file of ``tableau`` should state the order of the method in this
+        family.
         """
         return cls() if has_weights(tableau, nonzero=True) else None
 
@@ -208,7 +209,8 @@ def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...]
 def longest_word(tree: Velocity) -> int:
     """Return the length of the longest word that is needed to compute the coefficient of ``tree``.
 
-    The coefficient is a sum of products, and the factors are coefficients of words.
+    The coefficient of ``tree`` in the action series of a method is a sum of products. The factors of the
+    products are coefficients of words in the group elements of the stages and of the update.
 
     >>> from orderconds.series.action_trees import velocity
     >>> longest_word(velocity((velocity(), velocity())))

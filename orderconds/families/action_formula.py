@@ -1,14 +1,14 @@
 """The conditions of action trees as sums over indices, such as ``sum_i b_i c_i^2 = 1/3``.
 
 The conditions contain coefficients of words in a product of exponentials. The letters of a word are trees.
-Let u be a word of k letters. Each letter comes from one of the exponentials, and the n-th letter comes from
-the exponential with index j_n. The coefficient of u is a sum over all indices with ``j_1 <= ... <= j_k``.
-Each term is a product of k factors: the coefficients of the letters in the exponents. If r letters come from
-one exponential, the term is divided by r!.
+Let u be a word of k letters. The coefficient of u is a sum over all indices with ``j_1 <= ... <= j_k``. In
+each term, the n-th letter of u comes from the exponential with index j_n. The term is a product of k factors.
+The n-th factor is the coefficient of the n-th letter in the exponent with index j_n. For each exponential,
+the term is also divided by r!, where r is the number of letters that come from this exponential.
 
-A run consists of all letters that come from one exponential. These letters are adjacent. Each division of u
-into runs gives one sum, with one index for each run. The indices increase strictly from run to run. The
-coefficient of u is the sum over all divisions.
+This sum is split into sums whose indices increase strictly. A run consists of all letters that come from one
+exponential. These letters are adjacent. All terms with the same division of u into runs form one sum, which
+has one index for each run. The coefficient of u is the total of these sums.
 
 The coefficient is simpler if the k letters are equal. Let S be the sum of the letter's coefficients in all
 exponents. In this case, the coefficient of u is S^k/k!. Printed conditions contain no denominator k!, because
@@ -43,16 +43,16 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word of action trees. One of the letters can be a string instead of a tree. This string represents the
-letter x in :meth:`ActionFormula.through`. The string is the index of a stage."""
+"""A word whose letters are action trees. One letter can be the letter x of :meth:`ActionFormula.through`,
+which is not a tree. In the tuple, x is represented by the argument ``stage`` of that method, a string."""
 
 
 def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    The coefficient of a word of k equal letters has the denominator k!. The multiplication removes all such
-    denominators. If the word of a velocity consists of k equal letters, the velocity contributes k! to the
-    factor. The factor is the product of the contributions of the tree and of all its subtrees.
+    The attribute ``word`` of each :class:`Velocity` is a word of smaller trees. The coefficient of a word of
+    k equal letters has the denominator k!. The returned factor removes these denominators: it is the product
+    of k! over all such words in the tree.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -73,8 +73,8 @@ class ActionFormula(ABC):
     """The base class of objects that write the conditions of action trees as sums over indices.
 
     A subclass defines how the stages and the update depend on the velocities of the stages. The argument
-    ``row`` of a function is the index of a stage, or None for the update. In all formulas, the coefficient of
-    a tree is multiplied by the :func:`multiplier` of this tree.
+    ``row`` of the methods is the index of a stage, or None for the update. In all formulas, the coefficient
+    of a tree is multiplied by the :func:`multiplier` of this tree.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import force, velocity
@@ -86,15 +86,17 @@ class ActionFormula(ABC):
     def word(self, row: str, word: Word) -> Formula:
         """Return the coefficient of a word in the group element of stage ``row``.
 
-        If the word consists of k equal letters, the coefficient is multiplied by k! (:func:`multiplier`).
+        If the word consists of k equal letters, return k! times the coefficient instead. This factor cancels
+        the denominator k! (see :func:`multiplier`).
         """
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in the group element of stage ``row``.
+        """Return a coefficient of the group element of stage ``row``, or of the update if ``row`` is None.
 
-        The words u and v are ``before`` and ``after``. The letter x is a perturbation that is added to the
-        velocity of ``stage``. If ``row`` is None, the update takes the place of the stage ``row``.
+        Suppose that a new letter x is added to the velocity of the stage ``stage``. The result is the
+        coefficient of the word that consists of the letters of ``before``, the letter x and the letters of
+        ``after``.
         """
 
     def condition(self, tree: Velocity) -> Formula:
@@ -130,7 +132,7 @@ class ActionFormula(ABC):
 class ExponentialsFormula(ActionFormula):
     """The index sums of methods whose stages and update are products of exponentials.
 
-    The argument ``place`` of a function is the index of an exponential.
+    The argument ``place`` of the methods is the index of an exponential in such a product.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -140,16 +142,18 @@ class ExponentialsFormula(ActionFormula):
 
     @abstractmethod
     def place(self) -> str:
-        """Return an unused name for the index of an exponential."""
+        """Return an unused name for the summation index that numbers the exponentials."""
 
     @abstractmethod
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the coefficient of ``tree`` in the exponent with index ``place`` of stage ``row``."""
+        """Return the coefficient of ``tree`` in one exponent of stage ``row``, or of the update if ``row`` is
+        None. The exponent has the index ``place``."""
 
     def word(self, row: str, word: Word) -> Formula:
         """Return the coefficient of a word in the group element of stage ``row``.
 
-        If the word consists of k equal letters, the coefficient is multiplied by k! (:func:`multiplier`).
+        If the word consists of k equal letters, return k! times the coefficient instead. This factor cancels
+        the denominator k! (see :func:`multiplier`).
         """
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
@@ -163,25 +167,28 @@ class ExponentialsFormula(ActionFormula):
         return index_sum((place,), (), self.exponent(row, place, tree))
 
     def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
-        """Return the coefficient of a word in a product of exponentials.
+        """Return the coefficient of a word in a part of a product of exponentials.
 
-        The product contains the exponentials whose index j satisfies ``above < j < below``. If a bound is
-        None, the bound is omitted.
+        The product is that of stage ``row``, or that of the update if ``row`` is None. The part contains the
+        exponentials whose index j satisfies ``above < j < below``. If ``above`` is None, there is no lower
+        bound. If ``below`` is None, there is no upper bound.
         """
         if not word:
             return one()
-        # Runs are groups of adjacent letters from one exponential. The term with the most runs comes first.
+        # There is one term for each division of the word into runs (see the module docstring). The division
+        # into the most runs comes first.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return a pair (factor, formula). The product of both is one term of the result of :meth:`between`.
+        """Return the contribution of one division of the word into runs to the result of :meth:`between`.
 
-        The word is divided into runs. All letters of a run come from one exponential. ``lengths`` contains
-        the number of letters in each run. The factor is the product of 1/r! over the runs, where r
-        is the number of letters in the run.
+        A run consists of all letters that come from one exponential. ``lengths`` contains the number of
+        letters in each run. The contribution is a product of a number and an index sum. The result is the
+        pair of these factors. The number is the product of 1/r! over the runs, where r is the number of
+        letters in the run.
         """
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
@@ -192,10 +199,11 @@ class ExponentialsFormula(ActionFormula):
         return Fraction(1, prod(map(factorial, lengths))), index_sum(places, relations, product(*factors))
 
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in the product of exponentials of stage ``row``.
+        """Return a coefficient of the product of exponentials of ``row``, a stage or None for the update.
 
-        Here u is ``before`` and v is ``after``. The letter x occurs only in the exponent with index
-        ``place``. The coefficient of x in this exponent is one.
+        Suppose that a new letter x is added to the exponent with index ``place``, with the coefficient one.
+        The result is the coefficient of the word that consists of the letters of ``before``, the letter x and
+        the letters of ``after``.
         """
         terms = []
         for r in range(len(before) + 1):
@@ -219,22 +227,26 @@ class CrouchGrossmanFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return an unused name for the index of a stage. This index is also the index of an exponential."""
+        """Return an unused name for the index of an exponential. The exponential with index j contains the
+        velocity of stage j. Therefore the name is a name for a stage index."""
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the coefficient of the tree t = ``tree`` in the exponent with index j = ``place``.
+        """Return the coefficient of ``tree`` in one exponent of stage ``row``, or of the update if ``row`` is
+        None.
 
-        If ``row`` is a stage i, the result is ``a_ij tau_t(j)``. If ``row`` is None, the result is
-        ``b_j tau_t(j)``. Here ``tau_t(j)`` is the result of :meth:`tau` for the tree t and stage j.
+        Let j be the index ``place`` of the exponent, and let ``tau_t(j)`` be the result of :meth:`tau` for
+        ``tree`` and stage j. In stage i, the coefficient is ``a_ij tau_t(j)``. In the update, the
+        coefficient is ``b_j tau_t(j)``.
         """
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in the group element of stage ``row``.
+        """Return a coefficient of the group element of stage ``row``, or of the update if ``row`` is None.
 
-        The words u and v are ``before`` and ``after``. The letter x is a perturbation that is added to the
-        velocity of ``stage``. If ``row`` is None, the update takes the place of the stage ``row``.
+        Suppose that a new letter x is added to the velocity of the stage ``stage``. The result is the
+        coefficient of the word that consists of the letters of ``before``, the letter x and the letters of
+        ``after``.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -253,24 +265,26 @@ class CommutatorFreeFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return an unused name for the index of an exponential."""
+        """Return an unused name for the summation index that numbers the exponentials."""
         return fresh("J")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the coefficient of the tree t = ``tree`` in the exponent with index J = ``place``.
+        """Return the coefficient of ``tree`` in one exponent of stage ``row``, or of the update if ``row`` is
+        None.
 
-        If ``row`` is a stage i, the result is ``sum_j alpha_iJj tau_t(j)``. If ``row`` is None, the result is
-        ``sum_j beta_Jj tau_t(j)``. Here ``tau_t(j)`` is the result of :meth:`tau` for the tree t and stage j.
-        The class docstring defines alpha and beta.
+        Let J be the index ``place`` of the exponent, and let ``tau_t(j)`` be the result of :meth:`tau` for
+        ``tree`` and stage j. In stage i, the coefficient is ``sum_j alpha_iJj tau_t(j)``. In the update, the
+        coefficient is ``sum_j beta_Jj tau_t(j)``. The class docstring defines alpha and beta.
         """
         stage = fresh("i")
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in the group element of stage ``row``.
+        """Return a coefficient of the group element of stage ``row``, or of the update if ``row`` is None.
 
-        The words u and v are ``before`` and ``after``. The letter x is a perturbation that is added to the
-        velocity of ``stage``. If ``row`` is None, the update takes the place of the stage ``row``.
+        Suppose that a new letter x is added to the velocity of the stage ``stage``. The result is the
+        coefficient of the word that consists of the letters of ``before``, the letter x and the letters of
+        ``after``.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -303,18 +317,20 @@ class MuntheKaasFormula(ActionFormula):
     def word(self, row: str, word: Word) -> Formula:
         """Return the coefficient of a word in exp(X_i), where i is ``row``. The class docstring defines X_i.
 
-        If the word consists of k equal letters, the coefficient is multiplied by k! (:func:`multiplier`).
+        If the word consists of k equal letters, return k! times the coefficient instead. This factor cancels
+        the denominator k! (see :func:`multiplier`).
         """
         if len(set(word)) > 1:
             return self._exponential(row, word)
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in exp(X_i), where i is ``row``. The class docstring
-        defines X_i and Y. If ``row`` is None, Y takes the place of X_i.
+        """Return a coefficient of exp(X_i), where i is ``row``, or of exp(Y) if ``row`` is None. The class
+        docstring defines X_i and Y.
 
-        The words u and v are ``before`` and ``after``. The letter x is a perturbation that is added to the
-        velocity of ``stage``.
+        Suppose that a new letter x is added to the velocity of the stage ``stage``. The result is the
+        coefficient of the word that consists of the letters of ``before``, the letter x and the letters of
+        ``after``.
         """
         return self._exponential(row, (*before, stage, *after))
 
@@ -324,9 +340,8 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in the n-th power of X_i, where i is ``row``.
-
-        If ``row`` is None, Y takes the place of X_i. The class docstring defines X_i and Y.
+        """Return the coefficient of ``word`` in the n-th power of X_i, where i is ``row``, or in the n-th
+        power of Y if ``row`` is None. The class docstring defines X_i and Y.
         """
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
@@ -351,11 +366,12 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _argument(self, row: str | None, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in X_i, where i is ``row``.
+        """Return the coefficient of ``word`` in X_i, where i is ``row``, or in Y if ``row`` is None.
 
-        If ``row`` is None, Y takes the place of X_i. X_i and Y are linear combinations of the elements v_j
-        (see the class docstring). In each term of v_j, one letter comes from xi_j, and all other letters come
-        from X_j. The result is a sum over the possible positions of the letter from xi_j.
+        The class docstring defines X_i and Y as linear combinations of the elements v_j. Here v_j is a linear
+        combination of products of one factor xi_j, the velocity of stage j, and several factors X_j. The
+        factor xi_j supplies one letter of the word, and the factors X_j supply all other letters. The result
+        is a sum over the position of the letter that xi_j supplies.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -380,8 +396,8 @@ class MuntheKaasFormula(ActionFormula):
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
             # X is the exponent of the stage. The power X^0 = 1 contains only the empty word. For m > 0, each
-            # word in X^m has at least m letters. If the coefficient of ``before`` in X^m or of ``behind`` in
-            # X^n is therefore zero, the term is skipped.
+            # word in X^m has at least m letters. A term is skipped if ``before`` has a length that no word in
+            # X^m has, or if ``behind`` has a length that no word in X^n has.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):

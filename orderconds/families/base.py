@@ -52,11 +52,11 @@ class Family(ABC):
     formats: ClassVar[tuple[str, ...]] = ()
     """The tableau formats that the family accepts, in order of decreasing preference."""
     has_tableau: ClassVar[bool] = True
-    """True if a tableau defines each method of the family. False if a label such as ``taylor(12)`` defines
-    the method.
+    """True if each method of the family is defined by a tableau. False if each method is defined by a label
+    such as ``taylor(12)``.
     """
     source: ClassVar[str] = ""
-    """The publication that defines the methods of a family without tableaux. Empty for other families."""
+    """The publication that defines the methods if ``has_tableau`` is false. Otherwise an empty text."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
@@ -66,13 +66,15 @@ class Family(ABC):
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
-    """True if rational arithmetic suffices to evaluate the order conditions of some methods with irrational
-    coefficients. The module :mod:`orderconds.ring.nodal` describes these methods."""
+    """True if the module :mod:`orderconds.ring.nodal` can evaluate the order conditions of this family. For
+    some methods with irrational coefficients, such as Gauss methods, this module needs only rational
+    numbers. The module docstring describes these methods."""
     trees: ClassVar[str | None] = None
     """The name of the kind of trees, forests or words that index the conditions. The kinds are defined in
     :mod:`orderconds.explain.kinds`. None if there is no such kind."""
     illustrates: ClassVar[tuple[str, ...]] = ()
-    """The kinds of trees for which ``orderconds trees --explain`` prints the conditions of this family."""
+    """Names of kinds of trees. When ``orderconds trees --explain`` prints trees of these kinds, it prints the
+    order conditions of this family with them."""
 
     symbols: ClassVar[Mapping[str, str]] = {
         "a": r"$a_{ij}$ are the coefficients of the stages",
@@ -94,7 +96,8 @@ class Family(ABC):
     low_order: ClassVar[str | None] = None
     """The name of a family whose conditions of orders 1 and 2 equal those of this family, or None."""
     bounds_others: ClassVar[bool] = False
-    """True if ``check`` derives bounds of orders in other families from the order in this family."""
+    """True if ``check`` computes the order of a method in this family to find bounds, from above or from
+    below, of the orders of this method in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
     """The names of families. If a low-storage scheme has order p in this family, it has at least order p in
     these families."""
@@ -126,15 +129,15 @@ class Family(ABC):
 
     # Search
     unknowns: ClassVar[str | None] = None
-    """The tableau format for which ``orderconds solve`` computes coefficients. None if the command does not
-    accept the family.
+    """The name of a tableau format. A search with ``orderconds solve`` in this family computes the
+    coefficients of a tableau in this format. None if the command does not accept the family.
     """
     symplectic: ClassVar[bool] = False
     """True if a search considers only symplectic tableaux. A tableau is symplectic if b_i a_ij + b_j a_ji =
     b_i b_j for all i and j."""
     equal_abscissae: ClassVar[bool] = False
-    """True if each method of order three with positive weights has equal abscissae: c_i = chat_i = m_i. The
-    module :mod:`orderconds.solve.abscissae` defines these abscissae.
+    """True if every method of this family with positive weights and order three has equal abscissae. A stage
+    has three abscissae c_i, chat_i and m_i, which the module :mod:`orderconds.solve.abscissae` defines.
     """
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed, or None if there is no limit."""
@@ -163,8 +166,8 @@ class Family(ABC):
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the :meth:`conditions` of the given order without dependent conditions.
 
-        A condition is dependent if it follows from other conditions of the same order or of lower orders. By
-        default, return all :meth:`conditions`.
+        A condition is dependent if it follows from other conditions of the same order or of lower orders. The
+        base class returns all :meth:`conditions`, because they are independent in most families.
         """
         return self.conditions(order)
 
@@ -182,7 +185,8 @@ class Family(ABC):
     def dependence_holds(self, order: int) -> bool:
         """Return True if :meth:`conditions` omits only dependent conditions of the given order.
 
-        By default, return True: a theorem proves that the omitted conditions are dependent.
+        The base class returns True. A subclass overrides this function if no theorem proves that the omitted
+        conditions are dependent.
         """
         return True
 
@@ -238,10 +242,11 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of the :meth:`conditions` of the given order.
+        """Return the residuals of conditions of the given order.
 
-        For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error. A
-        subclass can return the residuals of other conditions of the given order.
+        For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error. The base
+        class returns the residuals of :meth:`conditions`. A subclass can use another set of conditions, for
+        example the conditions of all trees.
         """
         return self.residuals(method, ring, self.conditions(order))
 
@@ -262,15 +267,16 @@ class Family(ABC):
     def for_method(self, method: Method) -> Family:
         """Return the family in which the order of ``method`` is tested if the tableau file states no order.
 
-        The name of ``self`` is the name of the tableau format. By default, return ``self``. A family
-        of splittings returns the variant with the number of vector fields of ``method``.
+        The function is called for the family that has the same name as the format of the tableau. By default,
+        return ``self``. The family of splittings into two vector fields returns the family of splittings into
+        n vector fields, where n is the number of vector fields of ``method``.
         """
         return self
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should state the order of the method in this family.
-        Otherwise return None."""
+        """Return this family if the file of ``tableau`` should state which order the method has in this
+        family. Otherwise return None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
@@ -282,8 +288,9 @@ class Family(ABC):
     def claimed_variants(self) -> tuple[Family, ...]:
         """Return variants of this family, such as ``rkmk(0)`` and ``rkmk(1)``.
 
-        The variant with the cheapest step comes first. The command ``orderconds solve`` writes the order in
-        this variant to the tableau file. A higher order in the next variant is added.
+        The variant with the cheapest step comes first. The command ``orderconds solve`` writes the order of
+        the new method in this variant to the tableau file. The command also writes the order in the next
+        variant if this order is higher, and continues until the order does not increase.
         """
         return (self,)
 
@@ -323,10 +330,10 @@ class Family(ABC):
         if FORMATS.get(self.formats[0]) is RungeKuttaFile:
             return tableau_form(stages, explicit, self.needs_nonzero_weights)
         raise InputError(
-            f"the number of stages does not determine the coefficients of family {self.label()}",
+            f"the number of stages does not determine which coefficients exist in family {self.label()}",
             where="stages",
-            expected="a family with a fixed set of coefficients for each number of stages, such as rk or "
-            "splitting",
+            expected="a family in which the number of stages determines which coefficients a method has, "
+            "such as rk or splitting",
             hint="omit the number of stages",
         )
 
@@ -341,7 +348,7 @@ class Family(ABC):
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order that follows from properties of the coefficients.
+        """Return a lower bound of the order. The bound follows from properties of the coefficients.
 
         The bound is 0 if no theorem applies.
         """
@@ -367,9 +374,9 @@ class Family(ABC):
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return a description of the conditions that the truncation of dexpinv does not change.
+        """Describe the conditions that are the same for the method with and without truncation of dexpinv.
 
-        Return None if no description is known.
+        See :class:`UnseenCut` for the description. Return None if no description is known.
         """
         return None
 
@@ -408,10 +415,11 @@ class Family(ABC):
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family from which ``orderconds solve`` takes the order conditions.
+        """Return the label of the family whose conditions ``orderconds solve`` solves for this family.
 
-        By default, return the label of this family. The option ``--rkn`` of the command sets ``nystroem`` to
-        true.
+        By default, return the label of this family. Some families use the conditions of another family. For
+        example, the family ``composition`` uses those of ``symmetric_composition``. The option ``--rkn`` of
+        the command sets ``nystroem`` to true, and then the family ``splitting`` uses those of ``rkn``.
         """
         return self.label()
 

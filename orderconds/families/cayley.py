@@ -1,7 +1,7 @@
 """Cayley methods for Y' = A(t) Y on quadratic groups. One step is Y_1 = cay(Omega) Y_0.
 
 The Cayley transform is cay(x) = (1 - x/2)^-1 (1 + x/2). If a step is a product of several Cayley transforms,
-cay(Omega) is this product.
+Omega is the matrix for which cay(Omega) is this product.
 
 Omega is a linear combination of the values A_i = h A(c_i h) at the nodes c_i, of commutators such as
 A_i A_j - A_j A_i, and of sums such as A_i A_j A_k + A_k A_j A_i. The matrix P of the quadratic group defines
@@ -38,8 +38,8 @@ if TYPE_CHECKING:
 class CayleyFamily(MagnusFamily):
     """Cayley methods: a step is a Cayley transform or a product of Cayley transforms.
 
-    The step is equal to cay(Omega). In printed conditions, omega_ij is the coefficient of A_j A_i in Omega,
-    and omega_ijk is the coefficient of A_k A_j A_i.
+    In both cases, the step is cay(Omega). The module docstring defines Omega. In printed conditions, omega_ij
+    is the coefficient of A_j A_i in Omega, and omega_ijk is the coefficient of A_k A_j A_i.
 
     >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -73,9 +73,10 @@ class CayleyFamily(MagnusFamily):
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the coefficient of a word in Omega as a polynomial in the coefficients of independent words.
+        """Express the coefficient of ``word`` in Omega by the coefficients of independent words.
 
-        The polynomial is zero or, up to the sign, one such coefficient (see :meth:`independent`).
+        The coefficient is zero, or it is equal to the coefficient of one independent word or to its negative
+        (see :meth:`independent`). The result is this expression as a polynomial.
         """
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}

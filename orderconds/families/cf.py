@@ -2,9 +2,9 @@
 
 Each exponent is a linear combination of the values k_j of the vector field at the stages. The update with m
 exponentials is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the rightmost exponential acts
-first. In stage i, the coefficients alpha_iIj replace beta_Ij, where I is the number of the exponential
-(Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). If stage i starts from the value of an earlier stage,
-the product of stage i includes the exponentials of the earlier stage.
+first. Stage i is a product of the same form: in its exponential with index I, the coefficient of k_j is
+alpha_iIj instead of beta_Ij (Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). If stage i starts from the
+value of an earlier stage, the product of stage i includes the exponentials of the earlier stage.
 
 Printed conditions contain alpha, beta and three sums: b_j = sum_I beta_Ij, a_ij = sum_I alpha_iIj and the
 abscissae c_i = sum_j a_ij.
@@ -84,17 +84,19 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method, else None.
+        """Return this family for a tableau in the format ``cf``, else None.
 
-        The file of the tableau should state the order of the method in the returned family. The file of a
-        tableau (A, b) states the order in the family ``cg``.
+        If the family is returned, the tableau file should state the order of the method in this family. This
+        family also accepts a tableau (A, b), as a Crouch-Grossman method. But the result for such a tableau
+        is None, because its file should state the order in the family ``cg`` instead.
         """
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if a palindrome of exponentials proves that a commutator-free method is symmetric.
+        """Return True if a method is a commutator-free method that is proved to be symmetric.
 
-        See :mod:`orderconds.tableau.palindromes` for the criterion.
+        The proof is that the exponentials of the method form a palindrome, as defined in
+        :mod:`orderconds.tableau.palindromes`. If the result is False, the method may still be symmetric.
         """
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 

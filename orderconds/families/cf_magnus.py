@@ -77,15 +77,18 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return all words of weight ``order``. The weight of a word is the sum of its letters."""
+        """Return all words of weight ``order``. Letters are positive integers, and the weight of a word is
+        the sum of its letters."""
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient of a word in the exact flow, an iterated integral of powers of t."""
+        """Return the coefficient of a word in the series of the exact flow. This coefficient is an iterated
+        integral of powers of t."""
         return iterated_integral(word)
 
     def scale(self, word: Word) -> int:
-        """Return n! for a word of length n. The factor n! makes the coefficients in the formula integers."""
+        """Return n! for a word of length n. Both sides of the condition are multiplied by n!, so that the
+        numbers in :meth:`formula` are integers."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:

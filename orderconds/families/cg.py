@@ -90,10 +90,11 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 
 
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
-    """Return True if a palindrome of exponentials proves that a Crouch-Grossman method is symmetric.
+    """Return True if the tableau (A, b) of a Crouch-Grossman method is proved to define a symmetric method.
 
-    Then the variational Crouch-Grossman method of this tableau is symmetric, too. See
-    :mod:`orderconds.tableau.palindromes` for the criterion.
+    The proof is that the exponentials of the method form a palindrome, as defined in
+    :mod:`orderconds.tableau.palindromes`. If the result is True, the variational Crouch-Grossman method of
+    the same tableau is symmetric, too. If the result is False, the methods may still be symmetric.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))

@@ -5,9 +5,9 @@ is symmetric, X_2, X_4, ... are zero. The logarithm of Phi_{alpha h} is the sum 
 logarithm of the adjoint Phi*_{beta h} is the sum of -(-beta)^k h^k X_k over k.
 
 There is one condition for each word. The letter k of a word denotes X_k and has the weight k. The condition
-of a word states that its coefficients in the series of one step and of the exact flow are equal. If all n
-letters of a word are 1, the coefficient in the exact flow is 1/n!, otherwise zero (HLW III.3.1; Murua and
-Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+of a word states that the word has the same coefficient in the series of one step as in the series of the
+exact flow. If all n letters of a word are 1, the coefficient in the exact flow is 1/n!, otherwise zero (HLW
+III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -85,7 +85,8 @@ class CompositionFamily(WordFamily):
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 
     def scale(self, word: Word) -> int:
-        """Return n! for a word of length n. The factor n! makes the coefficients in the formula integers."""
+        """Return n! for a word of length n. Both sides of the condition are multiplied by n!, so that the
+        numbers in :meth:`formula` are integers."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
@@ -119,9 +120,9 @@ class CompositionFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a composition, else None.
+        """Return this family if the method of ``tableau`` is a composition, else None.
 
-        The file of the composition should state the order of the method in the returned family.
+        If the family is returned, the tableau file should state which order the method has in this family.
         """
         return cls() if isinstance(tableau.method, Composition | AdjointComposition) else None
 

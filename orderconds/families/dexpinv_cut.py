@@ -8,11 +8,12 @@ Let p be the order without truncation. For RKMK methods, p is the order of the R
 tableau. For VRKMK methods, p is the order of the symplectic partitioned Runge-Kutta method of the tableau
 (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
 
-The truncation changes one step by a term with h^(R+3) and by higher powers of h. The order with truncation is
-min(p, R + 2) (compare Bogfjellmo and Marthinsen, Theorem 3.5.3).
+The truncation changes one step by O(h^(R+3)). The order with truncation is min(p, R + 2) (compare Bogfjellmo
+and Marthinsen, Theorem 3.5.3).
 
-The formula for the coefficient of a tree contains the branches at each vertex as a word. The letters of the
-word are smaller trees. The truncation changes only the terms of words with more than R + 1 letters.
+The branches at a vertex of a tree form a word, whose letters are smaller trees. The coefficient of the tree
+is computed from the coefficients of these words. The truncation changes only the coefficients of words with
+more than R + 1 letters.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a tableau file should state the order of the method."""
+"""The values of ``cutoff`` for which ``orderconds solve`` can write the order of a method to its file."""
 
 
 class DexpinvCut(Family):
@@ -75,9 +76,9 @@ class DexpinvCut(Family):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order of a method in this family.
 
-        ``orders`` maps the names of other families to the orders of the method in these families. One bound
-        is min(p, R + 2), or p if ``cutoff`` is None. The module docstring defines p and R. The base class
-        gives another bound. The result is the larger of the two bounds.
+        ``orders`` maps the names of other families to the orders of the method in these families. Let p and R
+        be the numbers that the module docstring defines. One bound is min(p, R + 2), or p if ``cutoff`` is
+        None. The base class gives another bound. The result is the larger of the two bounds.
         """
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
@@ -89,10 +90,11 @@ class DexpinvCut(Family):
         return min(order, kept + 2)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return a description of the conditions that the truncation of dexpinv does not change.
+        """Describe the conditions that are the same for the method with and without truncation of dexpinv.
 
-        Return None if ``method`` is not a Runge-Kutta tableau. Also return None if :attr:`abelian` is None,
-        because the order without truncation is then unknown.
+        The description contains the order of the method without truncation, which is the order in the family
+        :attr:`abelian`. Return None if :attr:`abelian` is None, or if ``method`` is not a Runge-Kutta
+        tableau.
         """
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
