@@ -15,7 +15,7 @@ Bounds = tuple[int, int]
 CONDITION_ORDER = (1, 20)
 """The least and the largest order whose conditions can be derived or checked."""
 EXPANDED_STAGES = (1, 12)
-"""The least and the largest number of stages if the sums in the conditions are expanded."""
+"""The least and the largest number of stages for which the sums in the conditions can be expanded."""
 TREE_ORDER = (1, 40)
 CONSTRUCTED_STAGES = (1, 50)
 DIGITS = (10, 1000)

@@ -6,8 +6,9 @@ Hamiltonian, f~ is the vector field of a modified Hamiltonian (Hairer, Lubich an
 Integration*, Chapter IX).
 
 On a Lie group, the field y -> f(p).y is called the field frozen at the point p. For a Lie group method, the
-fields f_2, f_3, ... are sums of two kinds of terms: elementary differentials along frozen fields, and
-commutators of elementary differentials (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+fields f_2, f_3, ... are sums of elementary differentials of f and of commutators of elementary differentials.
+The derivatives in an elementary differential are taken along frozen fields (Lundervold and Munthe-Kaas,
+Contemp. Math. 539 (2011) 295).
 
 The *modifying* field solves the inverse problem: if the method is applied to the modifying field, one step is
 the exact flow of f. The modifying field, too, is a series in h (Chartier, Hairer and Vilmart, Math. Comp. 76
@@ -85,7 +86,7 @@ class ModifiedEquation:
     hamiltonian: tuple[Term, ...] | None
 
     def as_json(self) -> dict[str, object]:
-        """Return the description of the modified equation in the JSON output of ``orderconds modified``."""
+        """Return the modified equation as a dictionary for the JSON output of ``orderconds modified``."""
         hamiltonian = None if self.hamiltonian is None else [self._record(term) for term in self.hamiltonian]
         return {
             "family": self.family,
@@ -179,7 +180,8 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of the given order. Each term belongs to a Lyndon word of ordered trees."""
+    """Yield the terms of the given order. The field of a term is the standard bracketing of a Lyndon word of
+    ordered trees."""
 
     def product(word: Word) -> Element:
         return field(b"".join(reversed(word)))

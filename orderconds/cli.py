@@ -264,7 +264,8 @@ def program() -> None:
 def main() -> NoReturn:
     """Run the program with the arguments of the command line.
 
-    A command creates little garbage, so Python collects garbage less often.
+    A command creates little garbage. Therefore this function lets Python collect garbage less often than by
+    default.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()

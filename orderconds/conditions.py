@@ -34,9 +34,10 @@ class OrderCondition:
     - ``source`` is the left-hand side, or a function that returns the left-hand side. The attribute
       ``formula`` is the left-hand side with readable index names.
     - ``key`` is the tree in the internal encoding of the family.
-    - ``relation`` is None for an independent condition. For a dependent condition, the left-hand side
-      equals a polynomial in the left-hand sides ``<x>`` of the conditions of trees x. ``relation`` is
-      the text of the polynomial, for example ``3 <o(|L(o o))> - <o> <o(o)>``.
+    - ``relation`` is None for an independent condition. The left-hand side of a dependent condition equals a
+      polynomial in the left-hand sides of other conditions. ``relation`` is the text of this polynomial, for
+      example ``3 <o(|L(o o))> - <o> <o(o)>``. In the text, ``<x>`` denotes the left-hand side of the
+      condition of the tree x.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))

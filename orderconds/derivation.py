@@ -17,8 +17,8 @@ from orderconds.errors import InputError
 class Derivation:
     """The conditions of ``family`` (a label such as ``rkmk(1)``) up to ``order``.
 
-    ``by_order[n - 1]`` contains the conditions of order n. Iteration, ``len`` and indices apply to
-    ``conditions``, the tuple of all conditions.
+    ``by_order[n - 1]`` contains the conditions of order n. ``conditions`` is the tuple of all conditions. A
+    derivation supports ``len``, indices and iteration like this tuple.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation, len(derivation)
@@ -108,7 +108,7 @@ def derive(
     :class:`~orderconds.errors.InputError` in these cases:
 
     - The order is not an integer from 1 to 20.
-    - The family has more than 7000 trees of one order between 1 and ``order``.
+    - For some order from 1 to ``order``, the family has more than 7000 trees.
     - The family has no conditions of the given order.
     - ``stages`` is not an integer from 1 to 12.
     - ``explicit`` is true, but ``stages`` is not given.

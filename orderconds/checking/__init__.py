@@ -11,9 +11,11 @@ that the condition fails. A certificate states how the order was established. Th
 - ``ball``: interval arithmetic proves that a method of the computed order exists near the given decimals.
   Each coefficient of the proved method differs from the given decimal by at most one unit of the last digit
   (:mod:`orderconds.proof`).
-- ``decimal``: some residuals are balls that contain zero. The digits support the order, but do not prove it.
+- ``decimal``: every residual up to the order is zero or a narrow ball that contains zero. The conditions hold
+  to the precision of the given coefficients, but the order is not proved.
 - ``double``: as ``decimal``, but the coefficients are doubles.
-- ``none``: a ball is too wide to decide a condition, so the order is ``undecided``.
+- ``none``: a residual is a ball that contains zero, but the ball is too wide for the certificate ``decimal``.
+  The order is ``undecided``.
 """
 
 from __future__ import annotations

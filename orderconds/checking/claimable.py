@@ -1,6 +1,8 @@
-"""The claimable families of a tableau: the families in which the file of the tableau should claim an order.
+"""The claimable families of a tableau: the families for which a complete tableau file contains a claim.
 
-If the order of the tableau in another family implies the order in a family F, F is not claimable. Each family
+For example, the claim ``rk = 4`` states that the method has order 4 in the family ``rk``.
+
+A family is not claimable if the order in this family follows from the order in another family. Each family
 has a method :meth:`orderconds.families.Family.claimable` that applies this rule. The claimable families are:
 
 - For a Butcher tableau: ``rk``, ``cg`` and ``rkmk``. If no weight is zero, also ``sprk``, ``vcg``, ``vrkmk``.
@@ -16,7 +18,7 @@ from orderconds.tableau import Tableau
 
 
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
-    """Return the families in which a file of ``tableau`` should claim an order.
+    """Return the families for which a complete file of ``tableau`` contains a claimed order.
 
     Families that need non-zero weights come last. Among the families before them, families on vector spaces
     come first.
@@ -37,7 +39,7 @@ def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
 
 
 def unclaimed(tableau: Tableau) -> tuple[Family, ...]:
-    """Return the families in which the file of the tableau should claim an order, but claims none.
+    """Return the claimable families for which the file of the tableau contains no claimed order.
 
     >>> from orderconds.tableau import find
     >>> unclaimed(Tableau.load(find("kutta3")))

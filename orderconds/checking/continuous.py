@@ -25,7 +25,8 @@ from orderconds.tableau.extension import Extension
 def extension_order(tableau: Tableau) -> ExtensionOrder | None:
     """Return the order of the continuous extension of a tableau, or None if there is no extension.
 
-    The search ends, at the latest, at the claimed order plus one.
+    The conditions of order 1, 2, ... are evaluated until a condition fails or is undecided, but at most up to
+    the claimed order plus one.
 
     >>> order = extension_order(Tableau.load("rk4"))
     >>> order.order, order.certificate, order.continuous
@@ -70,8 +71,9 @@ def _judged(
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
     """Return the order condition for the coefficients of theta^p in the weights b_i(theta).
 
-    ``condition`` is the order condition of a tree with n vertices, for constant weights. The right-hand side
-    for the extension is a multiple of theta^n. If p != n, the coefficient of theta^p in it is zero.
+    ``condition`` is the order condition of a tree with n vertices, for constant weights. For the weights
+    b_i(theta), its right-hand side is multiplied by theta^n. Therefore the right-hand side of the returned
+    condition is zero if p != n.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")

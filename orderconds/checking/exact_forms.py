@@ -3,8 +3,8 @@
 Each coefficient is compared with fractions of small denominator. If no fraction agrees, the coefficient is
 compared with numbers x + y sqrt(d), where x and y are rational. All coefficients have the same d.
 
-The digits of the given coefficients support an order p. The exact coefficients are accepted if exact
-arithmetic proves that their method has at least the order p.
+Let p be the order of the given tableau to the precision of its coefficients. The exact coefficients are
+accepted if exact arithmetic proves that the exact method has at least the order p.
 """
 
 from __future__ import annotations
@@ -23,14 +23,13 @@ from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
 from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
-"""The bound that rejects fractions which may agree with a number by coincidence.
+"""The bound on q^2 u for a fraction with the denominator q and a number with the uncertainty u.
 
-Let u be the uncertainty of the number, and q the denominator of the fraction. If q^2 u exceeds the bound, the
-fraction is rejected.
+If q^2 u exceeds the bound, the fraction may agree with the number by coincidence and is rejected.
 """
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
-"""The keys of a tableau file whose values contain no coefficients."""
+"""Keys of a tableau file. The values of these keys contain no coefficients."""
 
 MAX_NUMBERS = 400
 MAX_SECONDS = 2.0
@@ -112,7 +111,8 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 def _fraction(x: Constant) -> Fraction | None:
     """Return the simplest fraction within the uncertainty of x.
 
-    Return None if the denominator of the simplest fraction is too large (:data:`CHANCE`).
+    Return None if the denominator q of this fraction is so large that q^2 times the uncertainty exceeds
+    :data:`CHANCE`.
     """
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
@@ -124,7 +124,7 @@ def _bits(x: Constant) -> int:
 
 
 def _surd(x: Constant, d: int) -> str | None:
-    """Return the text of a number p + q sqrt(d) that agrees with ``x`` to its precision.
+    """Return the text of a number p + q sqrt(d) that differs from ``x`` by at most the uncertainty of ``x``.
 
     The numbers p and q are rational. Return None if no such number is found.
     """

@@ -51,9 +51,10 @@ class Meter:
         self.of_order += conditions
 
     def stops(self, more: int) -> bool:
-        """Return True if the time or the memory exceeds its limit.
+        """Return True if the time or the memory of the check exceeds its limit.
 
-        Also return True if ``more`` further conditions of the current order would exceed their limit.
+        Also return True if ``more`` additional conditions would exceed the limit on the number of conditions
+        of the current order.
         """
         limits = self.limits
         if self.of_order + more > limits.conditions:

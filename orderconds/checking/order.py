@@ -140,7 +140,8 @@ def family_order(
       ``family``, so the order in ``family`` is at most ``bound.order``.
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
-    - ``brief``: if true, the search stops at ``bound.order``.
+    - ``brief``: if true, the search ends at ``bound.order``, and the result contains the failing conditions
+      of ``bound``. If false, the search ends there only if ``bound.order >= family.search_limit``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get
@@ -161,9 +162,9 @@ def family_order(
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
     """Return a tuple with one condition of order ``order`` that the method of ``tableau`` violates.
 
-    No method of the family satisfies this condition (:meth:`~orderconds.families.Family.first_unmet`). If no
-    such condition is known, the tuple is empty. If the coefficients have too few digits to prove the
-    violation, the tuple is also empty.
+    The method :meth:`~orderconds.families.Family.first_unmet` finds a condition that no method of the family
+    satisfies. If no such condition is known, the tuple is empty. The tuple is also empty if the coefficients
+    are rounded and the computed residual is a ball that contains zero.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -181,7 +182,8 @@ def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure
 class _Search:
     """The search for the order of one method in one family.
 
-    The search skips conditions that follow from other conditions. ``spared`` finds these conditions.
+    The search does not evaluate a condition that follows from other conditions. ``spared`` decides whether a
+    condition follows.
     """
 
     family: Family
@@ -208,7 +210,7 @@ class _Search:
             known = len(self.sizes or ())
             verdicts, failing, whole = self._judged(n, n > expected, certificate == "decimal")
             if self.sizes and (failing or not verdicts.isdisjoint((STOPPED, "undecided"))):
-                # The residuals of order n do not count, because the method does not have this order.
+                # The computed order is n - 1. ``sizes`` contains only residuals up to the computed order.
                 del self.sizes[known:]
             if not failing and STOPPED in verdicts:
                 done = self.meter.total
@@ -229,9 +231,9 @@ class _Search:
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
         """Evaluate the conditions of order n. Return the verdicts, the failing conditions and a flag.
 
-        If the flag is true, all failing conditions of order n are returned. If ``unlikely`` is true, order n
-        exceeds the claimed order, so most conditions probably fail. If ``decimal`` is true, the certificate
-        of order n - 1 is ``decimal``.
+        If the flag is false, order n may have more failing conditions than those returned. If ``unlikely`` is
+        true, order n exceeds the claimed order, so most conditions probably fail. If ``decimal`` is true,
+        some conditions of lower order hold only to the precision of the rounded coefficients.
         """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
@@ -239,7 +241,8 @@ class _Search:
         if self.spared.order_follows(n):
             return verdicts, failing, whole
         # A condition is skipped if it follows from conditions that hold exactly. Balls do not prove that a
-        # condition holds exactly. If ``decimal`` is true, the result is no proof, so the skip is allowed.
+        # condition holds exactly. But if ``decimal`` is true, the computed order is not proved in any case,
+        # so conditions are skipped, too.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -258,10 +261,10 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield batches of conditions of order n, each with a flag.
+    """Yield pairs (batch, flag). The flag is true if there is only one batch.
 
-    The conditions of all batches together imply every condition of order n. The flag is true if there is only
-    one batch.
+    A batch contains pairs (key, function). The function constructs the condition of order n that the key
+    identifies. The conditions of all batches together imply every condition of order n.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

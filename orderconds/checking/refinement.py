@@ -54,8 +54,8 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
     - Without this table, each double or rounded decimal becomes a fraction or a number p + q sqrt(d) with
       rational p and q. The exact method has at least the order of the given method.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution of the equations near the decimals is
-    proved, or if no exact numbers are found.
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` in two cases: the equations are not proved to have a
+    solution near the given decimals, or no exact numbers are found.
 
     >>> refine("cg4a", digits=30)
     <refined Tableau('cg4a', rk, 5 stages): 13 decimals within 4.88e-31>

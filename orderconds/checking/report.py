@@ -55,7 +55,8 @@ class ExtensionOrder(Struct, frozen=True):
       continuous if the weights b_i(theta) of the extension satisfy b_i(1) = b_i.
     - ``smooth`` states whether the first derivative of the solution is continuous, too.
     - ``continuous`` or ``smooth`` is None if the digits of the coefficients do not decide the question.
-    - ``failing`` contains failing conditions of order ``order + 1``, for one power of theta.
+    - ``failing`` contains failing conditions of order p + 1, where p is the computed order. All of them are
+      conditions on the coefficients of the same power of theta in the weights b_i(theta).
     """
 
     claimed: int
@@ -111,7 +112,8 @@ class SymmetryOrder(Struct, frozen=True):
     - ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups.
     - ``order`` is q, or None if the method is symmetric to every order.
     - ``at_least`` is true if ``order`` is only a lower bound.
-    - ``certificate`` is ``exact``, or ``decimal`` if rounded coefficients do not prove the order.
+    - ``certificate`` is ``exact`` if q is proved. It is ``decimal`` if q is not proved, because the
+      coefficients are rounded decimals.
     """
 
     family: str
@@ -134,8 +136,8 @@ class Report:
     """The result of ``check`` for one tableau.
 
     ``orders`` contains the orders of the main method, with a verdict on each claimed order. ``broken_claims``
-    contains a message for every other failure, for example for a claimed property that the method does not
-    have.
+    contains messages about failures that do not concern these orders. An example is a claimed property that
+    the method does not have.
     """
 
     name: str
@@ -205,7 +207,7 @@ class Report:
     def summary(self) -> str:
         """Return a short text about the claims that do not hold.
 
-        For each wrong order, the text contains the first failing condition.
+        For each claimed or required order that does not hold, the text contains the first failing condition.
         """
         lines = [f"{self.name}: {self.conclusion}" + (f"  ({self.file})" if self.file else "")]
         for family in self.orders:

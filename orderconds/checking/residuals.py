@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""The bound that distinguishes the verdicts ``supported`` and ``undecided``.
+"""Determines the largest radius of a ball for which the verdict is ``supported``.
 
 Suppose that the residual of a condition of order n is a ball that contains zero. If the radius of the ball is
 at most RESOLUTION/n!, the verdict is ``supported``, else ``undecided``.
@@ -115,9 +115,10 @@ def judge(
     The verdict on a condition is ``zero``, ``fails``, ``supported`` (the residual is a narrow ball that
     contains zero) or ``undecided`` (the residual is a wide ball that contains zero).
 
-    If ``balls_first`` is true and ``ring`` is a number field, residuals are first enclosed in balls. Balls
-    are faster if most conditions fail. If the residuals in ``ring`` are balls and no condition fails, the
-    largest absolute residual is appended to the list ``sizes``.
+    If ``balls_first`` is true and ``ring`` is a number field, each residual is first enclosed in a ball. The
+    exact residual is then computed only if the ball contains zero. This is faster if most conditions fail. If
+    the residuals in ``ring`` are balls and no condition fails, the largest absolute residual is appended to
+    the list ``sizes``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -172,9 +173,10 @@ _ENCLOSED = Memo(_enclosed)
 
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
-    """Return True if exact residuals need only rational numbers (:mod:`orderconds.ring.nodal`).
+    """Return True if the exact residuals can be computed with rational numbers
+    (:mod:`orderconds.ring.nodal`).
 
-    The coefficients of the method are elements of the number field ``ring``.
+    The coefficients of the method may be irrational: they are elements of the number field ``ring``.
     """
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
@@ -184,7 +186,8 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 class _OnDemand:
     """Computes the exact residuals of ``conditions`` on request.
 
-    The first request computes one residual. The second request computes all other residuals.
+    A request is a call with the index of a condition. The first request computes only the residual of this
+    condition. The next request for another residual computes all other residuals.
     """
 
     def __init__(
@@ -220,6 +223,6 @@ def _verdict(ring: Ring, residual: Element, n: int) -> str:
     zero = ring.is_zero(residual)
     if zero is not None:
         return "zero" if zero else "fails"
-    assert isinstance(ring, Balls)  # In other rings, ``is_zero`` never returns None.
+    assert isinstance(ring, Balls)  # ``is_zero`` returns None only for balls.
     radius = Decimal(ring.radius(residual))
     return "supported" if radius <= RESOLUTION / factorial(n) else "undecided"

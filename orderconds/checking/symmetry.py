@@ -59,8 +59,8 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
 def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
     """Return the label of the family, the series of one step, a function ``trees`` and a number N.
 
-    ``trees(n)`` yields the trees or forests with n vertices. The test of symmetry uses n <= N. Return None if
-    the method is neither a Runge-Kutta method nor commutator-free.
+    ``trees(n)`` yields the trees or forests with n vertices. N is the largest n in the test of symmetry.
+    Return None if the method is neither a Runge-Kutta method nor commutator-free.
     """
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 NOT_PROVED = ("decimal", DOUBLE)
-"""The certificates of orders that are not proved. The conditions hold to the precision of the given
+"""The certificates that do not prove an order: the conditions hold to the precision of the given
 coefficients, but perhaps not exactly."""
 
 
@@ -94,10 +94,10 @@ def check(
 
 
 def _register_form(tableau: Tableau) -> RegisterForm | None:
-    """Find the scheme with two registers that is equal to the method.
+    """Rewrite the method as a low-storage scheme with two registers.
 
-    The result contains the scheme, or the reason why no such scheme exists. Return None if the method is
-    neither a Runge-Kutta method nor a commutator-free method.
+    The result contains the scheme, or the reason why the method is not equal to such a scheme. Return None if
+    the method is neither a Runge-Kutta method nor a commutator-free method.
     """
     rewriting = low_storage(tableau)
     if rewriting is None:
@@ -125,7 +125,8 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """If the coefficients of ``tableau`` are doubles, replace the certificate ``decimal`` by ``double``."""
+    """Return ``orders``. If the coefficients of ``tableau`` are doubles, replace each certificate ``decimal``
+    in ``orders`` by ``double``."""
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
@@ -155,7 +156,10 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...]) -> EmbeddedOrder | None:
-    """Return the orders of the embedded method in several families.
+    """Return the orders of the embedded method in ``rk``, in the family of its format, and in families of
+    ``wanted``.
+
+    Families of ``wanted`` in which the stages depend on the weights are omitted.
 
     Return None if the tableau has no embedded method.
     """
@@ -230,10 +234,11 @@ order is None.
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return additional families whose orders can bound the orders in the families ``wanted``.
+    """Return additional families whose orders can be bounds of the orders in the families ``wanted``.
 
-    Return an empty list if each claimed or required order is below the search limit of its family. A search
-    is then sufficient.
+    ``wanted`` contains pairs (family, claimed order). If ``required`` and the claimed order are below
+    ``family.search_limit`` for each family, a search finds the orders without bounds. The result is then an
+    empty list.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -241,9 +246,9 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return families whose orders bound the orders in other families.
+    """Return the claimable families whose orders give bounds of the orders in other families.
 
-    Omit families with a label in ``labels``. If a Runge-Kutta method is a composition of midpoint rules,
+    Omit families with a label in ``labels``. If the method of ``tableau`` is a composition of midpoint rules,
     include families of composition methods.
     """
     from orderconds.checking.claimable import claimable_families
@@ -260,9 +265,10 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Derive the order in ``family`` from orders in other families, after a search reached a limit.
+    """Derive the order in ``family`` from the orders in other families.
 
-    ``ended`` is the result of the search. Return ``ended`` if the order cannot be derived.
+    ``ended`` is the result of a search for the order in ``family``. The search ended at a limit. Return
+    ``ended`` if the order cannot be derived.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
@@ -278,10 +284,10 @@ def _beyond(
 
 
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
-    """Return the smallest upper bound of the order in ``family`` among orders in other families.
+    """Return the smallest upper bound of the order in ``family`` that ``computed`` contains.
 
-    If order n in ``family`` implies order n in a family G, the order in G is an upper bound.
-    Return None if ``computed`` contains no upper bound.
+    ``computed`` contains the orders in other families. If order n in ``family`` implies order n in a family
+    G, the order in G is an upper bound. Return None if ``computed`` contains no upper bound.
     """
     if not computed:
         return None
@@ -307,8 +313,8 @@ def _settled(
 ) -> FamilyOrder | None:
     """Derive the order in ``family`` from the orders in other families.
 
-    Return None if no order follows, or if the order is below ``family.search_limit``. A search finds such a
-    low order.
+    Return None if no order follows. Also return None if the order is below ``family.search_limit``, because a
+    search in ``family`` is sufficient for such a low order.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -338,10 +344,10 @@ def _settled_by(
 
 
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """If ``facts`` proves the order, replace the certificate ``decimal`` (not proved) by ``ball`` (proved).
+    """If the computed order follows from ``facts``, replace the certificate ``decimal`` by ``ball`` (proved).
 
-    ``facts`` contains pairs (family, order). The equations in the table ``[proof]`` of the tableau file
-    imply the orders in the pairs.
+    ``facts`` contains pairs (family, order). The method is proved to have these orders, because it satisfies
+    the equations in the table ``[proof]`` of the tableau file.
     """
     if computed.certificate != "decimal" or not facts:
         return computed
@@ -371,7 +377,7 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
     """Yield pairs (family to check, claimed order). Without a claim, the order is None.
 
     If ``family`` is given, yield only this family. If ``family`` is None, yield all families with a claim. If
-    no family has a claim, yield the family of the tableau's format.
+    no family has a claim, yield the family with the name of the tableau's format.
     """
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
@@ -410,7 +416,10 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 def _broken_claims(
     tableau: Tableau, computed: dict[str, bool | None], embedded: EmbeddedOrder | None
 ) -> Iterator[str]:
-    """Yield a message for each false claim about a property or about the order of the embedded method."""
+    """Yield a message for each claim that does not hold.
+
+    The claims are those about properties of the method and about the order of the embedded method.
+    """
     for name, claimed in tableau.claims.properties.items():
         holds = computed.get(name)
         if holds is not claimed:
@@ -437,7 +446,7 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 
 
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
-    """Yield a message for each claimable family in which the file claims no order.
+    """Yield a message for each claimable family for which the file contains no claimed order.
 
     ``tableau`` is the tableau of the file. The order in the message is computed from ``enclosed``. If a proof
     exists, the coefficients of ``enclosed`` are balls (intervals) that contain the exact coefficients.

@@ -30,13 +30,14 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""At most this number of failing conditions is printed, and at most this number of skipped names."""
+"""The largest number of failing conditions that are printed for one family, and the largest number of names
+of skipped files and folders that are printed for one directory."""
 
 UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 DIGITS = 12
-"""The largest number of characters of a coefficient of a 2N scheme. Longer coefficients are shortened."""
+"""The largest number of characters of a printed coefficient of a 2N scheme. Longer texts are shortened."""
 
 WIDTH = 200
 """The largest number of characters of a formula or a residual. Longer texts are shortened."""
@@ -76,8 +77,8 @@ WIDTH = 200
 @click.option(
     "--require-claims",
     is_flag=True,
-    help="Exit with status 1 if a tableau claims no order in the checked families. In a DIR, do not skip "
-    "files that resemble a tableau.",
+    help="Exit with status 1 if a tableau claims no order in the checked families. In a DIR, do not "
+    "skip a file without a tableau if its data resemble a tableau.",
 )
 @click.option(
     "--skip-others",
@@ -132,12 +133,12 @@ def command(
     """Find the exact order and the properties of each tableau. A tableau is given as a file (TOML, JSON, CSV,
     NPZ, Python, LaTeX or C) or by its name in the library.
 
-    A file can claim an order, for example with the line `order = 4`. The line `rk = 4` in its table `claims`
-    claims an order in one family. A claimed order must equal the computed order. If a limit, such
-    as --max-seconds, ends the computation, the computed order is a lower bound.
+    A file can claim an order, for example with the line `order = 4`. To claim an order in a given family,
+    write a line such as `rk = 4` in the table `claims` of the file. A claimed order must equal the computed
+    order. If a limit, such as --max-seconds, ends the computation, the computed order is a lower bound.
 
     If a directory is given, all tableau files below it are checked, and other files are skipped. With
-    --require-claims, files that resemble a tableau are not skipped.
+    --require-claims, a file with data similar to a tableau, such as a matrix with another name, is an error.
 
     The exit status is 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file cannot be read.
 
@@ -186,7 +187,10 @@ def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
 
 
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
-    """Return one job for each tableau. If a file ``DECIMAL`` lists a tableau, its orders need no proof."""
+    """Return one job for each tableau.
+
+    A file ``DECIMAL`` in a directory of ``arguments`` lists tableaux whose orders need no proof.
+    """
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others, strict))
     return [
@@ -285,8 +289,8 @@ def _checked(job: _Job) -> _Outcome:
 def _excused(arguments: Sequence[str]) -> set[str]:
     """Return the names of the tableaux that need no proof.
 
-    The file ``DECIMAL`` of a directory lists these names. Each line has the form "NAME: reason". A line that
-    begins with # is a comment.
+    Each directory in ``arguments`` may contain a file ``DECIMAL`` that lists such names. Each line has the
+    form "NAME: reason". A line that begins with # is a comment.
     """
     names = set[str]()
     for argument in arguments:
@@ -301,8 +305,9 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
     """Yield the files to check. A directory is replaced by the tableau files below it.
 
     Other files in a directory are skipped, and their names are written to stderr. If ``skip_others`` is true,
-    arguments that are files without a tableau are skipped, too. If ``strict`` is true, files that resemble a
-    tableau are not skipped.
+    arguments that are files without a tableau are skipped, too. If ``strict`` is true, a file without a
+    tableau is not skipped if its data resemble a tableau
+    (:func:`~orderconds.exchange.folder.reason_to_skip`).
     """
     for argument in arguments:
         if not argument.strip():
@@ -408,7 +413,8 @@ def _count(n: int, what: str) -> str:
 
 
 def _proof(proof: Certificate) -> str:
-    """Return one line that states what the proof of a tableau file shows."""
+    """Return one line with the result of the proof for the equations in the table ``[proof]`` of a tableau
+    file."""
     text = (
         f"the {proof.equations} equations from [proof] have exactly one solution "
         f"within {proof.radius} of the decimals"

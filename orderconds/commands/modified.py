@@ -47,8 +47,8 @@ def command(tableau: str, order: int, family: str | None, modifying: bool, as_js
     tree is a Lyndon word of ordered trees. For these families, f[x y] is the derivative of f along the fields
     x and y. In this derivative, x and y are treated as constant. The commutator is [x, y] = x y - y x.
 
-    For a symplectic method, the command also prints the modified Hamiltonian H~. Its terms contain the
-    derivatives of the Hamiltonian H and the vector field f of H. An example is H''(f, f).
+    For a symplectic method, the command also prints the modified Hamiltonian H~. Its terms contain the vector
+    field f and derivatives of the Hamiltonian H. An example is H''(f, f).
 
     \b
     Examples:

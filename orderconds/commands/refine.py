@@ -36,8 +36,9 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
 
     If FILE has a [proof] table, solve the equations of this table. Newton's method starts at the rounded
     decimals of the file, such as "0.8177~". The table [proof.printed] of the new file contains the original
-    digits. If there are more decimals than equations, some decimals do not change. The list pins of the new
-    file contains the names of the unchanged decimals.
+    digits. The decimals are the unknowns of the equations. If there are more unknowns than equations, some
+    decimals do not change. The list `pins` in the [proof] table of the new file contains the names of these
+    decimals.
 
     If FILE has no [proof] table, replace binary floats and rounded decimals by nearby fractions or numbers
     p + q sqrt(d), where p, q and d are rational. The order of the method does not change. The suffix of
@@ -82,7 +83,8 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
 
 
 def _exact(tableau: Tableau, output: str | None, as_json: bool) -> int:
-    """Write the tableau with exact coefficients and return 0. Return 1 if no new coefficients are found."""
+    """Write the tableau with exact coefficients and return 0. If no decimal can be replaced by an exact
+    number, print the reason and return 1."""
     from orderconds.checking.exact_forms import exact_forms
     from orderconds.exchange import export, format_of
 

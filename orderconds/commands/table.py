@@ -99,7 +99,8 @@ def butcher(method: str) -> Butcher:
     """Return the order and the Butcher tableau of a method.
 
     ``method`` is the name of a tableau, or FAMILY:NAME. FAMILY is the family in which the order is
-    computed. Without FAMILY, this is the family in which the tableau claims the highest order.
+    computed. Without FAMILY, the order is computed in the family in which the tableau claims the highest
+    order.
 
     >>> butcher("vrkmk(1):kutta3")["order"], butcher("rkmk(0):kutta3")["order"]
     (3, 2)

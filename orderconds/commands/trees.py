@@ -59,9 +59,10 @@ def command(
 
     In text drawings, the root is in the first line. In pictures (--svg), the root is at the bottom.
 
-    The letter q denotes the position. The momentum is p, or mu on a Lie group. A directed edge begins at a
-    derivative of the Hamiltonian in q and ends at a derivative in the momentum. A diamond (in text drawings:
-    an L) denotes a coadjoint action on mu. Directed edges begin there, too.
+    In a tree with directed edges, each vertex is a derivative of the Hamiltonian H. For each edge, H is
+    differentiated with respect to the position at the vertex where the edge begins, and with respect to the
+    momentum at the vertex where the edge ends. The momentum is p, or mu on a Lie group. A diamond (in text
+    drawings: an L) denotes a coadjoint action on mu. An edge can also begin at a diamond.
 
     A note such as (>*>) after a vertex lists the edges at this vertex from left to right. The sign > is an
     edge to a child. The sign * is the edge to the parent.

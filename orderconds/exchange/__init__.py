@@ -7,7 +7,7 @@ file. All formats except TOML and JSON omit the table ``[proof]``.
 A number from another program is a double, a rounded decimal or exact:
 
 - A short binary fraction in a NumPy archive, for example 0.375, is exact. Other floats there are doubles.
-- A decimal with the digits of a printed double is a double.
+- A decimal that was probably printed from a double, for example 0.3333333333333333, is this double.
 - Other decimals with at least 12 significant digits are rounded (suffix ``~``).
 - Shorter decimals are exact.
 """
@@ -42,8 +42,8 @@ def export(data: Data, to: str) -> bytes:
     """Return a tableau as the content of a file in the format ``to``.
 
     Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format
-    cannot represent. To find such a method, this function reads the content back and
-    compares the result with ``data``.
+    cannot represent. The function detects such a method as follows: it reads the content back and compares
+    the result with ``data``.
 
     >>> export({"name": "euler", "family": "rk", "A": [["0"]], "b": ["1"]}, "csv").decode().split()
     ['name,euler', 'family,rk', 'A,0', 'b,1']

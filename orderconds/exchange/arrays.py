@@ -9,8 +9,8 @@ The names of the arrays depend on the family:
 - ``cf``: exponentials, count and start. The method contains several products of exponentials: one product
   for each stage, one for the update, and one for the embedded update. The arrays contain the products in this
   sequence. Each row of ``exponentials`` contains the coefficients of one exponential. For each product,
-  ``count`` contains the number of exponentials. ``start`` contains the value that the product acts on: 0
-  means y0, and i means stage i.
+  ``count`` contains the number of exponentials. ``start`` contains 0 if the product acts on y0, and i if the
+  product acts on the value of stage i.
 
 The table ``proof`` of a tableau file cannot be stored in arrays and is omitted.
 """
@@ -37,14 +37,15 @@ Arrays = Data
 """A map from names to values. A value is a text, a vector of coefficients or a matrix of coefficients."""
 
 TABLES = ("numbers", "claims")
-"""Tables of a tableau file. The arrays contain these tables as JSON text."""
+"""Tables of a tableau file. :func:`to_arrays` converts each of these tables to JSON text."""
 TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
-"""An imported decimal with at least this number of significant digits is rounded or a double.
+"""A decimal in an imported file is considered exact if it has fewer significant digits than this number.
 
-A decimal with fewer digits, for example 0.5, is exact. See :func:`coefficient`.
+For example, 0.5 is exact. A decimal with more digits is considered to be a double or a rounded decimal. See
+:func:`coefficient`.
 """
 
 
@@ -240,8 +241,9 @@ def with_family(data: Data) -> Data:
 def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
     """Return the arrays of a Butcher tableau. Row i of ``stages`` contains c_i and row i of A.
 
-    The first row of ``weights`` is b. A second row contains embedded weights. A blank cell is zero. If a row
-    has more cells than the method has stages, blank cells at the end of the row are removed.
+    The first row of ``weights`` is b. A second row contains embedded weights. A blank cell is zero. Let s be
+    the number of stages. Blank cells at the end of a row of A or of ``weights`` are removed if they follow
+    the first s cells.
 
     >>> butcher([["0", "", ""], ["1", "1", ""]], [["", "1"]])["A"]
     [['0', '0'], ['1', '0']]
@@ -268,9 +270,9 @@ def _integer(text: str, where: str) -> int:
 def coefficient(text: str) -> str:
     """Convert a number from another program's file to a coefficient of a tableau file.
 
-    A decimal loses its exponent. If the decimal was probably printed from a double, the result is this double
-    (see :func:`~orderconds.tableau.doubles.is_printed`). Other decimals with at least 12 significant digits
-    become rounded decimals (suffix ``~``).
+    A decimal with an exponent is converted to the same number without exponent. If the decimal was probably
+    printed from a double, the result is this double (see :func:`~orderconds.tableau.doubles.is_printed`).
+    Other decimals with at least 12 significant digits become rounded decimals (suffix ``~``).
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
     ['0.50', '0.3333333333333333d', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']

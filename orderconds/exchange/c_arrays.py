@@ -119,7 +119,8 @@ def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
 
 
 def _end(text: str, token: re.Match[str], where: str) -> int:
-    """Return the index after a comment or string.
+    """Return the index of the first character after a comment or string. ``token`` matches the beginning of
+    the comment or string.
 
     Raise TableauError if ``*/`` or the closing quotation mark is missing.
     """

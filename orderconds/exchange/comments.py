@@ -1,4 +1,5 @@
-"""Write texts of a tableau, for example the name, as comments of source files. A comment is one line.
+"""Write texts of a tableau, for example the name, as comments of source files. Each text becomes a comment of
+one line.
 
 A backslash is doubled. A line break or a control character becomes a Unicode code, for example ``\\u000a``.
 The delimiters of C comments become ``*\\/`` and ``\\/*``.
@@ -23,7 +24,7 @@ def escaped(text: str) -> str:
 
 
 def unescaped(text: str) -> str:
-    r"""Return the original text for a result of :func:`escaped`.
+    r"""Invert :func:`escaped`: return the text from which :func:`escaped` made ``text``.
 
     >>> unescaped(escaped("a\nb */ c\\d")) == "a\nb */ c\\d"
     True

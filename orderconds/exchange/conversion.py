@@ -36,7 +36,7 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return a copy of ``data``. In lists and tables, texts of integers and decimals become floats."""
+    """Return a copy of ``data``. In lists and tables, strings such as '1', '0.5' and '0.5d' become floats."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

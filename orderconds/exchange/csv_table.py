@@ -92,8 +92,8 @@ def _repeated(name: str, where: str) -> TableauError:
 def _is_plain(table: Table) -> bool:
     """Return True if a CSV table is a plain Butcher tableau.
 
-    In a plain tableau, no row begins with the name of a matrix. The first cell of at least one row is not in
-    ``NAMES``. Examples are a number and an empty cell.
+    In a plain tableau, no row begins with the name of a matrix. At least one row begins with a cell that is
+    not in ``NAMES``, for example with a number or an empty cell.
     """
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)

@@ -48,7 +48,8 @@ class Folder:
 def scan(folder: str | Path, *, strict: bool = False) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched.
 
-    If ``strict`` is true, files that resemble a tableau count as tableaux (see :func:`reason_to_skip`).
+    If ``strict`` is true, the field ``tableaux`` of the result also contains files without a tableau whose
+    data resemble a tableau (see :func:`reason_to_skip`).
 
     >>> from orderconds.tableau.library import root
     >>> files = scan(root())
@@ -91,9 +92,9 @@ class Reason:
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return the reason to skip a file, or an empty text if the file must be read.
 
-    A damaged file must be read, because reading it shows the error to the user. Some files, for
-    example a JSON file with a matrix under an unknown key, resemble a tableau but contain no key of a
-    tableau. By default, such files are skipped. If ``strict`` is true, such files must be read.
+    A damaged file must be read, because reading it shows the error to the user. Some files resemble a
+    tableau, but contain no key or array of a tableau. An example is a JSON file with a matrix under an
+    unknown key. By default, such files are skipped. If ``strict`` is true, such files must be read.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root
@@ -128,7 +129,8 @@ def _of_json(content: bytes) -> Reason | None:
 
 
 def _is_matrix(value: object) -> bool:
-    """Return True if a value is a list of rows, and some row contains a number or a text."""
+    """Return True if a value is a list of lists, and at least one of the lists contains a number or a
+    string."""
     if not isinstance(value, list) or not value or not all(isinstance(row, list) for row in value):
         return False
     return any(isinstance(x, int | float | str) for row in value for x in row)
@@ -169,7 +171,7 @@ def _of_python(content: bytes) -> Reason | None:
 
 def _of_latex(content: bytes) -> Reason | None:
     match = _LATEX.search(content.decode(errors="replace"))
-    return None if match else Reason("no Butcher tableau, and no matrix A, gamma, alpha or exponentials")
+    return None if match else Reason("no Butcher tableau; no matrix named A, gamma, alpha or exponentials")
 
 
 def _of_c(content: bytes) -> Reason | None:

@@ -1,9 +1,9 @@
-"""NumPy archives (``.npz``). Coefficients are stored twice. For example, the array ``A`` contains doubles.
-The array ``A_exact`` contains the exact values as text.
+"""NumPy archives (``.npz``). Coefficients are stored twice. For example, the array ``A`` contains the entries
+of A as doubles, and the array ``A_exact`` contains the exact entries as text.
 
 If ``A_exact`` is missing, the coefficients are the doubles in ``A``. Arrays of Python objects are refused.
 The array ``order`` contains the claimed order in the family of the tableau. The array ``claims`` contains a
-text with claims in families, for example ``rk=4``.
+text with claimed orders in given families. For example, ``rk=4`` claims order 4 in the family ``rk``.
 """
 
 from __future__ import annotations

@@ -42,8 +42,9 @@ COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha"
 HINT = "write the numbers themselves, or execute the file with 'orderconds check --execute'"
 SAFE_FUNCTIONS = ("print", "len", "sum", "abs", "min", "max", "range", "round", "repr", "str")
 SAFE_METHODS = ("sum", "mean", "copy", "tolist", "transpose", "all", "any", "allclose", "isclose")
-"""Functions and methods that change none of their arguments. Except for ``print``, a call with more than two
-positional arguments is not safe, because NumPy may store the result in the third argument."""
+"""Functions and methods that change none of their arguments if a call has at most two positional arguments.
+With more arguments, only ``print`` is safe, because a NumPy function may store its result in the third
+argument."""
 SAFE_KEYWORDS = ("axis", "dtype", "sep", "end", "precision", "dps")
 UNSAFE_NAMES = {
     *("exec", "eval", "compile", "globals", "locals", "vars", "setattr", "delattr"),
@@ -100,9 +101,8 @@ def reason_to_skip(content: bytes) -> str:
 
 
 def is_plainly_other(content: bytes) -> bool:
-    """Return True if no assignment in a module resembles a tableau.
+    """Return True if a module assigns no expression with a list or a tuple to A, a or b.
 
-    An assignment to A, a or b resembles a tableau if its right-hand side contains a list or a tuple.
     Return False for invalid source, because it may contain a tableau.
 
     >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
@@ -174,8 +174,8 @@ def _follow(statement: ast.stmt, values: Values) -> None:
     """Evaluate one statement at the top level of the module, and store the new values of its variables.
 
     If the right-hand side of an assignment cannot be evaluated, the variable becomes unknown. Loops and
-    conditions are not evaluated: all variables in them become unknown. The same is true for the variables in
-    each expression that may change a variable.
+    conditions are not evaluated: all variables that they may change become unknown. If an expression may
+    change a variable, all variables in the expression become unknown.
     """
     if _unsafe_names(statement):
         _doubt([statement], values)
@@ -198,7 +198,7 @@ def _follow(statement: ast.stmt, values: Values) -> None:
 
 
 def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
-    # After ``A = B = [0]``, A and B are one list. Therefore each expression is evaluated only once.
+    # After ``A = B = [0]``, A and B are the same list, so the right-hand side is evaluated only once.
     evaluated = {id(expression): values.value(expression) for _, expression in assigned}
     for _, expression in assigned:
         if _may_change(expression, values):
@@ -208,7 +208,11 @@ def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
 
 
 def _define(statement: Definition, values: Values) -> None:
-    """Store a function or class as an unknown value. A call may change all variables in the definition."""
+    """Store a function or class as an unknown value.
+
+    A later call may change each variable that occurs in the definition. ``values`` stores the names of these
+    variables.
+    """
     # The body of a class is executed at once, but the bodies of its methods are not.
     parts: list[ast.AST] = []
     called: list[ast.expr] = []
@@ -235,9 +239,9 @@ def _define(statement: Definition, values: Values) -> None:
 
 
 def _doubt(nodes: Sequence[ast.AST], values: Values, scoped: bool = False) -> None:
-    """Mark all variables as unknown that some parts of the module may change.
+    """Mark each variable as unknown that ``nodes`` may change. ``nodes`` are parts of the module.
 
-    If ``scoped`` is true, assignments in these parts define variables of a class, not of the module.
+    If ``scoped`` is true, assignments in ``nodes`` define variables of a class, not of the module.
     """
     for node in nodes:
         line = getattr(node, "lineno", 0)
@@ -361,7 +365,10 @@ def _is_script_part(statement: ast.If, values: Values) -> bool:
 
 
 def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
-    """Evaluate an assignment like ``A[1, 0] = 1/2`` to one entry. Return True on success, else False."""
+    """Evaluate an assignment to one entry of an array, such as ``A[1, 0] = 1/2``.
+
+    Return True on success, else False.
+    """
     if not isinstance(statement, ast.Assign) or len(statement.targets) != 1:
         return False
     place: list[int] = []
@@ -383,7 +390,8 @@ def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
 
 
 def _add(entries: Arrays, values: Values, where: str) -> None:
-    """Add to ``entries`` the arrays, texts and claims that the module assigns."""
+    """Add to ``entries`` the values that the module assigns: arrays, texts (such as ``name``) and claimed
+    orders."""
     for name in ARRAYS:
         value = values.known.get(name)
         if isinstance(value, Array):
