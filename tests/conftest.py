@@ -25,5 +25,5 @@ def pytest_collection_finish() -> None:
     """Exempt all objects that exist before the first test from garbage collection."""
     gc.collect()
     gc.freeze()
-    gc.set_threshold(100_000, 20, 20)
+    gc.set_threshold(2_000_000, 20, 20)
     gc.enable()

@@ -176,9 +176,9 @@ class Family(ABC):
         return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all trees or words of the given order.
+        """Return the conditions of all trees or words of the given order, with dependent conditions.
 
-        By default, return :meth:`conditions`.
+        By default, all conditions are independent, and the result is that of :meth:`conditions`.
         """
         return self.conditions(order)
 

@@ -6,7 +6,7 @@ shuffle relations, so the coefficients of Lyndon words determine all other coeff
 (:mod:`orderconds.words.lyndon`). Larger trees come first in the alphabet.
 
 To remove common factors, both sides of a condition are multiplied by the integer :func:`scale`. For example,
-the root of the tree [..] has two branches, so 1/2 sum_i b_i c_i^2 = 1/6 is multiplied by 2!. The condition
+the tree ``[..]`` is a root with two leaves. Its condition 1/2 sum_i b_i c_i^2 = 1/6 is multiplied by 2, and
 becomes sum_i b_i c_i^2 = 1/3.
 """
 

@@ -86,11 +86,11 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Return True if the description ``cut`` proves the condition of the tree or forest ``key``. The
+        """Return True if the method is known to satisfy the condition of the tree or forest ``key``. The
         condition has the order ``n``.
 
-        Without truncation of dexpinv, the method satisfies all conditions up to the order ``cut.order``. If
-        the truncation does not change the left-hand side of one of these conditions, the method with
-        truncation satisfies this condition, too.
+        The method uses a truncation of dexpinv. Without the truncation, it satisfies all conditions up to
+        the order ``cut.order``. The truncation changes the left-hand sides of some conditions. All other
+        conditions up to this order are satisfied with the truncation, too.
         """
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

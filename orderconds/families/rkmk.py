@@ -163,8 +163,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
 
 class _Words:
-    """Index sums for the coefficients of words in the series u_i and exp(u_i). The letters of a word are
-    trees.
+    """Sums over stage indices. They are the coefficients of words in the series of u_i and exp(u_i). The
+    letters of a word are trees.
 
     Let u_i be the exponent of stage i, and let k_j be the value of the vector field at stage j. Let
     dexpinv_u be the inverse of the differential of exp at u. Then u_i = sum_j a_ij dexpinv_{u_j}(k_j). If

@@ -51,7 +51,7 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 @dataclass(frozen=True)
 class Equations:
     """The equations for the unknowns of ``tableau``. Each unknown is the exact value of a rounded decimal in
-    the tableau. The decimals of the names in ``pins`` are not unknowns.
+    the tableau. ``proof.pins`` lists the decimals that are exact and therefore not unknown.
 
     ``facts`` contains pairs (family, order). If a method satisfies the equations, then for each pair, the
     method has at least the given order in the given family.

@@ -411,6 +411,6 @@ def substituted(polynomial: fmpq_poly, at: fmpq_poly, modulus: fmpq_poly) -> fmp
 
 
 def _columns(polynomials: list[fmpq_poly], degree: int) -> fmpq_mat:
-    """Return the matrix with ``degree`` rows whose columns contain the coefficients of the polynomials."""
+    """Return a matrix with ``degree`` rows. Each column contains the coefficients of one polynomial."""
     rows = [[p[i] for p in polynomials] for i in range(degree)]
     return fmpq_mat(degree, len(polynomials), [x for row in rows for x in row])

@@ -12,8 +12,8 @@ sums over stages:
 - ``psi_{H(u*v|M)}(s)``, for the tree H(u*v|M) with words u and v and a multiset M, is the integral of
   ``Phi_u(s) Phi_v(s, s') prod_{p in M} psi_p(s')`` over the times s' from s to 1.
 
-The integral ``Phi_v(s, s')`` is equal to ``sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``. The word
-``v[:k]`` contains the first k letters of v, and ``v[k:]`` contains the remaining letters.
+Let r_k be the first k letters of v in reverse order, and let v_k be the remaining letters of v. The integral
+``Phi_v(s, s')`` is equal to ``sum_k (-1)^k Phi_{r_k}(s) Phi_{v_k}(s')``.
 """
 
 from __future__ import annotations

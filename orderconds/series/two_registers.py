@@ -32,11 +32,10 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives, from left to right. Each factor is the derivative along a vector field. The
-factor None denotes the derivative along the vector field y' = k y, where y and k are the two registers. Each
-other factor is itself a product of derivatives. If this product is applied to the vector field f of the
-problem, the result is a vector field, and the factor denotes the derivative along this vector field. Hence
-the factor () denotes the derivative along f."""
+"""A product of derivatives, from left to right. Each entry denotes the derivative along a vector field. The
+entry None denotes the derivative along the vector field k y, where y and k are the two registers. An entry P
+that is a product of derivatives denotes the derivative along the vector field P f, where f is the vector
+field of the problem. Hence the entry () denotes the derivative along f."""
 
 Combination = dict[Operator, int]
 

@@ -117,7 +117,7 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
             component = [row if x == column else x for x in component]
     if len(kept) != 2 * s - 1:
         raise InputError(
-            "a graph with an edge between row i and column j for each free entry a_ij of A is not connected",
+            "the free entries of A do not connect all rows and columns (a_ij connects row i and column j)",
             where=WHERE,
             expected="more free entries",
         )
@@ -135,7 +135,7 @@ def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
                 return (*entry, by_row)
     raise InputError(
-        "a graph with an edge between row i and column j for each free entry a_ij of A has a cycle",
+        "the free entries of A form a cycle (a_ij connects row i and column j)",
         where=WHERE,
         expected="a graph without cycles",
     )

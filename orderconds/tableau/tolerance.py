@@ -38,8 +38,10 @@ def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
 
 
 def _scaled(x: Expression, units: Fraction) -> Expression:
-    """Return a copy of the expression. In the copy, a ball (interval) with the centre x and the radius
-    ``units * 2^-53 * max(1, |x|)`` replaces every double x."""
+    """Return a copy of an expression in which each double is replaced by a ball (interval).
+
+    A double c becomes the ball with the centre c and the radius ``units * 2^-53 * max(1, |c|)``.
+    """
     if isinstance(x, Constant):
         return Constant(x.value, radius(x.value, units)) if x.is_double else x
     if isinstance(x, Chain):

@@ -162,7 +162,7 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return a function for the field ``coordinates`` of a :class:`LieSeries`. The series is of the form
+    """Return the function that is stored in :attr:`LieSeries.coordinates` for a series
     sum_k c_k ad_U^k X with numbers c_k.
 
     ``expand(n)`` maps the words with at most n letters to their coefficients in the series. U and X are
