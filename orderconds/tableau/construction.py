@@ -82,8 +82,8 @@ def commutator_free(
 
     >>> commutator_free([[], [[0.5]]], [[[0, 1]]])
     Traceback (most recent call last):
-    orderconds.errors.TableauError: update[1][1]: [0, 1] of type list; expected a number: each exponential is \
-a list of numbers, and a stage or an update is a list of exponentials
+    orderconds.errors.TableauError: update[1][1]: [0, 1] of type list; expected a number: each exponential \
+is a list of numbers, and a stage or an update is a list of exponentials
     >>> commutator_free([[], [[0.5]]], [[0, 1]])["stage"]
     [{}, {'exp': [['0.5']]}]
     """
