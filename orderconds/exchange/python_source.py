@@ -13,7 +13,7 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeAlias
 
 from orderconds.errors import TableauError
@@ -205,6 +205,7 @@ def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
             values.forget(_mentioned(expression), expression.lineno)
     for name, expression in assigned:
         values.assign(name, evaluated[id(expression)], _mentioned(expression))
+        _activate([name], expression, values)
 
 
 def _define(statement: Definition, values: Values) -> None:
@@ -236,6 +237,19 @@ def _define(statement: Definition, values: Values) -> None:
     changed = [n for node in ast.walk(statement) if isinstance(node, ast.Global) for n in node.names]
     values.forget(changed, statement.lineno)
     values.assign(statement.name, Computed("a function or class", statement.lineno), _mentioned(statement))
+    values.active.add(statement.name)
+
+
+def _activate(names: Iterable[str], node: ast.AST, values: Values) -> None:
+    """Add ``names`` to the active variables if their new value may be a function or an instance.
+
+    ``node`` is the part of the module that assigns the value.
+    """
+    definitions = ast.Lambda | ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
+    if _mentioned(node) & values.active or any(isinstance(x, definitions) for x in ast.walk(node)):
+        values.active.update(names)
+    else:
+        values.active.difference_update(names)
 
 
 def _doubt(nodes: Sequence[ast.AST], values: Values, scoped: bool = False) -> None:
@@ -253,6 +267,7 @@ def _doubt(nodes: Sequence[ast.AST], values: Values, scoped: bool = False) -> No
             values.assign(name, Computed("another statement may change the value", line), _mentioned(node))
         values.change(changed, _mentioned(node), line)
         values.forget(doubtful, line)
+        _activate(changed | (set() if scoped else assigned), node, values)
 
 
 def _mentioned(node: ast.AST) -> set[str]:
@@ -303,6 +318,9 @@ def _may_change(node: ast.AST, values: Values) -> bool:
     >>> [_may_change(ast.parse(x), values) for x in ("len(A) + A.sum(axis=1)", "A.pop()", "f(A)", "(A := 1)")]
     [False, True, True, True]
     """
+    # An instance of a class of the module may execute code even in an operation such as ``x + 1``.
+    if _mentioned(node) & values.active:
+        return True
     for x in ast.walk(node):
         if isinstance(x, ast.NamedExpr | ast.Await | ast.Yield | ast.YieldFrom):
             return True

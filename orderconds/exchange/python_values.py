@@ -108,6 +108,8 @@ class Values:
     contains the variables from which its value may come. The second set contains :attr:`Array.memory` of each
     array that these variables contained at the time of the assignment. Otherwise both sets are empty.
     """
+    active: set[str] = field(default_factory=set)
+    """The variables whose use may execute code of the module: functions, classes and their instances."""
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
 

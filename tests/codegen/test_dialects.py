@@ -22,7 +22,7 @@ WITH_OPTIONS = (
     ("heavy_top", "slgi:midpoint", (("frame", "body"), ("precision", "single"), ("jacobian", True))),
 )
 
-# What compiles as C11, as C2x and in the default dialect, hardly ever fails in the dialects between them.
+# These dialects lie between C11 and C2x. A file that compiles in both usually compiles in these, too.
 BETWEEN = ("c17", "gnu11", "gnu17")
 
 dialects = pytest.mark.parametrize(

@@ -15,6 +15,10 @@ from orderconds.exchange.python_source import read
 
 START = "import numpy as np\nA = [[0, 0], [1, 0]]\nb = [0, 1]\n"
 CHANGES = [
+    "class S:\n    def sum(self): A[1][0] = 7\ns = S()\nA = [[0, 0], [1, 0]]\nx = s.sum()",
+    "class S:\n    def __str__(self): A[1][0] = 7; return ''\ns = S()\nA = [[0, 0], [1, 0]]\nprint(s)",
+    "class S:\n    def __add__(self, x): A[1][0] = 7\ns = S()\nA = [[0, 0], [1, 0]]\nx = s + 1",
+    "class S:\n    def __len__(self): A[1][0] = 7; return 1\ns = [S()]\nA = [[0, 0], [1, 0]]\nx = len(s[0])",
     "r=[0,0]; A=[r,[1,0]]; r[0]=3",
     "r=[0,0]; A=[r,[1,0]]; r.append(3)",
     "B=list(A); B[1][0]=7",
