@@ -1,7 +1,7 @@
 """The compiler of integrators writes C or Python code for one step of a method.
 
 A scene describes a differential equation on a manifold. The compiler translates a scene and a method to a
-step program: the list of the operations of one step. Then the compiler translates the step program to code.
+step program: the list of the operations of one step.
 
 >>> import codegen
 >>> integrator = codegen.load(codegen.emit("free_rigid_body", "cf4", target="python"))

@@ -12,7 +12,7 @@ MOST = 2**63 - 1
 
 
 def real(x: object, name: str) -> float:
-    """Return ``x`` as a float. Error messages call the argument ``name``.
+    """Return ``x`` as a float.
 
     TypeError is raised for text, for a complex number, and for an object that ``float`` does not accept.
     ValueError is raised if ``x`` is too large for a finite float.
@@ -35,7 +35,7 @@ def real(x: object, name: str) -> float:
 
 
 def count(x: object, name: str, least: int = 0) -> int:
-    """Return ``x`` as an int. Error messages call the argument ``name``.
+    """Return ``x`` as an int.
 
     TypeError is raised if ``x`` is not an integer. ValueError is raised if ``x`` is below ``least`` or above
     :data:`MOST`.
@@ -65,11 +65,10 @@ def numbers(inputs: object) -> tuple[float, ...]:
 
 
 def monotone(t: float, times: object) -> list[float]:
-    """Return the output times of a run as floats. The run starts at the time ``t``.
+    """Return the output times of a run that starts at the time ``t``, as floats.
 
-    ``times`` is the user's argument ``t_eval``. ValueError is raised if a time is not finite, or if the
-    sequence t, times[0], times[1], ... is not monotone. TypeError is raised if ``times`` is not a sequence of
-    numbers.
+    ValueError is raised if a time is not finite, or if the sequence t, times[0], times[1], ... is not
+    monotone. TypeError is raised if ``times`` is not a sequence of numbers.
 
     >>> monotone(0.0, [0, 1])
     [0.0, 1.0]
@@ -88,11 +87,11 @@ def monotone(t: float, times: object) -> list[float]:
 
 
 def end_of_run(t: float, end: object, times: Sequence[float]) -> float:
-    """Return the time at which a run ends. The run starts at the time ``t``.
+    """Return the end time of a run that starts at the time ``t``.
 
-    ``end`` is the user's argument. If ``end`` is None, the run ends at the last of the output times
-    ``times``. TypeError is raised if ``end`` is None and there are no output times. ValueError is raised if
-    the run would end before the last output time.
+    If ``end`` is None, the run ends at the last of the output times ``times``. TypeError is raised if ``end``
+    is None and there are no output times. ValueError is raised if the run would end before the last output
+    time.
 
     >>> end_of_run(0.0, None, [0.5, 1.0])
     1.0

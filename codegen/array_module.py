@@ -49,7 +49,7 @@ class ArrayModule:
 
 
 def real_array(given: object, content: str) -> NDArray[Any]:
-    """Return ``given`` as an array of real numbers. The type of the numbers is not changed.
+    """Return ``given`` as an array of real numbers.
 
     ValueError is raised for rows of different lengths, and TypeError for entries that are not real numbers.
     ``content`` is a word for the entries in error messages, such as "values".

@@ -41,10 +41,10 @@ class StepFailed(ArithmeticError):
     """Raised if a step of a run fails.
 
     The error contains the status of the failed step, the number of completed steps, and the state after the
-    last completed step. The caller can continue the run from this state.
+    last completed step.
 
     If :meth:`Integrator.adaptive` or :meth:`Integrator.integrate` raises the error, the attribute ``arrival``
-    contains the last state, its time, and the proposed size of the next step. Otherwise ``arrival`` is None.
+    contains the last state, its time, and the proposed size of the next step.
     """
 
     arrival: Arrival | None = None
@@ -74,8 +74,7 @@ class Arrival:
     status: Status = Status.OK
     """The reason for the end of the run.
 
-    The value is OK if the run reached its end time, and EVENT if a terminal event ended the run. If a step
-    failed, the value is the status of this step.
+    The value is OK if the run reached its end time, and EVENT if a terminal event ended the run.
     """
 
 
@@ -140,10 +139,7 @@ class Begun:
     solvers: tuple[str, ...] = ()
 
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
-        """Return the error of a failed step. The state in the error has the type of the caller's state.
-
-        If an iteration did not converge, the message recommends shorter steps or another solver.
-        """
+        """Return the error of a failed step. The state in the error has the type of the caller's state."""
         if status == Status.NOT_CONVERGED:
             others = [s for s in SOLVERS if s not in self.solvers]
             options = f", or emit the module with the solver {' or '.join(others)}" if others else ""
@@ -154,8 +150,8 @@ class Begun:
 def joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
     """Return one result for the adaptive runs of a batch of independent systems.
 
-    The result contains the states of all systems. ``accepted`` and ``rejected`` are sums over the systems.
-    ``t`` and ``h`` are taken from the run of the last system.
+    ``accepted`` and ``rejected`` are sums over the systems. ``t`` and ``h`` are taken from the run of the
+    last system.
     """
     last = arrivals[-1]
     states = None if last.states is None else batch.joined([x.states for x in arrivals])

@@ -1,9 +1,7 @@
 """Emitted modules: their files, and the manifest of a folder.
 
 The file ``manifest.json`` has an entry for each module and target. An entry contains the digests of the files
-of the module. The files of a module are written before the manifest. If a process is killed before the
-manifest is complete, the digests can be wrong. Writing the module again repairs the folder. Only one process
-at a time writes to a folder.
+of the module. If a process is killed before the manifest is complete, the digests can be wrong.
 """
 
 from __future__ import annotations
@@ -46,8 +44,8 @@ class Artifact:
     def write(self, directory: str | Path) -> list[Path]:
         """Write the files and the manifest into a folder, and return their paths.
 
-        A missing folder is created. If the folder contains an old module with the name and the target of the
-        new module, the old module is replaced. Other modules are not changed.
+        If the folder contains an old module with the name and the target of the new module, the old module is
+        replaced.
 
         InputError is raised if the folder cannot be written to, or if the old module belongs to another scene
         or method. If the name of the old or the new module was chosen with the option ``--prefix``, the old
@@ -71,11 +69,9 @@ class Artifact:
             ) from None
 
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
-        """Raise InputError if this module would replace a module of another scene or method.
+        """Raise InputError if this module would replace the module ``entry`` of another scene or method.
 
-        ``entry`` is the manifest entry of the other module. If the two modules have different names or
-        targets, no error is raised. If the name of one module was chosen with the option ``--prefix``, no
-        error is raised, either.
+        If the name of one module was chosen with the option ``--prefix``, no error is raised.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
@@ -140,11 +136,7 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
 
 
 def _is_entry(entry: Mapping[str, Any]) -> bool:
-    """Return True if a manifest entry is valid.
-
-    The module name, the target, the file names and the digests must be texts. A file name must not contain a
-    slash or a backslash. KeyError is raised if a key is missing.
-    """
+    """Return True if a manifest entry is valid. KeyError is raised if a key is missing."""
     files = entry["files"]
     plain = [entry["module"], entry["target"], *files, *files.values()]
     return all(isinstance(x, str) for x in plain) and not any("/" in name or "\\" in name for name in files)
@@ -153,8 +145,7 @@ def _is_entry(entry: Mapping[str, Any]) -> bool:
 def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
     """Read a module from a folder.
 
-    ``module`` is the name of the module, and ``target`` is its target language. If ``module`` is empty, all
-    names match. If ``target`` is empty, all languages match.
+    An empty ``module`` matches all names, and an empty ``target`` matches all target languages.
 
     InputError is raised if the number of matching modules is not one. InputError is also raised if a file of
     the module is missing, was changed, or cannot be read.
@@ -199,9 +190,6 @@ def write_text(path: Path, text: str) -> Path:
 
 
 def write_texts(texts: Mapping[Path, str]) -> list[Path]:
-    """Write files, and return their paths. Each file is written atomically.
-
-    ``texts`` maps the path of each file to its text.
-    """
+    """Write files, and return their paths. Each file is written atomically."""
     write_files({path: text.encode() for path, text in texts.items()})
     return list(texts)

@@ -3,8 +3,8 @@
 If the cache already contains the shared object for the sources, the compiler and the flags, nothing is
 compiled.
 
-Two processes may build the same module at the same time. Each process compiles in its own temporary folder
-and writes the finished file atomically into the cache (:mod:`codegen.cache_entry`).
+Each process compiles in its own temporary folder and writes the finished file atomically into the cache
+(:mod:`codegen.cache_entry`).
 """
 
 from __future__ import annotations
@@ -30,10 +30,7 @@ from orderconds.errors import InputError
 from orderconds.input_file import reason
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
-"""The error numbers for a cache that the user may not write to.
-
-If writing to the cache gives one of these errors, a temporary folder is used in place of the cache.
-"""
+"""The error numbers for a cache that the user may not write to."""
 
 
 class CompilerMissing(InputError):
@@ -107,9 +104,8 @@ def build(
 ) -> Path:
     """Return the path of a shared object compiled from C files. ``files`` maps file names to texts.
 
-    If ``again`` is true, the files are always compiled. Otherwise nothing is compiled if the cache contains
-    an undamaged shared object for the same files, flags and compiler. ``seconds`` is the time limit for the C
-    compiler.
+    If ``again`` is true, the files are compiled even if the cache contains their shared object. ``seconds``
+    is the time limit for the C compiler.
 
     CompilerMissing is raised if there is no C compiler. CompileError is raised if the compiler fails or
     exceeds the time limit. InputError is raised if the shared object cannot be written.
@@ -157,16 +153,15 @@ def compile_files(
 ) -> None:
     """Write files into a directory, and compile the C files to the file ``output``.
 
-    ``files`` maps file names to texts, and ``seconds`` is a time limit. If the compiler fails or exceeds the
-    time limit, CompileError is raised. CompilerMissing is raised if the compiler does not exist.
+    CompileError is raised if the compiler fails or exceeds the time limit ``seconds``. CompilerMissing is
+    raised if the compiler does not exist.
     """
     for name, text in files.items():
         (directory / name).write_text(text, encoding="utf-8")
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    # The compiler writes its temporary files into ``directory``. The caller of this function removes this
-    # folder.
+    # The caller of this function removes ``directory`` with the temporary files of the compiler.
     environment = {**os.environ, "TMPDIR": str(directory)}
     try:
         answer = _finished(command, directory, environment, seconds)
@@ -195,11 +190,9 @@ def _finished(
 ) -> subprocess.CompletedProcess[str]:
     """Run a compiler and return its exit status and output.
 
-    ``seconds`` is the time limit. If TimeoutExpired or another exception is raised, all processes of the
-    compiler are killed.
+    If TimeoutExpired or another exception is raised, all processes of the compiler are killed.
     """
-    # A compiler starts other programs, such as an assembler. The compiler and these programs form a process
-    # group. One signal kills the whole group.
+    # One signal kills the process group: the compiler and the programs that the compiler starts.
     with subprocess.Popen(
         command,
         cwd=directory,

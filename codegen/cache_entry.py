@@ -1,10 +1,9 @@
-"""The cache: a folder of computed files. Each computed file is called an entry.
+"""The cache: a folder of computed files, called entries.
 
 For each entry, a second file contains the SHA-256 digest of the entry. If an entry is not a regular file,
 belongs to another user or has a wrong digest, the entry is computed again.
 
-Other users have no access to the folder, because the compiled code in the cache is executed. If the folder
-cannot be used, the process uses a temporary folder.
+Other users have no access to the folder, because the compiled code in the cache is executed.
 """
 
 from __future__ import annotations
@@ -36,8 +35,8 @@ SETTLED = 60.0
 def cache_directory() -> Path:
     """Return the folder of the cache: $XDG_CACHE_HOME/orderconds, else ~/.cache/orderconds.
 
-    The folder is created if it is missing. If the folder cannot be created or belongs to another user, a
-    warning is logged once and a temporary folder is returned.
+    If the folder cannot be created or belongs to another user, a warning is logged once and a temporary
+    folder is returned.
     """
     base = os.environ.get("XDG_CACHE_HOME", "")
     try:
@@ -124,8 +123,7 @@ def keep(entry: Path, content: bytes) -> None:
 def write_entries(contents: Mapping[Path, bytes]) -> None:
     """Write files atomically. Only the user can read the files.
 
-    ``contents`` maps the path of each file to its bytes. If one of these paths is a folder, the folder is
-    removed first.
+    If a path in ``contents`` is a folder, the folder is removed first.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     (Path(folder) / "x" / "y").mkdir(parents=True)
@@ -149,10 +147,7 @@ def _digest(content: bytes) -> bytes:
 
 @contextmanager
 def working_directory(folder: Path) -> Iterator[Path]:
-    """Create a working folder inside the cache. The folder is removed at the end of the ``with`` block.
-
-    Before the block begins, the files and working folders that killed processes left are removed.
-    """
+    """Create a working folder inside the cache. The folder is removed at the end of the ``with`` block."""
     _sweep(folder)
     temporary = tempfile.TemporaryDirectory(dir=folder, prefix=WORKING, ignore_cleanup_errors=True)
     with temporary as name, locked(Path(name), wait=False):

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 DOUBLE_BITS = 53
-"""The number of significant bits of a double. The relative rounding error is at most 2^-53."""
+"""The number of significant bits of a double."""
 
 
 @dataclass(frozen=True)
@@ -34,9 +34,9 @@ class CertifiedOrder:
     - ``bound`` is true if the conditions of order ``order`` + 1 were not all checked. The order of the method
       is then at least ``order``.
     - ``classical``: if the group is abelian and ``order`` is the order in a classical family, this is the
-      name of the classical family. Otherwise the value is ''.
+      name of the classical family.
     - If the uncertainty of the coefficients exceeds the rounding error of a double, ``radius`` is this
-      uncertainty and the certificate is "none". Otherwise ``radius`` is ''.
+      uncertainty and the certificate is "none".
     """
 
     order: int
@@ -70,11 +70,7 @@ class CertifiedOrder:
 
 
 def family_of(method: Method) -> Family:
-    """Return the family whose order conditions apply to a method.
-
-    If code can be emitted for the method, :meth:`codegen.lower.base.Lowering.conditions` selects the family.
-    Otherwise the result is the family with the name ``method.family_label``.
-    """
+    """Return the family whose order conditions apply to a method."""
     from orderconds import families
 
     if method.family in names():
@@ -112,7 +108,7 @@ def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision,
     """Return a sentence about the effect of rounding, for the comment at the head of emitted code.
 
     The coefficients are rounded to the precision ``target``. The sentence states the largest residual of the
-    order conditions for the rounded coefficients. ``order`` is the order of the method.
+    order conditions for the rounded coefficients.
     """
     from orderconds import families
 
@@ -140,7 +136,7 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    # A method without coefficients has no uncertainty. Coefficients that are doubles are emitted exactly.
+    # Coefficients that are doubles are emitted exactly.
     known = method.coefficients is None or method.coefficients.doubles
     radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate

@@ -13,9 +13,6 @@ from pathlib import PurePath
 def bare(name: str) -> str:
     """Return the name of a scene or a method without the path of its folder.
 
-    Emitted files contain the result. They must be the same on all machines, but the path of the folder can be
-    different on each machine.
-
     >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
     ('vcg:mine.toml', 'top.py')
     """

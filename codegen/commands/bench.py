@@ -34,8 +34,7 @@ if TYPE_CHECKING:
     "-a",
     "peers",
     multiple=True,
-    help="Names of peers to measure. Peers are other integrators, such as those of SciPy. The names 'scipy', "
-    "'c' and 'all' select groups of peers.",
+    help="Names of peers to measure. Peers are other integrators, such as those of SciPy.",
 )
 @click.option(
     "--form",
@@ -69,7 +68,7 @@ def command(
     error and run time.
 
     With --adaptive, methods run with step-size control. Their tableaux must have an embedded method for the
-    error estimate. Examples are ambient:dop853, rkmk(3):dormand_prince5 and ambient:radau2a3.
+    error estimate.
 
     With --against, other integrators (peers) also run. Their names are scipy-lsoda, scipy-dop853,
     scipy-dop853-projected, scipy-radau, scipy-radau-projected, heyoka, diffrax, c-dop853 and c-rk4-projected.
@@ -77,11 +76,10 @@ def command(
     installed peers.
 
     The equations of a scene may have several classical forms, for example with a quaternion instead of a
-    rotation matrix. The methods ambient:TABLEAU and most peers run on each form. The table of the fastest
-    methods shows only the fastest form of a method or peer.
+    rotation matrix. The methods ambient:TABLEAU and most peers run on each form.
 
-    If a measurement with -o is interrupted, repeat the command to continue the measurement. If a run fails,
-    its row contains the reason. If a method or peer has no successful run, the exit status is 1.
+    If a measurement with -o is interrupted, repeat the command to continue the measurement. If a method or
+    peer has no successful run, the exit status is 1.
 
     \b
     Examples:
@@ -113,11 +111,7 @@ def command(
 
 
 def show(result: Result) -> None:
-    """Print three tables, and the paths of the written files.
-
-    The first table lists all runs. For several errors 10^-k, the second table lists the two fastest
-    methods. The third table lists the times of emission and compilation.
-    """
+    """Print tables of runs, fastest methods and compilation times, and the paths of the written files."""
     from codegen.lab.efficiency.ranking import in_form
     from codegen.lab.page.formatting import duration
 

@@ -58,13 +58,12 @@ def command(
 ) -> int:
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
-    The command compares the observed order of a method with a stated order. The option --stated sets the
-    stated order. The default is the order that the order conditions give. With --protocol strict, the default
-    is the order in the tableau file, if the file gives one. If a method cannot be emitted for the scene, the
-    command prints the reason.
+    The command compares the observed order of a method with a stated order. The default of --stated is the
+    order that the order conditions give. With --protocol strict, the default is the order in the tableau
+    file, if the file gives one.
 
-    The exit status is 0 if every observed order equals the stated order. The exit status is 1 if an observed
-    order differs from the stated order or is undecided, or if a method cannot be emitted.
+    The exit status is 1 if an observed order differs from the stated order or is undecided, or if a method
+    cannot be emitted.
 
     \b
     Examples:
@@ -158,8 +157,7 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
 def show(result: Convergence | NotEmitted, first: bool) -> None:
     """Print a table of the runs of one method, and the verdict on the order of the method.
 
-    If the method cannot be emitted, print the reason instead. If ``first`` is False, print an empty line
-    before the other output.
+    If the method cannot be emitted, print the reason instead.
     """
     from codegen.lab.orders.convergence import NotEmitted
 

@@ -69,13 +69,13 @@ if TYPE_CHECKING:
     "--integrate",
     is_flag=True,
     help="Also emit a function that integrates to a given end time. The function accepts output times "
-    "and bounds on the step size. A call can continue the run of an earlier call.",
+    "and bounds on the step size.",
 )
 @click.option(
     "--dense",
     is_flag=True,
-    help="Compute the states at output times with the continuous extension of the tableau. By default, "
-    "shorter steps compute these states. This option implies --integrate.",
+    help="Compute the states at output times with the continuous extension of the tableau. This "
+    "option implies --integrate.",
 )
 @click.option(
     "--events",
@@ -128,8 +128,8 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
-    For an implicit method, --solver auto tests solvers of the implicit equations. The tests are a few steps
-    from the initial state of the scene. If no solver converges, the command prints a warning.
+    For an implicit method, --solver auto tests solvers of the implicit equations. If no solver converges, the
+    command prints a warning.
 
     Without -o, the command only prints a description of the module, and --explain or --json is required.
 
@@ -170,8 +170,7 @@ def command(
 def _bandwidth(compiled: Compiled, artifact: Artifact, as_json: bool) -> dict[str, object]:
     """Measure the memory bandwidth of a step on a lattice.
 
-    If ``as_json`` is True, return the result as an entry for a JSON record. Otherwise print the result and
-    return an empty dictionary.
+    If ``as_json`` is True, return the result as an entry for a JSON record. Otherwise print the result.
     """
     from codegen.lab.bandwidth import measure
 
@@ -192,7 +191,7 @@ def _write(
     """Write the files of all modules to the folder ``output``. If ``output`` is None, no file is written.
 
     If ``as_json`` is True, print one JSON record for each module, with ``family_chosen`` and the entries of
-    ``more``. If ``as_json`` is False, print the paths of the written files.
+    ``more``. Otherwise print the paths of the written files.
     """
     records: list[dict[str, object]] = []
     for artifact in artifacts:
@@ -218,8 +217,7 @@ def _require_known(targets: tuple[str, ...], precision: str) -> None:
 def explained(compiled: Compiled) -> dict[str, object]:
     """Return the data that ``--explain`` adds to the JSON record of a module.
 
-    The data describe the compiler passes, the outlined functions and the compared solvers. For a lattice, the
-    data also describe the loops over the sites.
+    The data describe the compiler passes, the outlined functions and the compared solvers.
     """
     return {
         "passes": [
@@ -264,8 +262,7 @@ def _warn(compiled: Compiled, scene: str, method: str) -> None:
 def explanation(compiled: Compiled) -> str:
     """Return the text that ``--explain`` prints.
 
-    The text lists and counts the operations of a step after each compiler pass. The last section lists each
-    omitted operation or argument, and the reason for the omission.
+    The text lists and counts the operations of a step after each compiler pass.
     """
     from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations

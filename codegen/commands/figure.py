@@ -18,9 +18,8 @@ from orderconds.commands.screen import counting, is_shown, print_json
 def command(scene: str, name: str, parameters: tuple[str, ...], output: str, as_json: bool) -> int:
     """Draw the figure NAME of SCENE as an SVG file.
 
-    The file of the scene declares its figures. `orderconds list figures` prints the names of all figures. The
-    command emits, compiles and runs C code that computes the curves. If the scene has no figure of this name,
-    the exit status is 2.
+    `orderconds list figures` prints the names of all figures. If the scene has no figure of this name, the
+    exit status is 2.
 
     \b
     Examples:

@@ -22,14 +22,12 @@ if TYPE_CHECKING:
 def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], as_json: bool) -> int:
     """Compute the leading term of the local error of one step on SCENE, with exact coefficients.
 
-    The command computes the state after one emitted step as a power series in the step size h. The
-    coefficients are exact. The power series is compared with the Taylor series of the solution. The vector
-    field must be a rational function of the coordinates. Initial coordinates that are not rational are
-    replaced by nearby rational numbers.
+    The command computes the state after one emitted step as a power series in the step size h. The power
+    series is compared with the Taylor series of the solution. The vector field must be a rational function of
+    the coordinates. Initial coordinates that are not rational are replaced by nearby rational numbers.
 
     If the exact order is below the order that the order conditions give, the exit status is 1. If the exact
-    order cannot be computed, the exit status is also 1. A possible reason is that the coefficients of the
-    method are intervals, not exact numbers.
+    order cannot be computed, the exit status is also 1.
 
     \b
     Examples:

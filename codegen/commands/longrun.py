@@ -82,7 +82,7 @@ def command(
 
     problem = scenes.with_one_system(scenes.load(scenes.with_values(scene, parameters)))
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
-    # If h is NaN, both comparisons are false. Therefore NaN is also rejected.
+    # NaN is also rejected, because both comparisons are false for NaN.
     if not 1e-300 <= abs(h) <= 1e300:
         raise InputError(
             f"the step size {h:g}", where="--h", expected="an absolute value between 1e-300 and 1e300"

@@ -55,9 +55,8 @@ def command(
 ) -> int:
     """Find the fastest method whose error on SCENE (a gallery name or a Python file) is at most --error.
 
-    By default the search uses all tableaux of the library, in every family that accepts the scene. Methods
-    run with equal steps or with step-size control. The error is the distance from a reference solution at the
-    end of the time span.
+    By default the search uses all tableaux of the library, in every family that accepts the scene. The error
+    is the distance from a reference solution at the end of the time span.
 
     The option --need accepts five properties: manifold (the state stays on the manifold up to rounding),
     symplectic, explicit (no equations are solved), adaptive (step-size control) and fixed (equal steps). With

@@ -73,15 +73,12 @@ def command(
 
     The command writes a page DIR/SCENE.html for each scene, and a page DIR/index.html with the fastest
     methods for every scene. A Hamiltonian scene takes one to two minutes, and other scenes take about half a
-    minute. Several scenes are measured at the same time. All measured times are CPU times. With --processes
-    1, the CPU times are slightly shorter, because only one scene uses the caches. For more than eight scenes,
-    the search for the fastest method is shortened, and only --full measures the growth of rounding errors. If
-    a report is interrupted, repeat the command to continue the report. If a method fails, the page gives the
-    reason. The pages need no network connection.
+    minute. All measured times are CPU times. For more than eight scenes, the search for the fastest method is
+    shortened, and only --full measures the growth of rounding errors. If a report is interrupted, repeat the
+    command to continue the report.
 
     The exit status is 1 in three cases: an observed order contradicts the order conditions, a step with
-    extremely large or small numbers gives a wrong result, or a method fails. The command always writes the
-    pages.
+    extremely large or small numbers gives a wrong result, or a method fails.
 
     \b
     Examples:

@@ -17,10 +17,9 @@ if TYPE_CHECKING:
     from codegen.lab.stability.stability_study import NotTested, Stability
 
 Job: TypeAlias = tuple[str, tuple[str, ...], bool]
-"""The stress tests of one scene.
+"""The stress tests of one scene: the name of the scene, the names of the methods, and a flag.
 
-A job contains three values: the name of the scene, the names of the methods, and a flag. If the flag is True,
-runs of ten million steps are included.
+If the flag is True, runs of ten million steps are included.
 """
 
 
@@ -81,7 +80,7 @@ def command(
 
 
 def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTested]:
-    """Return the results of all stress tests of a job. Before each test, call ``progress`` with a text."""
+    """Return the results of all stress tests of a job."""
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
     from codegen.lab.stability.stability_study import stability
@@ -92,10 +91,7 @@ def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTes
 
 
 def _alone(job: Job) -> list[Stability | NotTested]:
-    """Run the stress tests of a job without progress messages, and return the results.
-
-    Several processes call this function at the same time.
-    """
+    """Run the stress tests of a job without progress messages, and return the results."""
     return _run(job, str)
 
 
