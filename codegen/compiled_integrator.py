@@ -32,8 +32,7 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            # The file of the library may be rebuilt. ``dlopen`` reads the new file only after the old library
-            # is closed.
+            # ``dlopen`` reads a rebuilt file only after the old library is closed.
             self._ffi.dlclose(self._library)
             raise
 
@@ -152,14 +151,9 @@ class CompiledIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Yield two lists of arguments for a C function.
+        """Yield the arguments of a C function for the run-time inputs and for the iteration counts.
 
-        The first list contains the callback for the run-time inputs. If the call has no such inputs, the
-        list is empty. The second list contains the structure for the iteration counts. If the step solves no
-        equations by iteration, the list is empty.
-
-        This method is used in a ``with`` statement. If the callback fails, the error of the callback is
-        raised at the end of the block. Otherwise the iteration counts are added to ``begun.statistics``.
+        An error of the callback for run-time inputs is raised at the end of the ``with`` block.
         """
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
@@ -191,11 +185,7 @@ class CompiledIntegrator(Integrator):
 
 
 class _Buffers:
-    """The arguments for events in one call of the C function ``integrate``.
-
-    The argument ``function`` computes the values of all event functions. The C code writes the zeros of the
-    event functions into the arrays ``times``, ``rows`` and ``numbers``.
-    """
+    """The arguments for events in one call of the C function ``integrate``."""
 
     ROOM = 1024
 
@@ -235,8 +225,7 @@ class _Buffers:
 class _Callback:
     """A Python function that C code calls to compute the run-time inputs at a given time.
 
-    If the Python function raises an error, the attribute ``failure`` is this error. After an error, all
-    run-time inputs are NaN, and the step fails.
+    If the Python function raises an error, the attribute ``failure`` is this error.
     """
 
     def __init__(self, ffi: Any, interface: Interface, function: Signals) -> None:

@@ -1,8 +1,7 @@
-"""Compile a method for a scene, and emit a module. A module consists of files and an entry in the manifest.
+"""Compile a method for a scene, and emit a module.
 
-:func:`compile_method` translates the method and the scene to a step program, optimises the program in
-several passes, and translates the optimised program to a kernel. :func:`emit_compiled` prints the kernel in
-the target language. The same scene, method and options always give the same files.
+:func:`compile_method` translates the method and the scene to a kernel. :func:`emit_compiled` prints the
+kernel in the target language. The same scene, method and options always give the same module.
 """
 
 from __future__ import annotations
@@ -54,10 +53,7 @@ from orderconds.tableau import Tableau
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
-"""The costs of operations. An addition or a product costs 1. Functions that are not listed cost 12.
-
-If the compiler has several kernels for a step, it chooses the kernel with the lowest total cost.
-"""
+"""The costs of operations. Additions and products cost 1, and functions that are not listed cost 12."""
 
 
 @dataclass(frozen=True)
@@ -84,8 +80,7 @@ class Compiled(Optimised):
 
     - ``solvers`` are the solvers of the implicit equations.
     - ``asked`` is the value of the option ``--solver``.
-    - ``form`` is the classical form that the user chose, or None. If ``form`` is not None, ``scene`` contains
-      the equations of this form.
+    - ``form`` is the classical form that the user chose, or None.
     """
 
     kernel: Kernel
@@ -93,7 +88,7 @@ class Compiled(Optimised):
     asked: str = AUTO
     form: ClassicalForm | None = None
     compensated: bool = False
-    """True if the step uses compensated summation. The state then contains correction terms."""
+    """True if the step uses compensated summation."""
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
@@ -131,7 +126,7 @@ def compile_method(
     - ``frame``: the frame of momenta, ``space`` or ``body``. ``solver``: the solver of implicit equations.
     - ``adaptive``: add the error estimate of an embedded method.
     - ``jacobian``: add the derivative of a step.
-    - ``integrate``: add a run to a given end time. The run returns the states at given output times.
+    - ``integrate``: add a run to a given end time, with states at given output times.
     - ``events``: the number of event functions of the run to a given end time.
     - ``dense``: compute the states at output times with the continuous extension of the tableau.
     - ``compensate``: use compensated summation. The state then contains correction terms.
@@ -170,11 +165,7 @@ def compile_method(
 
 
 def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[str]) -> Problem:
-    """Return the scene with changed parameters and inputs.
-
-    An entry ``alpha=1/2`` of ``parameters`` makes alpha the constant 1/2. An entry ``alpha`` makes alpha a
-    run-time argument. The signals in ``inputs`` become run-time inputs.
-    """
+    """Return the scene with the parameters and inputs that the user chose (:func:`compile_method`)."""
     parameters = texts(parameters, "parameters", "alpha=1/2")
     inputs = texts(inputs, "inputs", "u")
     scene = with_runtime(scene, tuple(parameters)) if parameters else scene
@@ -184,7 +175,6 @@ def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[
 def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunRequest) -> Compiled:
     """Return the compiled method with the requested features.
 
-    The possible features are compensated summation, the derivative of a step, and a run to a given end time.
     For a Taylor method, ``degree`` is the degree of the Taylor polynomial. Otherwise ``degree`` is 0.
     """
     method = compiled.method
@@ -214,9 +204,7 @@ def compensated(compiled: Compiled) -> Compiled:
 def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module can also step many independent systems.
 
-    If a loop over the systems contains function calls, C compilers do not vectorise the loop. Therefore, in
-    most explicit steps, repeated computations are not moved to functions. MethodError is raised for a
-    semilinear equation.
+    MethodError is raised for a semilinear equation.
     """
     kernel = compiled.kernel
     if kernel.modes is not None:
@@ -227,6 +215,7 @@ def with_batch(compiled: Compiled) -> Compiled:
         )
     changed = kernel.deferred or kernel.expansion or kernel.carried or compiled.compensated
     if kernel.outlined and not kernel.loops and not changed:
+        # C compilers do not vectorise a loop that contains function calls.
         plain, own = to_kernel(compiled.program, compiled.problem, outlining=False), kernel.estimate
         estimate = own and replace(own, errors=plain.estimate.errors if plain.estimate else ())
         kernel = replace(kernel, body=plain.body, outputs=plain.outputs, outlined=(), estimate=estimate)
@@ -236,8 +225,7 @@ def with_batch(compiled: Compiled) -> Compiled:
 def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunRequest) -> Compiled:
     """Return a compiled method on a scene whose formulas contain large matrices.
 
-    The options --jacobian, --compensate, --dense, --events and --integrate are not available. If one of these
-    options is given, MethodError is raised.
+    MethodError is raised if a requested option is not available on such a scene.
     """
     options = {
         "--jacobian": jacobian,
@@ -265,8 +253,7 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
 def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, request: RunRequest) -> Compiled:
     """Return a compiled method on a chain, a lattice or a semilinear equation.
 
-    Error estimates, Jacobians, compensated summation and runs to an end time are not available. A request for
-    one of these features raises MethodError.
+    MethodError is raised if a requested feature is not available on such a scene.
     """
     requests = {
         "an error estimate": method.adaptive,
@@ -280,8 +267,7 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
         what = f"{refused[0]} is not available on {kind}"
         raise MethodError(what, where=scene.name, expected=f"a module without {refused[0]}")
     if scene.semilinear is not None:
-        # A method with a cut-off uses a truncated series of dexp^{-1}. The closed form in
-        # ``scene.coordinates`` would replace the truncated series.
+        # The closed form in ``scene.coordinates`` would replace the truncated series of dexp^{-1}.
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
         modes = mode_method(scene, method)
         return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
@@ -292,7 +278,7 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
 
 
 def work(kernel: Kernel) -> int:
-    """Return an estimate of the cost of a step. The costs of the operations are in :data:`WEIGHTS`.
+    """Return an estimate of the cost of a step, in the unit of :data:`WEIGHTS`.
 
     The estimate assumes :data:`SWEEPS` iterations for each implicit equation.
     """
@@ -329,11 +315,11 @@ def emit(
     - ``prefix``: the beginning of external names, by default the names of the scene and the method.
     - ``precision``: ``double`` or ``single``. ``frame``: the frame of momenta, ``space`` or ``body``.
     - ``solver``: the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point`` or
-      ``auto``. With ``auto``, the compiler selects a fast and robust solver.
+      ``auto``. With ``auto``, the compiler selects the solver.
     - ``form``: the key of a classical form, by default the form in which the scene states its equations.
     - ``adaptive``: add a run with step-size control.
     - ``batch``: add a C function for many systems (:meth:`codegen.integrator.Integrator.run_batch`).
-    - ``integrate``: add a run to a given end time. With ``adaptive``, the run accepts bounds on step sizes.
+    - ``integrate``: add a run to a given end time.
     - ``compensate``: use compensated summation. The state then contains correction terms, initially zero.
 
     :func:`compile_method` describes the other arguments, and raises most errors. UnknownName is raised for an
@@ -376,9 +362,8 @@ def emit_compiled(
 ) -> Artifact:
     """Return a compiled method as a module in a target language.
 
-    The header of the module shows the command that emits the module. The names of the scene and the method
-    in this command are ``named["scene"]`` and ``named["method"]``. ``order`` is the result of
-    :func:`certified_order`. If ``order`` is None, the order is computed.
+    The header of the module shows a command with the names ``named["scene"]`` and ``named["method"]``.
+    ``order`` is the result of :func:`certified_order`.
     """
     scene, method = compiled.scene, compiled.method
     own = scene if compiled.form is None else compiled.form.scene
@@ -426,8 +411,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    # ``--parameter p`` makes p a run-time argument. ``--parameter p=value`` sets the value of p. A run-time
-    # argument with a new default value needs both options.
+    # A run-time argument p with a new default value needs ``--parameter p`` and ``--parameter p=value``.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 
@@ -442,8 +426,8 @@ def emit_kernel(
 ) -> Artifact:
     """Return a module for a kernel in a target language. ``about`` is added to the manifest of the module.
 
-    Every external C name and every file name begins with the prefix. UnknownName is raised for an unknown
-    target. InputError is raised if the target or the precision is not available for this kernel.
+    UnknownName is raised for an unknown target. InputError is raised if the target or the precision is not
+    available for this kernel.
     """
     interface = Interface.of(kernel, prefix, precision)
     if kernel.batch and not known_target(target).batches:

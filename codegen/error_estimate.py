@@ -4,10 +4,8 @@ The estimate is the difference between the results of the method and of its embe
 have the same leading error term, the estimate has a higher order than the local error of the method. An
 estimate of higher order is called blind.
 
-A blind estimate is possible if the two methods have the same order, or if the field depends on the time
-alone. In these two cases, the order of the estimate and the order of the local error are measured. To measure
-these orders, the module computes very short steps of two sizes with 100 digits. The local error of a step of
-size h is approximated by the difference between this step and two steps of size h/2.
+The orders are measured with very short steps of two sizes, computed with 100 digits. The local error of a
+step of size h is approximated by the difference between this step and two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -28,26 +26,17 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""The number that determines the step sizes for the measurement of orders.
+"""The smaller step size for the measurement of orders is T times 10^(-SMALLEST / (p + 2)).
 
-An order is measured with two step sizes. The smaller one is T times 10^(-SMALLEST / (p + 2)). Here T is the
-length of the time span of the scene, and p is the order of the method.
+Here T is the length of the time span of the scene, and p is the order of the method.
 """
 
 ROUNDING = 1e-90
-"""A bound for relative rounding errors in computations with DIGITS digits.
-
-Let m be the largest absolute value of an entry of the first of two states. If the entries of the two states
-differ by at most ROUNDING times max(1, m), the states count as equal.
-"""
+"""A bound for relative rounding errors in computations with DIGITS digits."""
 
 RATIO = 8
 HIGHER = 0.5
-"""The tolerance for measured orders.
-
-If the measured order of an estimate exceeds the measured order of the local error by more than HIGHER, the
-estimate has a higher order than the local error.
-"""
+"""An estimate is blind if its order exceeds the order of the local error by more than HIGHER."""
 
 LARGEST_CUTOFF = 12
 
@@ -88,10 +77,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
 def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
     """Return True if the error estimate of a method is blind.
 
-    The estimate is the difference between a step of ``method`` and a step of ``embedded``. The estimate is
-    blind if it is zero, or if it has a higher order than the local error. The orders of the estimate and of
-    the local error are measured with very short steps. If a step fails, or if the local error is zero, the
-    result is False. ``order`` is the order of ``method``.
+    The estimate is blind if it is zero, or if it has a higher order than the local error. If a step fails, or
+    if the local error is zero, the result is False. ``order`` is the order of ``method``.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))
@@ -116,8 +103,7 @@ def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], floa
 
     The function takes a state, the time since the start of the time span, and the step size.
     """
-    # The program of ``lower`` computes all stages by iteration. ``blocks.run`` changes explicit stages to
-    # assignments, because an explicit stage needs no iteration.
+    # ``lower`` computes all stages by iteration, and ``blocks.run`` changes explicit stages to assignments.
     problem, program = problem_for(scene, method), blocks.run(lower(scene, method))
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:
@@ -150,9 +136,7 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 def _hint(method: Method, scene: Problem) -> str:
     """Return a hint for a user whose method has a blind error estimate (:func:`is_blind`).
 
-    The cut-off of a method is the number of brackets in the series of dexp^{-1}. The cut-off is increased
-    until the estimate is no longer blind, and the hint recommends this cut-off. If the estimate is blind for
-    all cut-offs up to LARGEST_CUTOFF, the hint recommends another tableau.
+    The cut-off of a method is the number of brackets in the series of dexp^{-1}.
     """
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):

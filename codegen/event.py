@@ -12,11 +12,7 @@ EventFunction = Callable[[float, Any], float]
 """A function of the time and the state. The state has the type of the initial state of the run."""
 
 RISING, FALLING = 1, -1
-"""The direction in which an event function passes through zero.
-
-RISING is the direction from negative to positive values. FALLING is the direction from positive to negative
-values.
-"""
+"""The direction in which an event function passes through zero: to positive or to negative values."""
 
 
 @dataclass(frozen=True)
@@ -58,9 +54,9 @@ class Crossing:
 def events_of(given: object, most: int) -> tuple[Event, ...]:
     """Return the entries of the list ``given`` as events. An entry is an event or a function.
 
-    A function becomes an event that does not end the run. The emitted module accepts at most ``most`` events.
-    ValueError is raised if ``given`` contains more events, or if the direction of an event is not 1, -1 or 0.
-    TypeError is raised if ``given`` is not a sequence, or if an entry is neither an event nor a function.
+    A function becomes an event that does not end the run. ValueError is raised if ``given`` contains more
+    than ``most`` events, or if the direction of an event is not 1, -1 or 0. TypeError is raised if
+    ``given`` is not a sequence, or if an entry is neither an event nor a function.
 
     >>> events_of([lambda t, y: y[0]], 1)[0].stops
     0
@@ -88,10 +84,10 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
 
 
 class EventValues:
-    """A callable object that computes the values of all event functions. Emitted code calls the object.
+    """A callable object that computes the values of all event functions.
 
     ``restore`` converts a flat state to the type of the initial state of the run. If an event function raises
-    an error, the error is stored, and all values are NaNs. If a value is NaN, emitted code ends the run.
+    an error, the error is stored, and all values are NaNs.
     """
 
     def __init__(self, events: Sequence[Event], size: int, restore: Callable[[Sequence[float]], Any]) -> None:
@@ -108,6 +104,5 @@ class EventValues:
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)
-        # Emitted code reads ``size`` values. The missing values are 1, because the constant
-        # function 1 has no zero.
+        # Emitted code reads ``size`` values, and the constant function 1 has no zero.
         return values + [1.0] * (self.size - len(values))

@@ -1,9 +1,7 @@
 """The field of a Hamiltonian as the sum of the fields of its parts.
 
-Differentiation of the Hamiltonian gives a first formula for the field. The first formula contains many
-entries of the group element q. If the exact flow of a part is known, there is often a shorter formula for the
-field of this part. The sum of the formulas for all parts is a second formula for the field of the
-Hamiltonian. If the second formula needs fewer operations than the first formula, the second formula is used.
+If the exact flow of a part is known, there is often a formula for the field of this part that is shorter
+than the derivative of the part.
 """
 
 from __future__ import annotations

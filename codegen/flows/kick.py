@@ -18,9 +18,8 @@ from codegen.scene.flow import Flow
 class Kick(Flow):
     """The flow of a potential H = V(q).
 
-    In the time tau, the momentum mu increases by tau n, where n is the force. The group element q is
-    constant. The components of the force are n_a = -d/deps V(exp(eps e_a) q) at eps = 0. Here e_a are the
-    basis elements of the Lie algebra.
+    In the time tau, the momentum mu increases by tau n, where n is the force. The components of the
+    force are n_a = -d/deps V(exp(eps e_a) q) at eps = 0. Here e_a are the basis elements of the Lie algebra.
     """
 
     force: tuple[Expr, ...]

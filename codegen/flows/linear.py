@@ -71,8 +71,8 @@ class Linear(Flow):
 def recognise(formula: Formula) -> Part | None:
     """If the formula has a linear flow, return the part with this flow.
 
-    The linear flow solves the equation z' = L z + c, where z = (q, mu). The matrix L is J times the Hessian
-    matrix of the formula. J is the block matrix with the rows (0, I) and (-I, 0). I is the identity matrix.
+    The flow solves z' = L z + c, where z = (q, mu). The matrix L is J times the Hessian matrix of the
+    formula. J is the block matrix with the rows (0, I) and (-I, 0).
 
     If the group is not abelian, the result is None. In three cases, the result is a :class:`Part` without
     summands: the formula is not quadratic in z, L^2 is not diagonal, or L^2 has a positive entry.

@@ -35,8 +35,7 @@ def squares(B: Matrix) -> list[Square]:
             k = diagonal[0]
             subtract(rest[k][k], [rest[i][k] / rest[k][k] for i in n])
             continue
-        # All diagonal entries are zero. A mixed term of the variables x and y is split into two squares:
-        # 2 x y = ((x + y)^2 - (x - y)^2)/2.
+        # A mixed term of the variables x and y is split into squares: 2 x y = ((x + y)^2 - (x - y)^2)/2.
         i, j = next((i, j) for i in n for j in n if rest[i][j])
         rate = rest[i][j] / 2
         for sign in (1, -1):
@@ -55,10 +54,6 @@ def isotropic_part(B: Matrix) -> Fraction:
     Here I is the identity matrix. If B is diagonal, the result is a diagonal entry that occurs more than
     once. If all diagonal entries are different, the result is the middle entry in ascending order.
 
-    If B is not diagonal, the candidates are the diagonal entries, and the numbers a for which a certain
-    2 x 2 minor of B - a I is zero. The result is the candidate for which :func:`squares` returns the fewest
-    pairs.
-
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)
     """
@@ -72,6 +67,5 @@ def isotropic_part(B: Matrix) -> Fraction:
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
                     # For this number a, the minor of the rows i, k and the columns i, j of B - a I is zero.
-                    # If a matrix has rank one, all its 2 x 2 minors are zero.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -1,4 +1,4 @@
-"""Recognition of exact flows. The formula of each part of a Hamiltonian determines the flow of the part.
+"""Recognition of the exact flow of a part of a Hamiltonian from the formula of the part.
 
 For each kind of flow, a function examines the formula of a part. There are three results:
 
@@ -11,8 +11,8 @@ These are the kinds of flow:
 
 - The flow of a potential V(q) is a kick.
 - On an abelian group such as R^n, the flow of a function of the momentum is a drift.
-- On R^n, the flow of a quadratic function of the position and the momentum is linear. The closed form of
-  the flow is known for some quadratic functions (:mod:`codegen.flows.linear`).
+- On R^n, the flow of a quadratic function of the position and the momentum is linear
+  (:mod:`codegen.flows.linear`).
 - On non-abelian groups, a quadratic function of the momentum is split into terms. The flows of the terms are
   rotations (:mod:`codegen.flows.top`).
 """
@@ -27,7 +27,7 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """If the formula contains the time, return a :class:`Part` without summands. Otherwise return None."""
+    """If the formula contains the time, return a :class:`Part` without summands."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 

@@ -1,6 +1,6 @@
-"""Exact flows of the parts of a lattice problem. A lattice problem is given by a field or a Hamiltonian.
+"""Exact flows of the parts of the field or of the Hamiltonian of a lattice.
 
-The field or the Hamiltonian is a sum of parts. The flow of a part acts on the whole lattice.
+The flow of a part acts on the whole lattice.
 """
 
 from __future__ import annotations
@@ -23,8 +23,7 @@ from codegen.scene.site_scene import with_frozen_neighbours
 COLOURS = ("even", "odd")
 """The names of the two sets of pairs of neighbouring sites along an axis.
 
-A pair is "even" if the index of its first site is even. A pair is "odd" if the index of its first site is
-odd.
+A pair is "even" if the index of its first site is even.
 """
 
 
@@ -36,8 +35,8 @@ POTENTIAL = "potential"
 class SiteFlow(Flow):
     """The flow of one part of the field of a lattice. ``part`` is the index of the part in the scene.
 
-    If the part couples neighbouring sites, only the pairs of one set interact. ``colour`` is the index of
-    the name of this set in :data:`COLOURS`. If the part couples no sites, ``colour`` is 0.
+    ``colour`` is the index in :data:`COLOURS` of the set of pairs that interact. If the part couples no
+    sites, ``colour`` is 0.
     """
 
     part: int
@@ -63,8 +62,8 @@ class SiteFlow(Flow):
 def site_flows(scene: Problem) -> list[Part]:
     """Return the parts of a lattice scene and their exact flows.
 
-    For a Hamiltonian lattice, the list contains the parts of the Hamiltonian. All potentials are added to
-    one part. For another lattice, the list contains the parts of the field:
+    For a Hamiltonian lattice, all potentials are added to one part. For another lattice, the list contains
+    the parts of the field:
 
     - The parts that couple no sites are first in the list.
     - Each part that couples neighbours along an axis is split into two parts, one for the even pairs and one
@@ -84,7 +83,7 @@ def site_flows(scene: Problem) -> list[Part]:
 def _hamiltonian_flows(scene: Problem) -> list[Part]:
     """Return the parts of a lattice Hamiltonian and their exact flows.
 
-    The last part in the list is the potential energy. The flow of the potential energy is a kick.
+    The last part in the list is the potential energy.
     """
     assert scene.sites is not None
     listed, total = [], scene.sites.force

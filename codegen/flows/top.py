@@ -10,7 +10,7 @@ d_k and fixed vectors e_k.
 - If the adjoint action does not preserve the dot product, c is 0.
 
 If there is only one turn, the composition of the turn and the rotation about the momentum is the exact flow
-of the function. An example is a symmetric top. The turns of an asymmetric top do not commute with each other.
+of the function. The turns of an asymmetric top do not commute with each other.
 """
 
 from __future__ import annotations
@@ -50,8 +50,7 @@ def recognise(formula: Formula) -> Part | None:
 def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool:
     """Return True if ``formula`` and P.(B P)/2 + w.P differ only by a constant.
 
-    If ``body`` is true, P = Ad*_q mu is the momentum in the body frame. Otherwise P = mu is the momentum in
-    the space frame.
+    The momentum P is Ad*_q mu if ``body`` is true, and mu otherwise.
     """
     orbit, group = formula.orbit, formula.problem.group.require(Coadjoint)
     d = orbit.domain
@@ -86,7 +85,7 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
         number = str(k + 1) if len(turns) > 1 else ""
         flows.append([(f"{formula.name}.turn{number}" if several else formula.name, turn)])
     if mean:
-        # The rotation about the momentum commutes with all turns. The first summand contains this rotation.
+        # The rotation about the momentum commutes with all turns.
         flow = (f"{formula.name}.mean" if several else formula.name, Isotropic(mean))
         flows = [[flow, *(flows[0] if flows else [])], *flows[1:]]
     return [Summand(tuple(f)) for f in flows]
@@ -101,11 +100,7 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Add w.P to the Hamiltonian of the turns, and return the new turns. Here P is the momentum.
-
-    If the vector w is parallel to the axis of a turn, w.P changes the offset of this turn. Otherwise a turn
-    about w is appended.
-    """
+    """Add w.P to the Hamiltonian of the turns, and return the new turns. Here P is the momentum."""
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)
         ratio = w[i] / turn.axis[i]

@@ -17,7 +17,7 @@ class Turn(Flow):
     """A rotation about the fixed axis e: the flow of H = r (e.P)^2/2 + c e.P, where P is the momentum.
 
     The attributes are e = ``axis``, r = ``rate`` and c = ``offset``. Because e.P is conserved, the rotation
-    angle after the time tau is tau (r e.P + c). Let (q, mu) be the state.
+    angle after the time tau is tau (r e.P + c).
 
     - If the axis is fixed in the body (``body`` is true), P = Ad*_q mu. The flow multiplies q from the right,
       and mu is constant.
@@ -35,8 +35,8 @@ class Turn(Flow):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return the new state (q, mu) after the time tau.
 
-        The angle of the turn is a = tau (r e.P + c). Here e is ``axis``, r is ``rate``, and c is ``offset``.
-        P is the momentum in the frame in which the axis is fixed. Let g be the group element exp(a e).
+        Let g be the group element exp(a e). Here a = tau (r e.P + c) is the angle of the turn
+        (:class:`Turn`).
 
         - If the axis is fixed in the body, the new state is (q g, mu).
         - If the axis is fixed in space, the new state is (g q, Ad*_{g^-1} mu).
@@ -53,12 +53,10 @@ class Turn(Flow):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return the velocity xi and the force n.
 
-        The angular speed is s = r e.P + c. Here e is ``axis``, r is ``rate``, and c is ``offset``. P is the
-        momentum in the frame in which the axis is fixed.
+        Let s = r e.P + c be the angular speed of the turn (:class:`Turn`).
 
         - If the axis is fixed in space, xi = s e and n = 0.
-        - If the axis is fixed in the body, xi = s Ad_q e and n = ad*_xi mu. Then mu is constant, because
-          mu' = n - ad*_xi mu = 0.
+        - If the axis is fixed in the body, xi = s Ad_q e and n = ad*_xi mu. Then mu' = n - ad*_xi mu = 0.
         """
         axis = self._axis(d, group, q)
         speed = self._speed(d, axis, mu)
@@ -74,7 +72,7 @@ class Turn(Flow):
     def _speed(self, d: Domain, axis: Vector[S], mu: Vector[S]) -> S:
         """Return the angular speed: ``rate`` times the dot product of the axis and mu, plus ``offset``.
 
-        The argument ``axis`` is the axis in the space frame, computed by :meth:`_axis`.
+        The argument ``axis`` is the axis in the space frame.
         """
         rate: S = d.rational(self.rate.numerator, self.rate.denominator)
         speed = rate * dot(mu, axis)
