@@ -12,8 +12,8 @@ from codegen.ir.domain import Domain
 
 
 class Cotangent(CotangentBundle, Projection, Inverse):
-    """T*G with the product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu). The coordinates of g come before the
-    coordinates of mu. Arnold and Khesin (I.10.B) call T*G the magnetic extension of G.
+    """T*G, the magnetic extension of G (Arnold and Khesin, I.10.B), with the product
+    (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu). The coordinates of g come before the coordinates of mu.
 
     An element of the algebra is a pair (xi, n). A vector field with the values f(q, mu) = (xi, n) has the
     differential equations q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27 of H. Marthinsen's thesis), where xi.q
@@ -36,11 +36,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         self.abelian = base.abelian
 
     def _split(self, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
-        """Split an element of the group into (q, mu), or an element of the algebra into (xi, n).
-
-        An element of the group has ``self.size`` coordinates. An element of the algebra has ``self.dim``
-        coordinates.
-        """
+        """Split an element of the group into (q, mu), or an element of the algebra into (xi, n)."""
         at = self.base.size if len(x) == self.size else self.base.dim
         return tuple(x[:at]), tuple(x[at:])
 
@@ -79,7 +75,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         """Return (b, ad*_b mu - a) for a covector (a, b) at the point z = (q, mu).
 
         The map of covectors (a, b) is the right-trivialised canonical bivector (eq. 2.26 of Marthinsen's
-        thesis). The bivector maps the differential of a Hamiltonian to the Hamiltonian vector field.
+        thesis).
         """
         mu = self._split(z)[1]
         a, b = tuple(covector[: self.base.dim]), tuple(covector[self.base.dim :])
@@ -89,8 +85,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def offers(self, capability: type[C]) -> C | None:
         """Return this group if it has the operations of the class ``capability``. Otherwise return None.
 
-        If the base group has no :class:`Projection`, T*G has no projection. If the base group has no
-        :class:`Inverse`, T*G has no inverse.
+        T*G has :class:`Projection` or :class:`Inverse` only if the base group has this capability.
         """
         own = super().offers(capability)
         return None if capability in (Projection, Inverse) and self.base.offers(capability) is None else own

@@ -35,8 +35,6 @@ class CubicAd(ClosedFormSeries):
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return W(ad_x) v, where W is the product of the factors in ``word``. If ``dual`` is true, return
         W(ad*_x) v.
-
-        The operator W(ad_x) is a quadratic polynomial in ad_x. Therefore two brackets are enough.
         """
         b, c = ad_polynomial(d, word, self.squared_rate(d, x), signed=self.signed)
         bracket = self.adt if dual else self.ad
@@ -54,11 +52,8 @@ class CubicAd(ClosedFormSeries):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        In each triple, f is a number, and W(ad_x) is a polynomial 1 + b ad_x + c ad_x^2. Let A, B and C be
-        the sums of f v, f b v and f c v. The result A + ad_x (B + ad_x C) needs two brackets.
-
-        If ``dual`` is true, ad*_x replaces ad_x. If the function ``total`` is given, it computes A from the
-        indices of all terms.
+        In each triple, f is a number, and W is a product of functions. If ``dual`` is true, ad*_x replaces
+        ad_x. If the function ``total`` is given, it computes the sum of f v from the indices of all terms.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim

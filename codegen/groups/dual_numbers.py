@@ -1,7 +1,6 @@
 """Dual numbers a + a' e with e^2 = 0, whose components a and a' are scalars of any domain.
 
-The value of a function f at a + a' e is f(a) + f'(a) a' e. Therefore the coefficient of e in the result of a
-group operation is a derivative of the operation. For example, the bracket of two vectors of dual numbers is
+The value of a function f at a + a' e is f(a) + f'(a) a' e. The bracket of two vectors of dual numbers is
 [x + u e, y + v e] = [x, y] + ([x, v] + [u, y]) e.
 """
 

@@ -15,12 +15,11 @@ from codegen.ir.domain import Domain
 class Galilean(Semidirect):
     """The group of the maps (y, t) -> (R y + v t + p, t + s) of events. An event has position y and time t.
 
-    The coordinates of an element are R (row by row), v, p and s. The pairs (R, v) form the group SE(3).
-    In this group, the velocity v is the translation.
+    The coordinates of an element are R (row by row), v, p and s. The components of an element (w, b, u, r) of
+    the algebra are the derivatives of R, v, p and s at the identity.
 
-    The elements of the algebra are (w, b, u, r). The components w, b, u and r are the derivatives of R, v, p
-    and s at the identity. The exponential of (w, b, u, r) is (exp w, dexp_w b, dexp_w u + r psi(w) b, r).
-    Here psi(w) is the sum of W^k/(k+2)! over k >= 0 for the matrix W with W a = w cross a for all a.
+    The exponential of (w, b, u, r) is (exp w, dexp_w b, dexp_w u + r psi(w) b, r). Here psi(w) is the sum of
+    W^k/(k+2)! over k >= 0 for the matrix W with W a = w cross a for all a.
     """
 
     name = "Gal(3)"

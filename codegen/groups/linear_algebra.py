@@ -1,8 +1,7 @@
 """Scalars, vectors and matrices over any domain, and their linear algebra.
 
 A domain is a set of scalars, for example floats, mpmath numbers, power series or expressions. A vector is a
-tuple of scalars, and a matrix is a tuple of its entries row by row. The functions of this module use only the
-four arithmetic operations and the functions of the domain. Therefore they work in every domain.
+tuple of scalars, and a matrix is a tuple of its entries row by row.
 """
 
 from __future__ import annotations
@@ -57,9 +56,7 @@ def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
     If e = 1 - |v|^2, the vector v/sqrt(1 - e) is the unit vector v/|v|.
     """
     excess: S = e * (d.rational(1, 2) + d.rational(3, 8) * e)
-    # The factor 1 + excess is not computed, because rounding would lose a small excess. The spacing of
-    # doubles is larger above 1 than below 1. Therefore positive values of ``excess`` would be lost more often
-    # than negative values, and v would become too short.
+    # The factor 1 + excess is not computed, because rounding would lose a small excess.
     return tuple(a + excess * a for a in v)
 
 
@@ -93,13 +90,12 @@ def transposed(a: Vector[S], n: int) -> Vector[S]:
 def determinant(a: Vector[S], n: int) -> S:
     """Return the determinant of an n x n matrix by Laplace expansion along the rows.
 
-    Each minor is computed once. The result needs n (2^(n-1) - 1) products and no divisions.
+    The result needs n (2^(n-1) - 1) products and no divisions.
 
     >>> determinant((1, 2, 3, 4), 2)
     -2
     """
-    # ``minors`` contains the m x m minors of the last m rows. The keys are the columns of the minors. Before
-    # the outer loop, m is 1. Each pass of the outer loop increases m by one.
+    # ``minors`` maps each tuple of m columns to the minor of these columns in the last m rows.
     minors: dict[tuple[int, ...], S] = {(j,): a[n * (n - 1) + j] for j in range(n)}
     for i in reversed(range(n - 1)):
         larger: dict[tuple[int, ...], S] = {}
@@ -114,17 +110,11 @@ def determinant(a: Vector[S], n: int) -> S:
 
 
 LOOPED = 5
-"""Products of matrices with at least this number of rows are loops in emitted code. Smaller products are
-formulas.
-"""
+"""Products of matrices with at least this number of rows are loops in emitted code."""
 
 
 def product(d: Domain, a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
-    """Return the product of two n x n matrices.
-
-    For small matrices, the entries of the product are formulas. For large matrices, the product is the value
-    of a vector function (:mod:`codegen.ir.vector_function`). In emitted code, this function is a loop.
-    """
+    """Return the product of two n x n matrices."""
     return matmul(a, b, n) if n < LOOPED else d.vector(f"product{n}", (*a, *b))
 
 
@@ -135,8 +125,8 @@ WITHOUT_PIVOTS = 3
 def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
     """Return the inverse of an n x n matrix.
 
-    Small matrices are inverted by the Faddeev-LeVerrier recursion. This recursion needs no pivots. Large
-    matrices are inverted by elimination with row exchanges.
+    Small matrices are inverted by the Faddeev-LeVerrier recursion. Large matrices are inverted by elimination
+    with row exchanges.
     """
     if n > WITHOUT_PIVOTS:
         return d.vector(f"inverse{n}", g)
@@ -157,7 +147,7 @@ def solved_near_identity(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
 
     The matrix ``a`` has n rows and columns, and the matrix ``b`` has n rows. If ``a`` is close to the unit
     matrix, all pivots are close to 1. If the symmetric part of ``a`` is positive definite, all pivots are
-    positive. In both cases, no row exchanges are needed.
+    positive.
     """
     width = len(b) // n
     rows = [[*a[n * i : n * i + n], *b[width * i : width * i + width]] for i in range(n)]

@@ -1,8 +1,5 @@
 """Matrix groups that are given by a basis of their Lie algebra.
 
-If all products of four matrices of the algebra are zero, the exponential is a polynomial of degree at most 3.
-In all other cases, the exponential is computed by a vector function (:mod:`codegen.ir.vector_function`).
-
 Let L be the derivative of the exponential at the matrix x in the direction of the matrix y. Then
 dexp_x y = L exp(-x).
 """
@@ -75,7 +72,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def dual_vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
         """Return the element mu of the dual with <mu, x> = sum_ij M_ij A_ij for all x, where A = hat(x).
 
-        The argument ``matrix`` is M. Every n x n matrix M is allowed. If M = dual_hat(nu), the result is nu.
+        The argument ``matrix`` is M. Every n x n matrix M is allowed.
         """
         return _weighted(d, self.algebra.basis, matrix)
 
@@ -132,11 +129,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self._exponential(d, tuple(-x for x in a))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return [x, y].
-
-        If n is large and more than n^2 structure constants are not zero, [x, y] is computed as a commutator
-        of matrices. In all other cases, [x, y] is computed from the structure constants.
-        """
+        """Return [x, y]."""
         if self._has_long_brackets:
             return self.vee(d, d.vector(f"commutator{self.n}", (*self.hat(d, x), *self.hat(d, y))))
         total: list[S] = [d.rational(0)] * self.dim
@@ -169,7 +162,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self.vee(d, product(d, product(d, g, self.hat(d, x), self.n), inverse, self.n))
 
     def _dual_conjugated(self, d: Domain, g: Vector[S], mu: Vector[S], inverse: Vector[S]) -> Vector[S]:
-        """Return dual_vee(g^T M g^-T) for M = dual_hat(mu). The argument ``inverse`` is g^-1."""
+        """Return dual_vee(g^T M g^-T) for M = dual_hat(mu) and ``inverse`` = g^-1."""
         moved = product(d, transposed(g, self.n), self.dual_hat(d, mu), self.n)
         return self.dual_vee(d, product(d, moved, transposed(inverse, self.n), self.n))
 
@@ -199,8 +192,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def _dual_series(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for a nilpotent algebra: the finite sum of (ad*_x)^k mu/(k+1)! over k >= 0."""
         total, term = mu, mu
-        # Let m = ``nilpotency``, so x^m = 0. The matrix (ad_x)^(2 m - 1) y is a linear combination of
-        # matrices x^i y x^j with i + j = 2 m - 1. Because i or j is at least m, these matrices are zero.
+        # Let m = ``nilpotency``, so x^m = 0. Then (ad_x)^(2 m - 1) y = 0, because its terms x^i y x^j
+        # have i >= m or j >= m.
         for k in range(2, 2 * self.algebra.nilpotency):
             factor: S = d.rational(1, k)
             term = tuple(factor * t for t in self.adt(d, x, term))
@@ -221,8 +214,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     ) -> Vector[S]:
         """Return the product of exp(x, n) and (q, mu) in the group T*G.
 
-        The first component is exp(x) q. The second component is the result of :meth:`transport`. If the
-        algebra is not nilpotent, the matrix exp(x) is computed once and used for both components.
+        The first component is exp(x) q. The second component is the result of :meth:`transport`.
         """
         if self.algebra.nilpotency:
             return super().cotangent_expmul(d, x, n, q, mu)
@@ -278,8 +270,7 @@ class IsometryGroup(MatrixGroup, Projection):
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g (3 - r g)/2 with r = J^-1 g^T J: one step of the Newton-Schulz iteration.
 
-        The iteration converges to an element of the group if g is near the group. Each step doubles the
-        number of correct digits. If g is in the group, the result is g.
+        The iteration converges to an element of the group if g is near the group.
         """
         half, three = d.rational(1, 2), d.rational(3)
         gram = matmul(self.inverse(d, g), g, self.n)
@@ -291,8 +282,7 @@ class IsometryGroup(MatrixGroup, Projection):
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return a pair (text, residual) for each entry of the matrix J^-1 g^T J g - 1.
 
-        The residual is the value of the entry. The text is "g^T J g = J", or "g^T g = 1" if J is the unit
-        matrix.
+        The residual is the value of the entry.
         """
         name = "g^T g = 1" if all(p == (i, 1) for i, p in enumerate(self.form)) else "g^T J g = J"
         unit: Vector[S] = self.identity(d)
@@ -324,7 +314,7 @@ def _weighted(d: Domain, rows: Sequence[Sparse], values: Sequence[S]) -> Vector[
 
 
 def _added(d: Domain, total: S, w: Fraction, x: S) -> S:
-    """Return total + w x. If w is 1 or -1, no product is computed."""
+    """Return total + w x."""
     if w == 1:
         return total + x
     if w == -1:

@@ -23,8 +23,8 @@ class MatrixAlgebra:
     """A vector space of n x n matrices that is closed under [A, B] = AB - BA.
 
     - ``basis`` contains the basis matrices e_0, e_1, ...
-    - ``dual`` contains the matrices of the dual basis. These matrices are elements of the vector space, too.
-      Coordinate i of a matrix A is sum_jk D_jk A_jk, where D is the matrix ``dual[i]``.
+    - ``dual`` contains the dual basis, whose matrices are in the same vector space. Coordinate i of a matrix
+      A is sum_jk D_jk A_jk, where D is the matrix ``dual[i]``.
     - ``constants`` are the non-zero structure constants (i, j, k, c): c is the component of [e_i, e_j] along
       e_k.
     """
@@ -36,18 +36,17 @@ class MatrixAlgebra:
 
     @cached_property
     def places(self) -> tuple[Sparse, ...]:
-        """For each position in a matrix, the non-zero entries of the basis matrices at this position.
+        """For each position (row by row), the non-zero entries of the basis matrices at this position.
 
-        A pair (i, x) means that basis matrix i has the entry x. The positions are ordered row by row.
+        A pair (i, x) means that basis matrix i has the entry x.
         """
         return _by_place(self.basis, self.n**2)
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """For each position in a matrix, the non-zero entries of the dual basis at this position.
+        """For each position (row by row), the non-zero entries of the dual basis at this position.
 
-        A pair (i, x) means that matrix i of the dual basis has the entry x. The positions are ordered row by
-        row.
+        A pair (i, x) means that matrix i of the dual basis has the entry x.
         """
         return _by_place(self.dual, self.n**2)
 
@@ -55,8 +54,7 @@ class MatrixAlgebra:
     def nilpotency(self) -> int:
         """A number k such that every product of k matrices of the algebra is zero, or 0 if no k is found.
 
-        The search uses only the positions of the non-zero entries of the basis matrices. Terms of a product
-        can cancel, but the search ignores cancellation. Therefore the search can miss the smallest k.
+        The search uses only the positions of the non-zero entries of the basis matrices.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
@@ -132,8 +130,7 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
             for j, y in entries:
                 gram[i][j] = gram[i].get(j, Fraction(0)) + x * y
     dual: list[Sparse] = [()] * len(basis)
-    # Two basis matrices in different components (see :func:`_components`) are orthogonal. Therefore the Gram
-    # matrix is block diagonal. The blocks are inverted one by one.
+    # Basis matrices in different components are orthogonal, so the Gram matrix is inverted block by block.
     for component in _components(gram):
         inverse = rational_inverse([[gram[i].get(j, Fraction(0)) for j in component] for i in component])
         if inverse is None or not all(basis[i] for i in component):
@@ -150,11 +147,7 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
 
 
 def _components(gram: Sequence[dict[int, Fraction]]) -> list[list[int]]:
-    """Return the connected components of a graph.
-
-    The vertices are the basis matrices. An edge joins two matrices if their inner product, an entry of the
-    Gram matrix, is not zero.
-    """
+    """Return the components of the graph that has an edge for each non-zero entry of the Gram matrix."""
     components: list[list[int]] = []
     seen: set[int] = set()
     for start in range(len(gram)):

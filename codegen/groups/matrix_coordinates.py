@@ -22,8 +22,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def offers(self, capability: type[C]) -> C | None:
         """Return this group if it has the operations of the class ``capability``. Otherwise return None.
 
-        If the cube of some element of the algebra is not in the algebra, some values cay(x) are outside the
-        group. Then the group does not have the capability :class:`CayleyMap`.
+        The group has the capability :class:`CayleyMap` only if its algebra contains x^3 for all elements x.
         """
         own = super().offers(capability)
         return None if capability is CayleyMap and not self._contains_cubes else own
@@ -32,9 +31,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def _contains_cubes(self) -> bool:
         """True if the cube of every element of the algebra is in the algebra.
 
-        Only one element x is tested. The entries of x^3 are polynomials of degree 3 in the coordinates of x.
-        For random coordinates below 2^61, a wrong result True would have a probability of about 3/2^61 or
-        less.
+        Only one element x is tested. For random coordinates below 2^61, a wrong result True would have a
+        probability of about 3/2^61 or less.
         """
         # Powers of 37 modulo a prime look random, but they are equal in every run.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
@@ -76,7 +74,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         """Return exp(t B) for the basis matrix B with the index k.
 
         If B^3 = s B for a number s, the result is 1 + t c_1(z) B + t^2 c_2(z) B^2. Here z = -s t^2, and c_1
-        and c_2 are Stumpff functions. If there is no such number s, the method calls :meth:`exp`.
+        and c_2 are Stumpff functions.
         """
         b = self._exact([Fraction(int(i == k)) for i in range(self.dim)])
         square = matmul(b, b, self.order)
@@ -108,7 +106,7 @@ def _stumpff(d: Domain, c: Fraction, t: S) -> tuple[S, S]:
 
 
 def _plus(d: Domain, total: S, weights: tuple[Fraction, Fraction], values: tuple[S, S]) -> S:
-    """Return ``total`` + w_0 v_0 + w_1 v_1 with weights w and values v. Terms with w_i = 0 are omitted."""
+    """Return ``total`` + w_0 v_0 + w_1 v_1 with weights w and values v."""
     for w, v in zip(weights, values, strict=True):
         if w:
             factor: S = d.rational(w.numerator, w.denominator)

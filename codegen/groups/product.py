@@ -29,9 +29,8 @@ if TYPE_CHECKING:
 
 class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, Inverse, CayleyMap):
     """The direct product G1 x G2 x ... of groups. An element lists the coordinates of the factors one after
-    the other. Every operation acts on each factor separately.
+    the other.
 
-    SO(3) x R^3 is not the group of rigid motions, because the rotation does not act on the vectors of R^3.
     The product has a capability, for example :class:`CayleyMap`, only if all factors have this capability.
     """
 
@@ -49,8 +48,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
         """Split x into one tuple of coordinates for each factor.
 
-        If x has ``size`` components, x is a group element. If x has ``dim`` components, x is an element of
-        the algebra or of the dual of the algebra.
+        The argument x is a group element, or an element of the algebra or its dual.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)
@@ -67,11 +65,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 
     def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:
-        """Call ``operation`` for each factor, and join the results to one tuple.
-
-        The arguments of ``operation`` are a factor, and the part of each element of ``args`` that belongs to
-        this factor.
-        """
+        """Call ``operation`` for each factor and its parts of ``args``, and join the results to one tuple."""
         rows = zip((f.require(capability) for f in self.factors), *map(self.parts, args), strict=True)
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
 
@@ -177,8 +171,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 def labels(count: int) -> Iterator[str]:
     """Yield labels of equal length for the factors: a to z for up to 26 factors, then aa to zz, and so on.
 
-    If the first factor is itself a product, labels of different lengths would be ambiguous. The label aa
-    could mean the 27th factor, or the first factor of the first factor.
+    If the first factor is itself a product, labels of different lengths would be ambiguous.
 
     >>> list(labels(3)), list(labels(28))[-3:]
     (['a', 'b', 'c'], ['az', 'ba', 'bb'])

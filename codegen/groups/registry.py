@@ -1,7 +1,7 @@
 """Registries of groups and actions. A registry finds a class by the name of the class.
 
 A registry contains the built-in groups or the built-in actions of this package, and the classes that
-:func:`codegen.groups.register` has added. The built-in classes are imported on first use.
+:func:`codegen.groups.register` has added.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ class Registry(Generic[T]):
         """Add a class under its own name.
 
         If the registry contains an added class with the name of ``cls``, ``cls`` replaces that class.
-        Therefore a scene file that adds classes can be read twice. :class:`SceneError` is raised if a
-        built-in class has the name of ``cls``, or if ``cls`` has abstract methods.
+        :class:`SceneError` is raised if a built-in class has the name of ``cls``, or if ``cls`` has abstract
+        methods.
         """
         name, missing = cls.__name__, sorted(getattr(cls, "__abstractmethods__", ()))
         if missing:
@@ -66,11 +66,7 @@ class Registry(Generic[T]):
         return cls
 
     def listing(self) -> list[dict[str, str]]:
-        """Return a list with a dictionary for each class.
-
-        The key ``name`` gives the name of the class. The key ``about`` gives the first paragraph of the
-        docstring.
-        """
+        """Return the ``name`` of each class and ``about``, the first paragraph of its docstring."""
         return [{"name": n, "about": _first_paragraph(self.get(n).__doc__ or "")} for n in self.names]
 
 

@@ -41,9 +41,7 @@ class Representation(ABC):
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. If it is not Ad, a semidirect product with this representation does
-    not have the capability :class:`Covered`.
-    """
+    """True if the representation is Ad."""
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:
@@ -106,8 +104,7 @@ class Representation(ABC):
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
-        x and v are elements of the algebra of the semidirect product. Each of them is a pair: an element of
-        the group's algebra, and a vector of one copy of the space.
+        Each of x and v is a pair: an element of the group's algebra, and a vector of one copy of the space.
         """
         raise self._missing("series")
 
@@ -137,11 +134,11 @@ class Representation(ABC):
 
 
 class AlgebraVectors(Representation):
-    """One or more copies of the Lie algebra. The group acts on each copy by Ad. For SO(3), each copy is R^3.
+    """One or more copies of the Lie algebra. The group acts on each copy by Ad.
 
     For this representation, x.v is the bracket [x, v]. A vector of dual numbers, x + u e with e^2 = 0,
     represents the element (x, u) of the semidirect product's algebra. The bracket of (x, u) and (y, v) is
-    [x + u e, y + v e]. Therefore the group's formulas for functions of ad can be evaluated with dual numbers.
+    [x + u e, y + v e].
     """
 
     of_algebra = True
@@ -278,9 +275,9 @@ class MatrixColumns(Representation):
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
         """Return the derivatives of <p, phi(x) u> with respect to x and u. For phi see :meth:`translation`.
 
-        Let A be the matrix of x, and M = [[A, u], [0, 0]]. The last column of exp(M) contains phi(x) u.
-        Let P be the matrix with p in the last column and zeros elsewhere. The gradient of <p, phi(x) u> with
-        respect to the entries of M is the derivative of exp at M^T in the direction P.
+        Let A be the matrix of x, and M = [[A, u], [0, 0]]. Let P be the matrix with p in the last column and
+        zeros elsewhere. The gradient of <p, phi(x) u> with respect to the entries of M is the derivative of
+        exp at M^T in the direction P.
         """
         n, bordered = self._bordered(d, group, x, u)
         zero: S = d.rational(0)
@@ -293,10 +290,7 @@ class MatrixColumns(Representation):
         return forces, tuple(slope[n * i + n - 1] for i in range(n - 1))
 
     def _bordered(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> tuple[int, Vector[S]]:
-        """Return the matrix [[A, u], [0, 0]], where A is the matrix of x.
-
-        The first result is the number of rows. The second result contains the entries.
-        """
+        """Return the number of rows and the entries of [[A, u], [0, 0]], where A is the matrix of x."""
         n, hat = len(u), self._matrices(group).hat(d, x)
         rows = (a for i in range(n) for a in (*hat[n * i : n * i + n], u[i]))
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
@@ -331,18 +325,16 @@ class PlaneVectors(MatrixColumns):
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True. For x = (w, u) with a number w and a vector u, ad_x^3 = -w^2 ad_x. Therefore each
-        power series in ad_x is equal to a quadratic polynomial in ad_x.
-        """
+        """Return True, because ad_x^3 = -w^2 ad_x for x = (w, u) with a number w and a vector u."""
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
         Let x = (w, u) and v = (y, q) with numbers w, y and vectors u, q. Let J be the rotation by a right
-        angle: J(s, t) = (-t, s). Then ad_x v = (0, r) and ad_x^2 v = (0, w J r) with r = w J q - y J u.
-        The factors of ``word`` are power series with the constant term 1. The product of the factors is
-        1 + b ad_x + c ad_x^2 with numbers b and c. The result is (y, q + b r + c w J r).
+        angle: J(s, t) = (-t, s). Then ad_x v = (0, r) and ad_x^2 v = (0, w J r) with r = w J q - y J u. The
+        product of the factors of ``word`` is 1 + b ad_x + c ad_x^2 with numbers b and c. The result is
+        (y, q + b r + c w J r).
         """
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)

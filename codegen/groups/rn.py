@@ -19,11 +19,7 @@ from codegen.ir.normal_form import Relation
 
 
 class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse, CayleyMap):
-    """The abelian group (R^n, +). The exponential is the identity map, and every bracket vanishes.
-
-    RKMK, Crouch-Grossman and commutator-free methods on R^n are Runge-Kutta methods. Variational methods on
-    R^n are symplectic partitioned Runge-Kutta methods.
-    """
+    """The abelian group (R^n, +). The exponential is the identity map, and every bracket vanishes."""
 
     def __init__(self, n: int) -> None:
         check_size("Rn", n, 1)
@@ -47,7 +43,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return tuple(-a for a in g)
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return x. The matrix X of x satisfies X^2 = 0. Therefore cay(X) = 1 + X, the translation by x."""
+        """Return x: the matrix X of x satisfies X^2 = 0, so cay(X) = 1 + X."""
         return x
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

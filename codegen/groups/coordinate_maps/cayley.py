@@ -14,11 +14,7 @@ class Cayley(CoordinateMap):
     """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2), with dcay^{-1}_x y = (1 - x/2) y (1 + x/2).
 
     The element x is a matrix or a pure quaternion, and 1 is the identity. A group has a Cayley map if its
-    algebra contains x^3 for all elements x. An example is the group of all matrices g with g^T J g = J, where
-    J is a fixed matrix.
-
-    On groups of orthogonal matrices, cay(x) is defined for all x. On some other groups, 1 - x/2 can be
-    singular if the step size is large. If 1 - x/2 is singular, the step fails with the status TOO_FAR.
+    algebra contains x^3 for all elements x. If 1 - x/2 is singular, the step fails with the status TOO_FAR.
     """
 
     name = "cayley"

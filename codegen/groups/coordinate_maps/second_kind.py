@@ -15,8 +15,8 @@ class SecondKind(CoordinateMap):
 
     Let E_k = exp(x_k e_k). The right-trivialised differential dtau_x v is the sum of
     v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k for k = 1, ..., n (Owren and Marthinsen 2001). The linear system
-    dtau_x v = y is solved by Gaussian elimination without row exchanges. If the step size is large, a pivot
-    can be zero. If a pivot is zero, the step fails with the status TOO_FAR.
+    dtau_x v = y is solved by Gaussian elimination without row exchanges. If a pivot is zero, the step fails
+    with the status TOO_FAR.
     """
 
     name = "second_kind"
@@ -46,9 +46,7 @@ class SecondKind(CoordinateMap):
         """Return the solution v of the linear system dtau_x v = y."""
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # Let E_k = exp(x_k e_k). Both sides of dtau_x v = y are multiplied by the inverse of Ad_{E_1}. Then
-        # the matrix of the system has the columns e_1, e_2, Ad_{E_2} e_3, and so on. The first two pivots of
-        # this matrix are 1.
+        # Let E_k = exp(x_k e_k). The columns of Ad_{E_1}^-1 dtau_x are e_1, e_2, Ad_{E_2} e_3, and so on.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]
