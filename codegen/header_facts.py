@@ -76,10 +76,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
 
 
 def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
-    """Return the header line about the continuous extension.
-
-    There is no such line if the module does not use a continuous extension.
-    """
+    """Return the header line about the continuous extension, if the module uses one."""
     extension = None if kernel.observed is None else kernel.observed.extension
     if extension is None:
         return ()
@@ -88,10 +85,7 @@ def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
 
 
 def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the header line about the memory that a step needs.
-
-    There is no such line if the method has no low-storage scheme.
-    """
+    """Return the header line about the memory of a step, if the method has a low-storage scheme."""
     text = lowering(compiled.method.family).storage(compiled.method)
     if text and compiled.kernel.sites is not None:
         text = f"{text}; each site also stores two more states, because its neighbours read its old state"
@@ -136,10 +130,7 @@ def site_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
 
 
 def _mode_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the header line about the linear operator of a semilinear equation.
-
-    There is no such line for other equations.
-    """
+    """Return the header line about the linear operator, if the equation is semilinear."""
     semilinear = compiled.scene.semilinear
     return () if semilinear is None else (("operator", semilinear.text()),)
 

@@ -43,7 +43,7 @@ class Integrator(RunToEnd):
 
     @cached_property
     def fields(self) -> Fields:
-        """The name and the size of each part of a state. For example, a state (q, mu) has the parts q and mu.
+        """The name and the size of each part of a state, for example of the parts q and mu.
 
         A state may be given as a tuple of its parts, in the order of ``fields``. If the integrator was not
         loaded from emitted files, ``fields`` is empty.
@@ -81,8 +81,7 @@ class Integrator(RunToEnd):
         )
 
     def __reduce__(self) -> tuple[Callable[..., Integrator], tuple[object, ...]]:
-        # A loaded library or module cannot be pickled. Therefore the pickle contains the emitted files, and
-        # unpickling loads them again.
+        # A loaded library or module cannot be pickled, so the pickle contains the emitted files.
         if self.artifact is None:
             raise TypeError("only integrators that codegen.load has returned can be pickled")
         interface = self.interface.as_json()
@@ -99,8 +98,7 @@ class Integrator(RunToEnd):
     ) -> State:
         """Return the state after one step of size h. StepFailed is raised if the step fails.
 
-        ``inputs`` are the values of the run-time inputs, in the order of ``interface.inputs``. These values
-        are constant during the step.
+        ``inputs`` are the values of the run-time inputs, in the order of ``interface.inputs``.
         """
         held = None if inputs is None else numbers(inputs)
         function = None if held is None else lambda t: held
@@ -118,8 +116,7 @@ class Integrator(RunToEnd):
     ) -> State:
         """Return the state after ``steps`` steps of size h from time t. StepFailed is raised if a step fails.
 
-        ``inputs`` is a function of the time. The function returns the values of the run-time inputs, in the
-        order of ``interface.inputs``.
+        ``inputs`` maps the time to the values of the run-time inputs, in the order of ``interface.inputs``.
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             return batch.joined(
@@ -147,8 +144,8 @@ class Integrator(RunToEnd):
         If ``steps`` is given, the list contains the initial state and every ``stride``-th state after it.
 
         ``t_eval`` is a monotone sequence of times, and ``t`` is the time of the initial state. If ``t_eval``
-        is given, the list contains the states at these times. A step ends at each time in ``t_eval``. Between
-        two successive times, the steps have equal sizes of at most abs(h).
+        is given, the list contains the states at these times. Between two successive times, the steps have
+        equal sizes of at most abs(h).
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             rows = [
@@ -168,15 +165,13 @@ class Integrator(RunToEnd):
     def _sampled(self, begun: Begun, t: float, h: float, times: Sequence[float]) -> list[Sequence[float]]:
         """Return the states at ``times``.
 
-        A step ends at each of these times. Between two successive times, the steps have equal sizes of at
-        most abs(h).
+        Between two successive times, the steps have equal sizes of at most abs(h).
         """
         if not math.isfinite(h) or h == 0:
             raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
         for time in monotone(t, times):
-            # If the exact quotient is an integer, the computed quotient may exceed it by rounding. The
-            # factor 1 - 1e-12 prevents an additional step.
+            # If rounding increases an integer quotient, the factor 1 - 1e-12 prevents an additional step.
             quotient = abs((time - t) / h) * (1 - 1e-12)
             if not math.isfinite(quotient):
                 raise ValueError(
@@ -212,8 +207,8 @@ class Integrator(RunToEnd):
         - ``end`` is the end of the run, by default the last time in ``t_eval``.
         - ``limit`` is the largest number of steps, rejected steps included.
 
-        If ``state`` is a batch, its states are integrated one after another. The result then contains an
-        array of states, and the total numbers of accepted and rejected steps.
+        If ``state`` is a batch, the result contains an array of states, and the total numbers of accepted and
+        rejected steps.
 
         TypeError is raised if the module was emitted without ``adaptive=True``. StepFailed is raised if a
         step fails. If ``limit`` steps are too few, StepFailed is raised with the status ``LIMIT``.
@@ -246,7 +241,7 @@ class Integrator(RunToEnd):
         tolerances: tuple[float, float],
         limit: int,
     ) -> Arrival:
-        """Integrate with step-size control to the last time in ``times``. A step ends at each of the times.
+        """Integrate with step-size control to the last time in ``times``.
 
         The result contains the states at all ``times``.
         """
@@ -255,9 +250,8 @@ class Integrator(RunToEnd):
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted - rejected)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # If only one step led to ``time``, this step may have been shortened to end there. ``arrival.h``
-            # depends on the shortened size, so it may be too small. The larger of ``h`` and ``arrival.h`` is
-            # used.
+            # If only one step led to ``time``, this step may have been shortened to end there. Then
+            # ``arrival.h`` may be too small.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -278,16 +272,14 @@ class Integrator(RunToEnd):
         """Return the states of many independent systems after ``steps`` steps of size h from time t.
 
         - ``states`` is an array of shape (N, size), or a tuple with an array for each part of the state.
-        - ``inputs`` are the values of the M run-time inputs, of shape (M,) or (N, M). These values are
-          constant during the run.
+        - ``inputs`` are the values of the M run-time inputs, of shape (M,) or (N, M).
         - ``out`` is an array for the new states, of shape (N, size) in Fortran order. If the array ``states``
           itself is passed as ``out``, the new states replace the old states without a copy.
         - A parameter is a number, or an array of N numbers.
 
         If a step of a system fails, no error is raised. The result contains the status of each system
         (:class:`Status`), its number of completed steps, and its state after these steps. A module emitted
-        with ``batch=True`` uses vector instructions for several systems at once. Other modules integrate one
-        system after another.
+        with ``batch=True`` uses vector instructions for several systems at once.
         """
         size, real_type, names = self.interface.size, self.interface.format.c_type, self.interface.inputs
         t, h, steps = real(t, "t"), real(h, "h"), count(steps, "steps")
@@ -315,9 +307,8 @@ class Integrator(RunToEnd):
         """Integrate all systems, and replace the states in ``table`` by the new states.
 
         Return two arrays: the status of each system, and the number of completed steps of each system.
-        ``moment`` contains the initial time, the step size, and the number of steps. ``values`` contains the
-        parameters, and ``held`` contains the run-time inputs. The arrays ``table``, ``values`` and ``held``
-        have one column for each system.
+        The arrays ``table``, ``values`` (parameters) and ``held`` (run-time inputs) have one column for each
+        system.
         """
         import numpy as np
 
@@ -368,8 +359,8 @@ class Integrator(RunToEnd):
     ) -> Begun:
         """Check the arguments of a run, and return an object that contains them.
 
-        TypeError is raised for unknown or missing parameters, and if ``inputs`` or ``statistics`` does not
-        fit the module. ValueError is raised for a wrong state.
+        TypeError is raised for wrong parameters, ``inputs`` or ``statistics``, and ValueError for a wrong
+        state.
         """
         names = self.interface.inputs
         if bool(names) != (inputs is not None):
@@ -414,10 +405,10 @@ class Integrator(RunToEnd):
     def _call(
         self, begun: Begun, t: float, h: float, steps: int, stride: int
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
-        """Make ``steps`` steps of size h. Return the final state and a sequence of states.
+        """Return the state after ``steps`` steps of size h, and a sequence of states.
 
-        The sequence contains the initial state and every ``stride``-th state after it. If ``stride`` is 0,
-        the sequence is empty.
+        The sequence contains the initial state and every ``stride``-th state after it, or no state if
+        ``stride`` is 0.
         """
 
     @abstractmethod
@@ -432,11 +423,10 @@ class Integrator(RunToEnd):
 
 
 def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, object]]:
-    """Return pairs (name, value) for the run-time inputs. A value is a number, or an array with one number
-    for each system.
+    """Return pairs (name, value) for the run-time inputs.
 
-    For M inputs and N = ``number`` systems, ``inputs`` must have the shape (M,) or (N, M). ValueError is
-    raised for any other shape.
+    For M inputs and N = ``number`` systems, ValueError is raised if the shape of ``inputs`` is not (M,) or
+    (N, M).
     """
     import numpy as np
 
@@ -453,10 +443,7 @@ def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, 
 def _loaded(
     target: str, interface: dict[str, Any], defaults: Mapping[str, float], artifact: Artifact
 ) -> Integrator:
-    """Load the emitted files in ``artifact``, and return the integrator.
-
-    This function is called when an integrator is unpickled.
-    """
+    """Load the emitted files in ``artifact``, and return the integrator."""
     integrator = known_target(target).load(Interface.from_json(interface), defaults, artifact.files)
     integrator.artifact = artifact
     return integrator

@@ -84,15 +84,10 @@ class InterpretedIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[dict[str, Any]]:
-        """Yield the keyword arguments for a call of the emitted module. The caller makes this call
-        inside a ``with`` block.
+        """Yield the keyword arguments for a call of the emitted module inside a ``with`` block.
 
-        If the step solves equations, the only keyword argument is ``statistics``. Other steps have no keyword
-        arguments. At the end of the ``with`` block, the numbers in ``statistics`` are added to
-        ``begun.statistics``.
-
-        If the emitted module raises its exception ``StepFailed``, this function raises
-        :class:`codegen.arrival.StepFailed`.
+        At the end of the block, the numbers of iterations are added to ``begun.statistics``. If the emitted
+        module raises its exception ``StepFailed``, this function raises :class:`codegen.arrival.StepFailed`.
         """
         counts = self.module.Statistics() if self.interface.blocks else None
         try:

@@ -23,9 +23,8 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
     Stumpff functions.
 
     - The bracket is [x, y] = x y - y x = 2 (x cross y). The dual of ad_x is ad*_x mu = 2 (mu cross x).
-    - The adjoint action Ad_g x = g x g^c is a rotation of R^3. The dual is Ad*_g mu = g^c mu g.
-    - The exponential is exp(x) = (c_0(z), c_1(z) x). Ad_exp(x) is the rotation about the axis x by the
-      angle 2|x|.
+    - The adjoint action is Ad_g x = g x g^c. The dual is Ad*_g mu = g^c mu g.
+    - The exponential is exp(x) = (c_0(z), c_1(z) x).
     - The differential of the exponential is dexp_x = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
     """
 

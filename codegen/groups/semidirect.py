@@ -61,9 +61,6 @@ class Semidirect(
     - The exponential is exp(x, u) = (exp x, phi(x) u). Here phi(x) is the sum of X^k/(k+1)! over k >= 0, and
       X is the linear map v -> x.v.
     - The momentum map J is defined by <J(v, p), x> = <p, x.v> for all x in the algebra of G.
-
-    The capabilities of the product (:mod:`codegen.groups.capabilities`) depend on the linear factor and on
-    the representation.
     """
 
     covering_formula = (
@@ -107,8 +104,7 @@ class Semidirect(
     def offers(self, capability: type[C]) -> C | None:
         """Return this product if it has the operations of the class ``capability``. Otherwise return None.
 
-        For most capabilities, the linear factor must have this capability, too. Some capabilities also
-        depend on the representation.
+        For most capabilities, the linear factor must have this capability, too.
         """
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
@@ -285,8 +281,7 @@ class Semidirect(
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
         Let J be the momentum map, t = phi(y) u with phi(y) from :meth:`exp`, and f(y, u) = <p, t>. The result
-        is (dexp*_y (m - J(t, p)) + D_y f, D_u f) with the partial derivatives D_y f and D_u f. If the
-        representation has closed forms of functions of ad_x, :meth:`series` computes the result.
+        is (dexp*_y (m - J(t, p)) + D_y f, D_u f) with the partial derivatives D_y f and D_u f.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -300,7 +295,7 @@ class Semidirect(
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return W(ad_x) v, or W(ad*_x) v if ``dual`` is true.
 
-        The function W(t) is the product of the factors in ``word``. Each factor is a function of t.
+        The function W(t) is the product of the factors in ``word``.
         """
         rule = self.representation.dual_series if dual else self.representation.series
         (y, u), (w, vectors) = self._split(x), self._split(v)
@@ -309,7 +304,7 @@ class Semidirect(
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
             # If ``dual`` is true, ``first`` is a sum over all copies. The part that depends on w must be
-            # added once. Therefore zero replaces w for all copies except the first.
+            # added once.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head

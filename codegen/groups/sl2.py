@@ -10,18 +10,16 @@ from codegen.ir.domain import Domain
 
 
 class SL2(CubicAd, MatrixGroup, Projection):
-    """Real 2 x 2 matrices of determinant 1, stored row by row. The algebra sl(2) has the basis X, Y, H.
+    """Real 2 x 2 matrices of determinant 1, stored row by row.
 
-    The matrices X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]] and H = [[1, 0], [0, -1]] are the basis in section
-    2.2 of H. Marthinsen's thesis. The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y.
+    The basis of the algebra is X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]] and H = [[1, 0], [0, -1]] (section
+    2.2 of H. Marthinsen's thesis). The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y.
 
     Let A be a traceless matrix, z = det A, I the unit matrix, and c_k the Stumpff functions. The equation
     A^2 = -z I implies these formulas:
 
     - The exponential is exp A = c_0(z) I + c_1(z) A.
     - The differential of the exponential is dexp_A = 1 + c_2(4z) ad_A + c_3(4z) ad_A^2.
-
-    For z < 0, the functions c_k(z) can be expressed by hyperbolic functions.
     """
 
     signed = True
@@ -82,7 +80,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
 
 
 def _adjugate(g: Vector[S]) -> Vector[S]:
-    """Return the adjugate of the matrix g. If det g = 1, the adjugate is the inverse of g."""
+    """Return the adjugate of the matrix g."""
     return (g[3], -g[1], -g[2], g[0])
 
 

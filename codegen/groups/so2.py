@@ -27,7 +27,6 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
     """Rotations of the plane as (c, s), the cosine and the sine of the angle.
 
     An element of the algebra is an angular velocity w, and exp(w) = (cos w, sin w). The group is abelian.
-    Therefore Ad and dexp are identity maps.
     """
 
     name = "SO(2)"

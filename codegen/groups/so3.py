@@ -44,9 +44,8 @@ class SO3(
     - The exponential is exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues).
     - The differential of the exponential is dexp_x = 1 + c_2 ad_x + c_3 ad_x^2, and dexp*_x = dexp_{-x}.
 
-    If ``dependent`` is the index of a column, :meth:`expmul` computes exp(x) g without the matrix exp(x). The
-    method rotates the other two columns of g. The column ``dependent`` of the result is the cross product of
-    the rotated columns.
+    If ``dependent`` is the index of a column, :meth:`expmul` rotates the other two columns of g. The column
+    ``dependent`` of the result is the cross product of the rotated columns.
     """
 
     name = "SO(3)"
@@ -160,9 +159,6 @@ class SO3(
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return W v, where W is the product of the functions of ad_x in ``word``. If ``dual`` is true,
         ad*_x = -ad_x replaces ad_x.
-
-        Each function is a power series with the constant term 1. Because of ad_x^3 = -(x.x) ad_x, the
-        product reduces to W = 1 + b ad_x + c ad_x^2 with numbers b and c.
         """
         b, c = ad_polynomial(d, word, dot(x, x))
         first = cross(x, v)
@@ -182,8 +178,7 @@ class SO3(
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
         Here f is a scalar, W is a product of functions of ad_x, and v is a vector. If ``dual`` is true,
-        ad*_x = -ad_x replaces ad_x. The sum is computed as A + x cross (B + x cross C), where A, B and C are
-        linear combinations of the vectors v.
+        ad*_x = -ad_x replaces ad_x.
 
         If the function ``total`` is given, it computes sums of the vectors f v. The argument of ``total``
         contains the indices of the summed terms.
@@ -195,6 +190,7 @@ class SO3(
             owns = [tuple(f * a for a in v) for f, _, v in (terms[k] for k in numbers)]
             return tuple(sum(parts[1:], start=parts[0]) for parts in zip(*owns, strict=True))
 
+        # The sum is A + x cross (B + x cross C) with linear combinations A, B and C of the vectors v.
         z = dot(x, x)
         groups: tuple[dict[S, tuple[int, ...]], dict[S, tuple[int, ...]]] = ({}, {})
         for k, (_, word, _) in enumerate(terms):
@@ -245,7 +241,7 @@ class SO3(
         return tuple(relations)
 
     def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y. The matrix exp(x) is not computed.
+        """Return exp(x) y.
 
         The formula is y + c_1 (x cross y) + c_2 (x cross (x cross y)). The numbers c_1 and c_2 are the values
         of the Stumpff functions at x.x.
@@ -254,8 +250,7 @@ class SO3(
         c1, c2 = d.call("stumpff1", z), d.call("stumpff2", z)
         v = cross(x, y)
         w = cross(x, v)
-        # For short steps, the terms with c1 and c2 are small. These two terms are added first, then y.
-        # Therefore only one addition has a rounding error proportional to y.
+        # For short steps, these parentheses leave only one addition with a rounding error proportional to y.
         return tuple(a + (c1 * b + c2 * c) for a, b, c in zip(y, v, w, strict=True))
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -270,8 +265,7 @@ class SO3(
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return exp(x) mu + dexp_x n.
 
-        If a column is dependent (see :meth:`variants`), the method does not compute the matrix exp(x). The
-        result is computed from mu, n and their cross products with x.
+        If a column is dependent (see :meth:`variants`), the method does not compute the matrix exp(x).
         """
         if self.dependent is None:
             return super().transport(d, x, n, mu)
@@ -308,8 +302,8 @@ class SO3(
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
         """Compute a missing row or column of g, and return the complete matrix.
 
-        ``missing`` contains the indices of the missing entries. A row is the cross product of the next two
-        rows in cyclic order. A column is the cross product of the next two columns in cyclic order.
+        ``missing`` contains the indices of the missing entries. A row (column) is the cross product of the
+        next two rows (columns) in cyclic order.
         """
         sets = self.determined()
         place = sets.index(missing)
@@ -374,8 +368,7 @@ class SO3(
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
         """Return a unit quaternion whose rotation matrix is g.
 
-        Two unit quaternions q and -q have the rotation matrix g. The function returns the quaternion whose
-        component with the index ``formula`` is positive.
+        The component with the index ``formula`` is positive.
         """
         root: S = d.call("sqrt", self.pivots(d, g)[formula])
         half = d.rational(1, 2)

@@ -18,8 +18,7 @@ class SU2(S3):
     quaternion (0, x/2). In the formulas below z = x.x, and c_k are the Stumpff functions.
 
     - The bracket is [x, y] = x cross y.
-    - The exponential is exp(x) = (c_0(z/4), c_1(z/4) x/2). The quaternion exp(x) rotates vectors about x by
-      the angle |x|.
+    - The exponential is exp(x) = (c_0(z/4), c_1(z/4) x/2).
     - The differential of the exponential is dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2.
     """
 

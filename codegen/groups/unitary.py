@@ -26,8 +26,8 @@ class Unitary(RotationGroup):
     def _generate(self, name: str, n: int, diagonal: Sequence[dict[tuple[int, int], int]]) -> None:
         """Compute the basis of the algebra, and initialise the group with this basis.
 
-        ``diagonal`` contains one table for each diagonal matrix of the basis. The table maps the position
-        (row, column) of each non-zero entry to the imaginary part of the entry.
+        Each table in ``diagonal`` maps (row, column) to the imaginary parts of the non-zero entries of a
+        diagonal matrix.
         """
         pairs = [(j, k) for j in range(n) for k in range(j + 1, n)]
         basis = []
@@ -87,8 +87,7 @@ class SU(Unitary):
 def _real(n: int, real: dict[tuple[int, int], int], imaginary: dict[tuple[int, int], int]) -> list[list[int]]:
     """Return the real 2n x 2n matrix of a complex n x n matrix.
 
-    The table ``real`` maps (row, column) to the real part of the entry, if the real part is not zero. The
-    table ``imaginary`` maps (row, column) to the imaginary part, if the imaginary part is not zero.
+    The tables map (row, column) to the non-zero real parts and the non-zero imaginary parts of the entries.
     """
     rows = range(n)
     a, b = ([[part.get((i, j), 0) for j in rows] for i in rows] for part in (real, imaginary))

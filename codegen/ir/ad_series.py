@@ -1,8 +1,7 @@
 """Products of functions of one operator ad_x. Examples are the functions exp(ad_x), dexp_x and dexp_x^{-1}.
 
 A product of these functions is called a word. The variable t denotes ad_x, or ad*_x on the dual of the Lie
-algebra. Each factor is a function phi(s t) with a number s. The factors commute, so their order does not
-matter.
+algebra. The factors of a word commute.
 """
 
 from __future__ import annotations
@@ -49,18 +48,17 @@ UNIT = Fraction(1)
 def simplified(word: Word) -> Word:
     """Simplify a product of functions of t.
 
-    Factors that cancel are removed. All exponentials are combined into one exponential. A product
-    exp(-s t) dexp(s t) is replaced by dexp(-s t).
+    For example, exp(-s t) dexp(s t) is replaced by dexp(-s t).
 
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
     """
-    # The factors commute, so the exponents of equal functions are added. For dexp and dexpinv, ``powers``
-    # maps (function, scale, order) to the exponent. The product of all factors exp is exp(``rate`` t).
+    # For dexp and dexpinv, ``powers`` maps (function, scale, order) to the exponent. The product of all
+    # factors exp is exp(``rate`` t).
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:
-        # Exponentials are combined: e^{at} e^{bt} = e^{(a+b)t}. For dexp and dexpinv there is no such rule.
+        # For dexp and dexpinv there is no rule such as e^{at} e^{bt} = e^{(a+b)t}.
         if f.function == "exp":
             rate += f.scale * f.power
         else:
@@ -68,8 +66,7 @@ def simplified(word: Word) -> Word:
             powers[key] = powers.get(key, 0) + f.power
     # The loop runs over a copy of the entries, because its body adds keys to ``powers``.
     for (function, scale, order), n in list(powers.items()):
-        # Let s be ``scale``. The rule is exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t). Then no
-        # exponential is left, so the rule is applied at most once.
+        # The rule is exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t) with s = ``scale``.
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
