@@ -22,15 +22,14 @@ Env = dict[Var, Value]
 State = dict[str, Value]
 """A table from the names of inputs or outputs of a program (for example ``q``) to values."""
 
-# ``TO_BODY`` converts the momentum mu in the space frame to the body frame. The momentum in the body frame is
-# Ad*_q mu, where q is the configuration. ``TO_SPACE`` is the inverse conversion.
+# ``TO_BODY`` converts the space momentum mu to the body momentum Ad*_q mu, where q is the configuration.
 TO_BODY = Adjoint(dual=True)
 TO_SPACE = TO_BODY.opposite()
 
 
 def flatten(kind: Kind, value: Value) -> tuple[Scalar, ...]:
-    """Return the scalars of a value of kind ``kind`` as a tuple. A real value is a single scalar. All other
-    values are already flat tuples of scalars. The entries of a matrix are in the order of its rows.
+    """Return the scalars of a value of kind ``kind`` as a tuple. The entries of a matrix are in the order of
+    its rows.
     """
     return (value,) if kind is Kind.REAL else tuple(value)
 
@@ -52,20 +51,18 @@ def interpret(
       tuple of scalars. A matrix is stored row by row.
     - ``limit`` is the largest number of iterations (sweeps) for each block. A block is a system of equations.
     - ``newton`` is true if Newton's method may be used after a slow or failed fixed-point iteration.
-    - ``solutions`` is a table from unknowns to values. Fixed-point iteration begins at these values. After
-      the step the table contains the solutions of all blocks. Composition methods ignore this table.
+    - ``solutions`` is a table from unknowns to the first values of the fixed-point iteration. After the step
+      the table contains the solutions of all blocks. Composition methods ignore this table.
     - ``near`` contains one list of scalars for each block. If ``near`` is given, only Newton's method is
       used, and it begins at these scalars. After the step ``near`` contains the solutions.
 
     If ``domain`` has a method ``computed``, each computed value x is replaced by ``computed(name, x)``, where
     ``name`` is the name of the variable with the value x.
 
-    :class:`NotConverged` is raised if the iteration of a block does not converge. The message names the
-    block.
+    :class:`NotConverged` is raised if the iteration of a block does not converge.
     """
     if program.frame == BODY:
-        # The momentum ``mu`` is converted to the body frame before the step, and to the space frame after the
-        # step. The statements of the step are the same in both frames.
+        # The statements of the step are the same in both frames.
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
         options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
         end = interpret(core, problem, domain, start, **options)
@@ -73,8 +70,7 @@ def interpret(
     if program.substeps:
         return _composed(program, problem, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
-    # Every statement writes its results to the table ``env``. The statements of a block are executed in each
-    # sweep (iteration) and overwrite the results of the previous sweep.
+    # Each sweep (iteration) of a block overwrites the results of the previous sweep in ``env``.
     env: Env = {v: inputs[v.name] for v in program.inputs}
     computed = getattr(domain, "computed", None)
 
@@ -88,8 +84,7 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # ``near`` is a queue. The first list in the queue contains the initial values for this block. The
-            # first list is removed, and the solution of the block is appended.
+            # The first list in the queue ``near`` contains the initial values for this block.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
@@ -109,8 +104,7 @@ def _fixed_point_first(
     """Solve the equations of ``block`` by fixed-point iteration. If it fails and ``newton`` is true, Newton's
     method is used.
     """
-    # Newton's method begins after at most ``patience`` sweeps of the fixed-point iteration. Without Newton's
-    # method, ``limit`` sweeps are permitted.
+    # Newton's method begins after at most ``patience`` sweeps of the fixed-point iteration.
     patience = getattr(domain, "patience", limit) if newton else limit
     try:
         _iterate(block, env, domain, run, min(limit, patience), expected)
@@ -135,11 +129,9 @@ def outward(
     """Return the momentum in the space frame after a step that was computed in the body frame.
 
     ``state`` contains the space momentum mu before the step. ``ends`` are two states with body momenta: the
-    state before the step and the state after the step. Both body momenta are converted to space momenta. The
-    result is mu plus the increase of the converted momentum.
-
-    Rounding errors make the configuration q slightly non-orthogonal, so both converted momenta have errors.
-    The errors nearly cancel in the increase.
+    state before the step and the state after the step. The result is mu plus the increase of the momentum
+    converted to the space frame. Rounding errors make the configuration slightly non-orthogonal, but the
+    resulting errors nearly cancel in the increase.
     """
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
@@ -154,18 +146,14 @@ def _composed(
     newton: bool,
     near: list[list[Scalar]] | None,
 ) -> State:
-    """Return the state after all substeps of a composition method. Each substep executes the statements of
-    ``program``.
-    """
+    """Return the state after all substeps of a composition method."""
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
-        # The step size h is an attribute of the domain. A substep has a different step size, so it uses a
-        # copy of the domain.
+        # A substep has a different step size h, so it uses a copy of the domain.
         shorter = copy(domain)
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
-            # The time of a substep is computed from the time at the start of the whole step. A repeated
-            # addition of the lengths of the substeps would accumulate rounding errors.
+            # A repeated addition of the lengths of the substeps would accumulate rounding errors.
             state["t"] = inputs["t"] + domain.number(step.offset) * domain.h
         state |= interpret(substep, problem, shorter, state, limit=limit, newton=newton, near=near)
     return {name: state[name] for name, _ in program.outputs}
@@ -180,8 +168,6 @@ def _iterate(
     expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
-        # If ``expected`` contains a value of the unknown, the iteration begins at this value. Otherwise the
-        # iteration begins at the value of the variable ``start``.
         env[unknown] = expected.get(unknown, env[start])
     # ``size`` is the size of the last change of the unknowns, or None before the first change.
     size: Scalar = None
@@ -190,8 +176,7 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The convergence test comes before the update of the unknowns. Therefore all values in ``env`` are
-        # computed from the final unknowns.
+        # The test comes before the update, so all values in ``env`` are computed from the final unknowns.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -218,12 +203,9 @@ def _correct(
 
     The iteration begins at the values ``near``. If ``near`` is None, the iteration begins at the values of
     ``block.starts``. The result is the list of all scalars of the solution u.
-
-    If the domain has a method ``rounded``, this method adds simulated rounding errors to the values g(u).
     """
     kinds = [u.kind for u in block.unknowns]
-    # The scalars of all unknowns form one vector, because the equations depend on one another. ``widths``
-    # contains the number of scalars of each unknown.
+    # ``widths`` contains the number of scalars of each unknown.
     widths = [len(flatten(s.kind, env[s])) for s in block.starts]
 
     def images(numbers: list[Scalar]) -> list[Scalar]:
@@ -238,7 +220,7 @@ def _correct(
 
     rounded = getattr(domain, "rounded", list)
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
-    # ``sharp`` becomes true when the iteration has converged. One further Newton step is then computed.
+    # ``sharp`` becomes true when the iteration has converged.
     size, sharp = None, False
     for _ in range(limit):
         values = images(now)
@@ -248,7 +230,7 @@ def _correct(
             step = domain.increment(u)
             # The difference quotient with respect to scalar j of u needs g at u + ``step`` e_j.
             moved = images([*now[:j], u + step, *now[j + 1 :]])
-            # ``slopes`` is column j of g'(u). Newton's method needs the matrix 1 - g'(u).
+            # ``slopes`` is column j of g'(u).
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]
             columns.append([(i == j) - x for i, x in enumerate(slopes)])
         # For the equations u = g(u), the correction d of u solves (1 - g'(u)) d = g(u) - u.
@@ -269,20 +251,14 @@ def _correct(
 
 
 def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
-    """Return the error message for an iteration of ``block`` that did not converge.
-
-    ``change`` is the last change of the unknowns.
-    """
+    """Return the error message for an iteration of ``block`` with the last change ``change``."""
     # The message shows only two digits, so the change is converted to a double.
     last = f"{float(change):.1e}" if isinstance(change, SupportsFloat) else str(change)
     return f"{block.label} did not converge in {limit} sweeps; the last change was {last}"
 
 
 def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
-    """Solve a linear system by Gaussian elimination with row exchanges.
-
-    ``columns`` are the columns of the matrix, and ``right`` is the right-hand side.
-    """
+    """Solve the linear system with the matrix columns ``columns`` and the right-hand side ``right``."""
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
@@ -298,7 +274,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     solution: list[Scalar] = []
     for k in reversed(range(n)):
         total = rows[k][n]
-        # Back substitution computes the last unknown first. ``solution`` is therefore in reverse order.
+        # Back substitution computes the last unknown first, so ``solution`` is in reverse order.
         for x, y in zip(rows[k][k + 1 : n], reversed(solution), strict=True):
             total = total - x * y
         solution.append(total / rows[k][k])

@@ -1,17 +1,14 @@
-"""Exact Jacobians of expressions by elimination of vertices. The elimination usually needs fewer operations
-than a separate computation of each column of the Jacobian.
+"""Exact Jacobians of expressions by elimination of vertices.
 
 The nodes of the expressions are the vertices of a graph. An edge leads from each argument to the node that
 uses the argument. The label of the edge is the partial derivative of the node with respect to the argument.
 
 The elimination removes a vertex v and its edges. For each pair of an edge from u to v and an edge from v to
 w, the product of the two labels is added to the label of the edge from u to w. A missing edge has the label
-zero. After all eliminations, every edge leads from a variable to a result. The labels of these edges are the
-entries of the Jacobian.
+zero. After all eliminations, the labels of the edges are the entries of the Jacobian.
 
-The order of elimination determines the number of products. The vertex with the lowest cost is eliminated
-next. The cost of a vertex is the number of incoming edges times the number of outgoing edges (Markowitz's
-rule; Griewank and Walther, Evaluating Derivatives, ch. 10).
+The vertex with the lowest cost is eliminated next. The cost of a vertex is the number of incoming edges times
+the number of outgoing edges (Markowitz's rule; Griewank and Walther, Evaluating Derivatives, ch. 10).
 """
 
 from __future__ import annotations
@@ -47,11 +44,10 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
 
 
 class _Graph:
-    """The graph of the expressions. The label of the edge from u to v is the derivative of v with respect to
-    u. Both ``before[v][u]`` and ``after[u][v]`` contain this label.
+    """The graph of the expressions. Both ``before[v][u]`` and ``after[u][v]`` contain the label of the edge
+    from u to v.
 
     A vertex is a number: the node number of a variable or of an inner node, or -1, -2, ... for the results.
-    Only nodes that depend on a variable are in the graph.
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:
@@ -78,8 +74,7 @@ class _Graph:
         if u not in self.after:
             return
         old = self.before[v].get(u)
-        # By the chain rule, the contributions of all paths from u to v are added. Two edges from u to v can
-        # therefore be merged into one edge, whose label is the sum of their labels.
+        # By the chain rule, the contributions of all paths from u to v are added.
         total = factor if old is None else old + factor
         # An edge with the label zero is removed, because it would increase the costs for no benefit.
         if total.is_zero:
@@ -89,21 +84,17 @@ class _Graph:
             self.before[v][u] = self.after[u][v] = total
 
     def _cost(self, v: int) -> int:
-        """Return the number of incoming edges of v times the number of outgoing edges. The elimination of v
-        needs this number of products.
-        """
+        """Return the number of products for the elimination of v."""
         return len(self.before[v]) * len(self.after[v])
 
     def eliminate(self) -> None:
         """Eliminate every inner vertex, the cheapest first. Among vertices of equal cost, the vertex with the
         largest node number comes first.
         """
-        # The queue returns its smallest entry first. For equal costs, the smallest entry (cost, -v) has the
-        # largest v.
+        # For equal costs, the smallest entry (cost, -v) has the largest v.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
-        # A vertex may have several entries in the queue, because its cost changes. Entries of a vertex that
-        # is already eliminated are skipped.
+        # A vertex may have several entries in the queue, because its cost changes.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)
@@ -118,8 +109,7 @@ class _Graph:
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
-                # Only inner vertices are eliminated. Variables are not in ``before``, and results are not in
-                # ``after``, so a vertex in both tables is an inner vertex.
+                # Variables are not in ``before``, and results are not in ``after``.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 

@@ -25,22 +25,17 @@ from codegen.ir.site_step import SiteStep
 LEAD = "lead.h"
 """In a splitting method, the name of the symbol for the duration of the last flow of a step.
 
-In a run of several steps, the last flow of a step includes the first flow of the next step. In the last step
-of the run, this flow therefore has another duration. The name contains a dot, so it differs from every name
-that a user can choose.
+In a run of several steps, the last flow of a step includes the first flow of the next step. The dot
+distinguishes the name from all names that a user can choose.
 """
 
 ELAPSED = "elapsed.h"
-"""In a splitting method, the name of the symbol for the total duration of a run of several steps.
-
-A deferred flow is applied only once in a run. Its duration is the total duration (:class:`Deferred`).
-"""
+"""In a splitting method, the name of the symbol for the total duration of a run of several steps."""
 
 LONGEST = 256
 """The largest number of steps that share one deferred flow (:class:`Deferred`).
 
-The rounding errors of the angles in a deferred flow are proportional to the number of steps. Therefore this
-number is bounded.
+The rounding errors of the angles in a deferred flow are proportional to the number of steps.
 """
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
@@ -49,8 +44,8 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 SLOWEST = 2.0**-12
 """The smallest contraction factor that the stopping rule uses.
 
-The contraction factor is the quotient of two successive changes of the unknowns. If the changes are as small
-as rounding errors, the quotient may be tiny by accident. This constant replaces every smaller quotient.
+The contraction factor is the quotient of two successive changes of the unknowns. This quotient may be tiny by
+accident if the changes are rounding errors.
 """
 
 UNIT = 2.0**-53
@@ -59,8 +54,8 @@ UNIT = 2.0**-53
 LOST = 2.0**-47
 """A relative bound for rounding errors of the state (:mod:`codegen.run.stopping`).
 
-The stopping rule computes h times the change of the unknowns. This product counts as a rounding error if the
-product is at most ``LOST`` times the largest number in each part of the state.
+The stopping rule compares h times the change of the unknowns with ``LOST`` times the largest number in each
+part of the state.
 """
 
 VARIATION = "variation"
@@ -90,8 +85,8 @@ class Newton:
     - Simplified Newton (``leading`` is true): the equations are u = g(u). The matrix is 1 - g'(u), expanded
       to first order in h. Each step computes and inverts the matrix.
     - Residuals (``residuals`` is true): the equations are r(u) = 0, and the ``images`` of the loop are the
-      residuals r(u). The matrix is -r'(u), expanded to first order in h. One inverse of
-      this matrix is used for :attr:`period` steps.
+      residuals r(u). The matrix is -r'(u), expanded to first order in h. One inverse of this matrix is used
+      for :attr:`period` steps.
 
     If ``inverted`` is true, ``matrix`` is the inverse of the matrix above. ``changes`` are the names of the
     variables for the changes of the unknowns in a sweep.
@@ -110,13 +105,8 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """The number of steps that use the same inverse matrix, or 0 if ``residuals`` is false.
-
-        With a longer period, fewer inverses are computed. However, an older inverse is less accurate, so a
-        step needs more sweeps.
-        """
-        # For n unknowns, an inverse costs O(n^3) operations. If n/2 steps share the inverse, its cost per
-        # step is O(n^2). The product of the inverse and a vector in each sweep costs O(n^2), too.
+        """The number of steps that use the same inverse matrix, or 0 if ``residuals`` is false."""
+        # An inverse for n unknowns costs O(n^3) operations, or O(n^2) per step if n/2 steps share it.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
@@ -124,16 +114,15 @@ class Newton:
 class Loop:
     """A loop that solves the equations u = g(u) by iteration.
 
-    The values u are called unknowns, and the values g(u) are called images. ``body`` computes the images. The
-    loop ends when the changes of the unknowns are at rounding level. If ``newton.residuals`` is true, the
-    equations are r(u) = 0, and the images are the residuals r(u).
+    The values u are called unknowns, and the values g(u) are called images. ``body`` computes the images. If
+    ``newton.residuals`` is true, the equations are r(u) = 0, and the images are the residuals r(u).
 
     ``label`` is the name of the equations in messages and statistics, for example "stage 2". ``starts`` are
-    the first values of the unknowns. ``starts`` is empty if a :class:`Start` computes the first values.
+    the first values of the unknowns, or empty if a :class:`Start` computes the first values.
 
-    Each sweep computes the change of the unknowns. In fixed-point iteration the change is g(u) - u, and the
-    change of the last sweep is not added to the unknowns. With ``newton``, the change is the inverse of
-    Newton's matrix times g(u) - u or r(u), and every change is added.
+    In fixed-point iteration the change in a sweep is g(u) - u, and the last change is not added to the
+    unknowns. With ``newton``, the change is the inverse of Newton's matrix times g(u) - u or r(u), and every
+    change is added.
 
     ``limit`` is the largest number of sweeps. The stopping rule (:mod:`codegen.run.stopping`) ends the loop
     in two main cases:
@@ -166,17 +155,15 @@ class Loop:
     def close(self) -> float:
         """The bound of the last change in the stopping rule (:class:`Loop`), divided by the largest unknown.
 
-        Statements after the loop may use values of ``body``. In Newton's method, these values are computed
-        before the last change is added to the unknowns. If h L is the Lipschitz constant of g, the error of
-        these values is about h L times the last change.
+        In Newton's method, the values of ``body`` are computed before the last change is added to the
+        unknowns. If h L is the Lipschitz constant of g, the error of these values is about h L times the last
+        change.
         """
         # If only the unknowns are used later, a larger change is accepted, because the error of the unknowns
         # is smaller than the last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # With Newton's matrix to first order in h, a loop converges only for small h L. Other loops may also
-        # converge for larger h L, and the values of ``body`` then have larger errors. Therefore the bound of
-        # the other loops is smaller.
+        # Convergence implies small h L only with Newton's matrix to first order in h.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -191,15 +178,13 @@ class Start:
     2 u1 - u2 and 3 u1 - 3 u2 + u3.
 
     The degree d is adapted to the sizes of the backward differences u1 - u2 (order 1), u1 - 2 u2 + u3
-    (order 2), and so on. If the difference of order d + 1 is smaller than the difference of order d, then d
-    is increased. Otherwise, if the difference of order d - 1 is smaller, d is reduced. If the estimated error
-    of an extrapolation exceeds ``ROUGH`` times the change of the unknowns in the step, all solutions except
-    u1 are discarded.
+    (order 2), and so on. If the estimated error of an extrapolation exceeds ``ROUGH`` times the change of the
+    unknowns in the step, all solutions except u1 are discarded.
 
     A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then
     the step size grows to h. Each solution provides the first values for the next larger step size. The
-    growth factor is the quotient of successive step sizes. If a step fails, this factor is reduced. The
-    continuation fails if the factor is at most 1 + ``SHORTEST``, or after ``TRIES`` attempted steps.
+    continuation fails if the growth factor of the step size is at most 1 + ``SHORTEST``, or after ``TRIES``
+    attempted steps.
     """
 
     unknowns: tuple[str, ...]
@@ -207,13 +192,11 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # If the first value is the solution u1 of the last step, the error of the first value is the change of
-    # the unknowns in the step. An extrapolation with a larger error is useless.
+    # The error of the first value u1 is the change of the unknowns in the step.
     ROUGH: ClassVar[float] = 0.5
     # A continuation that succeeds tries far fewer steps.
     TRIES: ClassVar[int] = 100
-    # The growth factor is at most 4, and each failure replaces the factor by its square root. After nine
-    # successive failures the factor is at most 4^(1/2^9) < 1 + 2^-8, and the continuation fails.
+    # Nine successive failures reduce a growth factor of 4 to 4^(1/2^9) < 1 + 2^-8.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -260,9 +243,9 @@ class Carried:
     The conversions are m = ``inward``(q, mu) and mu = ``outward``(q, m), where q is the group element in the
     state. ``first`` is the index of the first momentum component in the state.
 
-    A run of several steps first converts mu to m. The steps map (q, m) to (q', m'). After the last step, the
-    new space momentum is computed: mu' = mu + outward(q', m') - outward(q, m). Rounding errors make q and
-    q' slightly non-orthogonal, so both conversions have errors. The errors nearly cancel in the difference.
+    If the steps map (q, m) to (q', m'), the new space momentum is mu' = mu + outward(q', m') - outward(q, m).
+    Rounding errors make q and q' slightly non-orthogonal, but the resulting errors nearly cancel in the
+    difference.
     """
 
     inward: Kernel
@@ -286,7 +269,7 @@ class Estimate:
     """An error estimate: the new state minus an embedded solution of lower order.
 
     The error estimate of one step is O(h^``order``). ``errors`` contains the components of the estimate. For
-    an :class:`ArrayStep`, ``errors`` is empty, because the step computes the estimate as a matrix.
+    an :class:`ArrayStep`, ``errors`` is empty.
     """
 
     errors: tuple[Expr, ...]
@@ -306,9 +289,8 @@ class Expansion:
     then of order 2, and so on to the order ``degree``.
 
     With ``following``, a loop over the order n computes the coefficients
-    (:class:`codegen.ir.taylor_loop.OrderLoop`). The kernel ``coefficients`` is called once before the loop.
-    The first outputs of this kernel are constants of the loop. The other outputs are the coefficients of
-    order 1.
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). The first outputs of the kernel ``coefficients`` are
+    constants of the loop. The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
     The loop computes ``sums`` inner sums, one for each product. The outputs of the kernel ``following`` are
@@ -345,10 +327,8 @@ class Continuous:
 class Observed:
     """The properties of the emitted function that integrates to a given end time.
 
-    The emitted function writes the states at given output times. It also finds the zeros of event functions
-    that the caller supplies. ``events`` is the number of event functions. The ``extension`` (dense output)
-    computes the states at output times. If ``extension`` is None, steps are shortened to end at the output
-    times.
+    ``events`` is the number of event functions. The ``extension`` (dense output) computes the states at
+    output times. If ``extension`` is None, steps are shortened to end at the output times.
     """
 
     events: int = 0
@@ -377,14 +357,12 @@ class Kernel:
     - ``outputs`` are the scalars of the new state.
     - ``inputs`` are the names of functions of time that the caller supplies. ``samples`` contains the times
       at which these functions are evaluated.
-    - ``vary`` is the kernel of the variational equation. This kernel computes the variation (a derivative
-      of the state) after the step.
+    - ``vary`` is the kernel of the variational equation.
     - ``substeps`` are the substeps of a composition method. The kernel is called once for each substep.
     - ``outlined`` are functions that the expressions of the kernel call.
     - ``carried`` is given if the kernel uses the body momentum in place of the space momentum.
-      ``carried`` contains the conversions between the two momenta.
     - ``expansion`` is the Taylor polynomial of a Taylor method. For other methods, ``estimate`` is the error
-      estimate. Step-size control needs ``expansion`` or ``estimate``.
+      estimate.
     - ``batch`` is true if emitted code also contains a function that steps many independent systems.
     - ``observed`` is given if emitted code also contains a function that integrates to a given end time.
 

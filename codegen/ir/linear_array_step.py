@@ -70,7 +70,7 @@ class TimeMatrix:
         for coefficient, matrix in self.terms:
             yield coefficient
             entries: tuple[Entry, ...] = matrix.entries
-            # An entry is an expression or a tuple of numbers. Numbers are not expressions.
+            # An entry is an expression or a tuple of numbers.
             yield from (e for e in entries if not isinstance(e, tuple))
 
 
@@ -128,8 +128,7 @@ class LinearArrayStep:
         """
         # y has k columns, so each matrix is multiplied by k vectors.
         size, k = self.argument.size, self.argument.columns
-        # The Taylor polynomial of exp(X) y has the terms X^j y/j!. Term j is the product of X and term j - 1,
-        # divided by j.
+        # Term j of the Taylor polynomial of exp(X) y is the product of X and term j - 1, divided by j.
         products = TERMS * sum(map(self.products, self.exponents))
         sums = sum(map(len, self.letters)) * self.matrix.filled if self.matrix.is_banded else 0
         each = products * self.matrix.filled * k + sums

@@ -1,8 +1,7 @@
 """Jacobians of expressions to first order in the step size h, for simplified Newton iterations.
 
-An expression and its derivatives with respect to the unknowns are expanded as v_0 + v_1 h. Higher powers of h
-are never computed, so the error of the Jacobian is O(h^2). Each sweep of Newton's method with
-this Jacobian multiplies the error of the unknowns by O(h^2).
+An expression and its derivatives with respect to the unknowns are expanded as v_0 + v_1 h. Each sweep of
+Newton's method with this Jacobian multiplies the error of the unknowns by O(h^2).
 """
 
 from __future__ import annotations
@@ -38,8 +37,8 @@ class NotLinearised(ArithmeticError):
 class _Dual:
     """The expansions of an expression and of its derivatives with respect to the unknowns.
 
-    ``value`` is the expansion of the expression. ``slopes`` maps the index of an unknown to the expansion of
-    the derivative with respect to this unknown. Derivatives that are zero are omitted.
+    ``slopes`` maps the index of an unknown to the expansion of the derivative with respect to this unknown.
+    Derivatives that are zero are omitted.
     """
 
     value: Pair
@@ -49,8 +48,7 @@ class _Dual:
 class FirstOrder:
     """Computes derivatives of expressions with respect to the unknowns, to first order in the step size h.
 
-    ``unknowns`` are the names of the symbols of the unknowns. Each subexpression is expanded once, even if it
-    occurs several times.
+    ``unknowns`` are the names of the symbols of the unknowns.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, h = s.sym("x"), s.sym("h")
@@ -69,7 +67,6 @@ class FirstOrder:
 
         :class:`NotLinearised` is raised if a root cannot be expanded at h = 0.
         """
-        # The space of the expressions is taken from the first root. An empty list has no first root.
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
@@ -95,8 +92,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             if node.payload == STEP:
                 # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
-            # A symbol u other than h has the expansion u + 0 h. If u is an unknown, its derivative with
-            # respect to itself is 1.
+            # A symbol u other than h has the expansion u + 0 h.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":
@@ -108,8 +104,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "mul":
             return _product(space, args[0], args[1])
         case "div":
-            # a/b is expanded as the product of a and 1/b. All quotients with the divisor b then share the
-            # expression 1/b.
+            # All quotients with the divisor b share the expression 1/b.
             return _product(space, args[0], _inverse(space, args[1]))
         case "pow":
             # The expansion of x^n is computed by n - 1 products of expansions.
@@ -187,8 +182,7 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
 def _called(space: Space, function: str, a: _Dual) -> _Dual:
     """Return the expansion of f(a), where f is the function with the name ``function``.
 
-    In the code, ``low`` + ``high`` h is the expansion of a. The variables ``at``, ``first`` and ``second``
-    are the values of f, f' and f'' at ``low``.
+    In the code, ``at``, ``first`` and ``second`` are the values of f, f' and f'' at a for h = 0.
     """
     low, high = a.value
     if function.startswith("stumpff"):
@@ -228,13 +222,12 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         other = {"sin": "cos", "cos": "sin"}[function]
         at, turned = space.call(function, low), space.call(other, low)
         first, second = (turned, -at) if function == "sin" else (-turned, -at)
-    # By the chain rule, the derivatives of the argument are multiplied by f'(``low`` + ``high`` h). To first
-    # order in h, this factor is f'(``low``) + f''(``low``) ``high`` h.
+    # To first order in h, f'(``low`` + ``high`` h) is f'(``low``) + f''(``low``) ``high`` h.
     slope = (first, second * high)
     slopes = {k: _times(x, slope) for k, x in a.slopes.items()}
     return _Dual((at, first * high), _trimmed(slopes))
 
 
 def _trimmed(slopes: dict[int, Pair]) -> dict[int, Pair]:
-    # Derivatives that are zero are removed. Later products and sums then have fewer terms.
+    # Without derivatives that are zero, later products and sums have fewer terms.
     return {k: x for k, x in slopes.items() if not (x[0].is_zero and x[1].is_zero)}

@@ -1,7 +1,7 @@
 """The exponential of a matrix with many digits, and its derivatives, computed with Arb balls.
 
-A ball is a midpoint with an error radius. Arb returns balls that contain the entries of the exponential. If
-the radii of these balls are too large, the computation is repeated with a higher precision.
+A ball is a midpoint with an error radius. If the radii of the results are too large, the computation is
+repeated with a higher precision.
 
 A matrix and its derivatives form a jet (:mod:`codegen.ir.matrix_exponential`).
 """
@@ -106,7 +106,7 @@ def _largest(balls: Iterable[arb]) -> arb:
 
 
 def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
-    """Return the rows of the block matrix that represents a jet, that is, a matrix with its derivatives.
+    """Return the rows of the block matrix that represents a jet (a matrix with its derivatives).
 
     ``numbers`` are the entries of the jet. A jet of level 0 is represented by its n x n matrix A. A jet of
     level 1 also contains a derivative E of A, and the block rows are (A, E) and (0, A). At level l, A and E
@@ -115,7 +115,7 @@ def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
     """
     if level == 0:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]
-    # The first half of ``numbers`` is a jet A of level ``level`` - 1. The second half is the derivative of A.
+    # The halves of ``numbers`` are a jet A of level ``level`` - 1 and the derivative of A.
     half = len(numbers) // 2
     a, e = (block_matrix(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
     zeros = [arb(0)] * len(a)
@@ -127,6 +127,6 @@ def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2
-    # The first block row (A, E) contains all entries of the jet. The second block row is (0, A).
+    # The first block row (A, E) contains all entries of the jet.
     a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
     return [*_first_row(a, level - 1), *_first_row(e, level - 1)]
