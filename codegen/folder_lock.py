@@ -16,8 +16,9 @@ from pathlib import Path
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
     """Lock an existing folder during a ``with`` block. Yield True if the folder was locked, otherwise False.
 
-    With ``shared=True``, the folder can have other shared locks at the same time. With ``wait=False``, the
-    function yields False if another lock prevents this lock.
+    The lock is exclusive. With ``shared=True``, the folder can have other shared locks at the same time. The
+    function waits for the end of another lock. With ``wait=False``, it yields False instead. It also yields
+    False if the file system has no locks.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as name, locked(Path(name)) as held:
