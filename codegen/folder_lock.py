@@ -1,6 +1,6 @@
-"""A lock on a folder. With the lock, only one process at a time writes to the folder.
+"""A lock on a folder.
 
-There is no lock file: the operating system locks the folder itself. If a process is killed, its lock ends.
+There is no lock file: the operating system locks the folder itself.
 """
 
 from __future__ import annotations
@@ -16,12 +16,9 @@ from pathlib import Path
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
     """Lock an existing folder during a ``with`` block. Yield True if the folder was locked, otherwise False.
 
-    By default, the lock is exclusive: the folder can have no other lock. With ``shared=True``, the folder can
-    have other shared locks at the same time.
-
-    If another lock on the folder prevents this lock, the function waits until the other lock ends. With
-    ``wait=False``, the function yields False instead. If the file system has no locks, the
-    function also yields False.
+    The lock is exclusive. With ``shared=True``, the folder can have other shared locks at the same time. The
+    function waits for the end of another lock. With ``wait=False``, it yields False instead. It also yields
+    False if the file system has no locks.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as name, locked(Path(name)) as held:

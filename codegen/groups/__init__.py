@@ -1,11 +1,8 @@
 """Lie groups and their actions.
 
-All coordinates are floats, power series or expressions (see :mod:`codegen.ir.domain`).
-
-Each group has its own file, and each action has its own file in ``actions``. To define your own group, write
-a subclass of :class:`LieGroup` (see :mod:`codegen.groups.base`). To define your own action, write a subclass
-of :class:`Action`. You can use your class in scenes (problems). The function :func:`register` adds a class to
-the list of groups or to the list of actions.
+All coordinates are floats, power series or expressions (see :mod:`codegen.ir.domain`). To define your own
+group, write a subclass of :class:`LieGroup` (see :mod:`codegen.groups.base`). To define your own action,
+write a subclass of :class:`Action`.
 """
 
 from __future__ import annotations
@@ -99,9 +96,7 @@ LISTED: dict[str, tuple[str, ...]] = {
     "unitary": ("SU", "Unitary"),
     "unitriangular": ("Heisenberg", "Unitriangular"),
 }
-"""The names of the group classes in each module of this package. ``orderconds list groups`` prints these
-names.
-"""
+"""The names of the group classes in each module of this package."""
 
 lazy(__name__, base=("LieGroup",), **LISTED)
 
@@ -115,8 +110,7 @@ Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
 def register(cls: Registered) -> Registered:
     """Register the class of a group or the class of an action, and return the class.
 
-    A group class is added to the list of groups, and an action class is added to the list of actions. The
-    function can be used as a decorator. A scene (a problem) can also use an unregistered class. If you
+    A group class is added to the list of groups, and an action class is added to the list of actions. If you
     register two classes with the same name, the second class replaces the first class.
 
     :class:`SceneError` is raised in three cases:

@@ -1,11 +1,10 @@
 """Functions of ad_x as quadratic polynomials in ad_x, on a Lie algebra with ad_x^3 = -z ad_x.
 
 The number z depends on x. On such an algebra each power series in ad_x with the constant term 1 is equal to
-1 + b ad_x + c ad_x^2. The coefficients b and c are functions of z. Products and inverses of such power series
-also have the form 1 + b ad_x + c ad_x^2. For the series exp(ad_x), b and c are Stumpff functions of z.
+1 + b ad_x + c ad_x^2. The coefficients b and c are functions of z. For the series exp(ad_x), b and c are
+Stumpff functions of z.
 
-On so(3), z = x.x is never negative. On sl(2), z is four times the determinant of the 2 x 2 matrix of x,
-and z can be negative.
+On so(3), z = x.x. On sl(2), z is four times the determinant of the 2 x 2 matrix of x, and z can be negative.
 """
 
 from __future__ import annotations
@@ -23,11 +22,8 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
     """Return b and c such that the product of the factors in ``word`` is 1 + b t + c t^2.
 
     The factors are functions of a variable t with t^3 = -z t (:mod:`codegen.ir.ad_series`). If z can be
-    negative, set ``signed`` to true.
-
-    All exponentials in ``word`` are combined into exp(a t) with a number a. If ``word`` contains factors
-    dexp(s t), the first factor dexp(s t) is multiplied by exp(a t). The product is
-    (exp((a + s) t) - exp(a t))/(s t). All other factors are multiplied one by one.
+    negative, set ``signed`` to true. The product exp(a t) dexp(s t) is computed as
+    (exp((a + s) t) - exp(a t))/(s t).
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -58,7 +54,7 @@ def _exponentials(
 ) -> tuple[S, S]:
     """Return the coefficients of t and t^2 in the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``.
 
-    The variable t satisfies t^3 = -z t. If z can be negative, ``signed`` must be true.
+    The variable t satisfies t^3 = -z t.
     """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"
@@ -81,13 +77,13 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
     """Return b and c with phi(s t) = 1 + b t + c t^2, where t^3 = -z t.
 
     The argument ``factor`` contains the function phi (dexp or dexpinv) and the number s. The exponent of
-    ``factor`` is ignored, because the caller inverts the result if the exponent is negative.
+    ``factor`` is ignored.
     """
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
-    # Because t^3 = -z t, odd powers of t are numbers times t, and even powers are numbers times t^2.
-    # Horner's rule computes the coefficients of t and t^2, the entries of ``sums``.
+    # Horner's rule: because t^3 = -z t, odd powers of t are numbers times t, and even powers are numbers
+    # times t^2.
     sums: list[S] = [d.rational(0), d.rational(0)]
     for k in range(factor.order, 0, -1):
         weight = bernoulli_over_factorial(k) * s**k
@@ -100,21 +96,17 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
     """Return b and c with 1/dexp(s t) = 1 + b t + c t^2, where t^3 = -z t.
 
     The results are b = -s/2 and c = s^2 (c_2 - c_3)/(4 c_1). Here c_k is the value of the Stumpff function
-    with index k at s^2 z/4. If z <= 0, c_2 is at least 3 c_3. Therefore the difference c_2 - c_3 does not
-    lose digits by cancellation.
+    with index k at s^2 z/4.
     """
     argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
     c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))
     weight: S = d.rational((s * s).numerator, 4 * (s * s).denominator)
+    # If z <= 0, c2 is at least 3 c3, so the difference c2 - c3 does not lose digits by cancellation.
     return d.rational(-s.numerator, 2 * s.denominator), weight * ((c2 - c3) / c1)
 
 
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
-    """Return the coefficients of t and t^2 in 1/(1 + b t + c t^2), where t^3 = -z t.
-
-    The number t = i sqrt(z) satisfies t^3 = -z t. With this t, the real and the imaginary part of the
-    reciprocal give both coefficients.
-    """
+    """Return the coefficients of t and t^2 in 1/(1 + b t + c t^2), where t^3 = -z t."""
     one: S = d.rational(1)
     p = one - c * z
     scale = one / (p * p + b * b * z)

@@ -13,8 +13,8 @@ class Affine(MatrixGroup):
     """The group of the invertible affine maps y -> A y + b, where y is in R^n. An element is the (n + 1) x
     (n + 1) block matrix [[A, b], [0, 1]].
 
-    Each basis element of the algebra is a matrix with one entry 1 in the first n rows. All other entries are
-    zero. The basis is ordered row by row.
+    Each basis element of the algebra has one nonzero entry, a 1 in the first n rows. The basis is ordered
+    row by row.
     """
 
     def __init__(self, n: int) -> None:

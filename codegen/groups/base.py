@@ -1,22 +1,15 @@
 """The base class of Lie groups: the operations that every group has.
 
 An element of the group is a flat tuple of ``size`` scalars. An element of the Lie algebra or of its dual is a
-flat tuple of ``dim`` scalars. The scalars are called coordinates. The docstring of each group class describes
-the coordinates. Groups act from the left, tangent vectors are right-trivialised, and the bracket of matrices
-is [A, B] = AB - BA (see :mod:`orderconds`).
+flat tuple of ``dim`` scalars. The scalars are called coordinates. Groups act from the left, tangent vectors
+are right-trivialised, and the bracket of matrices is [A, B] = AB - BA (see :mod:`orderconds`).
 
 The first argument d of each operation is a domain: it defines the type of the scalars and the functions of
 scalars (:mod:`codegen.ir.domain`). An operation uses only ``+ - * /`` on the scalars, constants from
-``d.rational(p, q)`` and functions from ``d.call``. Therefore one implementation of the operation works
-for floats, 40-digit numbers, power series in the step size h, and the expressions from which code is emitted.
+``d.rational(p, q)`` and functions from ``d.call``.
 
-To define a group, inherit :class:`LieGroup` and write its five abstract methods. The five methods are enough
-for scenes (problems) with a vector field: for all integrators of such a scene, for emitted code, and for
-convergence tests. The function :func:`codegen.groups.register` adds the class to the list of groups.
-
-A group may have additional operations, the capabilities (:mod:`codegen.groups.capabilities`). Scenes with a
-Hamiltonian need the capability ``Coadjoint``. Other capabilities make emitted code shorter, or are needed for
-special computations such as the Jacobian of a step.
+To define a group, inherit :class:`LieGroup` and write its five abstract methods. A group may have additional
+operations, the capabilities (:mod:`codegen.groups.capabilities`).
 """
 
 from __future__ import annotations
@@ -43,8 +36,7 @@ class LieGroup(ABC):
     - ``dim`` is the dimension of the algebra.
     - ``size`` is the number of coordinates of an element.
     - If ``abelian`` is true, all brackets vanish.
-    - ``layout`` is a text about the order of the coordinates. The headers of emitted code contain this text
-      after the name of the group. An example is ``, row by row`` in ``element of SO(3), row by row``.
+    - ``layout`` is a text about the order of the coordinates, such as ``, row by row``.
     """
 
     name: str
@@ -53,13 +45,9 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     coordinates: ClassVar[str] = "coordinates"
-    """A noun for the coordinates of an element, such as ``unit quaternion``. If a scene is converted to
-    equations on R^n (:mod:`codegen.scene.classical_forms`), this noun is printed.
-    """
+    """A noun for the coordinates of an element, such as ``unit quaternion``."""
     provides: ClassVar[str] = "group operations"
-    """A noun for the operations of a class, such as ``coadjoint action``. If a group lacks these operations,
-    the error message contains this noun.
-    """
+    """A noun for the operations of a class in error messages, such as ``coadjoint action``."""
 
     @abstractmethod
     def identity(self, d: Domain) -> Vector[S]:
@@ -74,14 +62,12 @@ class LieGroup(ABC):
         """Return exp(x) for x in the algebra. The map satisfies exp(0) = e and exp(s x) exp(t x) = exp((s +
         t) x).
 
-        The formula must be valid at x = 0. Therefore it must not divide by the length r of x. For example,
-        replace sin(r)/r by stumpff1(r^2), because the function stumpff1 is defined at 0.
+        The formula must be valid at x = 0. For example, use stumpff1(r^2) instead of sin(r)/r.
         """
 
     @abstractmethod
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the bracket [x, y]. The bracket must be bilinear and antisymmetric, and must satisfy the
-        Jacobi identity.
+        """Return the bracket [x, y].
 
         The product exp(h x) exp(h y) exp(-h x) exp(-h y) must be equal to exp(h^2 [x, y] + O(h^3)). This
         equation determines the sign of the bracket.
@@ -92,10 +78,9 @@ class LieGroup(ABC):
         """Return x.g, the derivative of exp(eps x) g at eps = 0, in the coordinates of g."""
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the group. Each equation is a pair (name, residual).
+        """Return the equations of the group as pairs (name, residual).
 
-        The residuals are computed from the coordinates g. If g is an element of the group, all residuals are
-        zero.
+        If g is an element of the group, all residuals are zero.
         """
         return ()
 
@@ -159,8 +144,7 @@ class LieGroup(ABC):
     def dual(self, name: str) -> sympy.Matrix:
         """Return a covector as a sympy column of ``dim`` symbols.
 
-        Each symbol is ``name`` followed by an index. For example, the symbols are m0, m1 and m2 if ``name``
-        is "m" and ``dim`` is 3.
+        Each symbol is ``name`` followed by an index from 0.
         """
         from sympy import Matrix, Symbol
 

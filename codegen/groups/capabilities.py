@@ -1,11 +1,8 @@
 """Capabilities: additional operations that only some groups have.
 
-A group declares a capability by inheriting the class of the capability. Code that needs a capability calls
-``group.offers(Capability)`` or ``group.require(Capability)``. If the group lacks the capability, ``offers``
-returns None, and ``require`` raises an error with the name of the capability.
-
-Do not test capabilities with ``isinstance``, because the answer can be wrong for direct products. The class
-of direct products inherits several capabilities. If a factor lacks a capability, the product lacks it, too.
+A group declares a capability by inheriting the class of the capability. If the group lacks the capability,
+``group.offers(Capability)`` returns None, and ``group.require(Capability)`` raises an error. Do not test
+capabilities with ``isinstance``, because the answer can be wrong for direct products.
 """
 
 from __future__ import annotations
@@ -28,13 +25,12 @@ if TYPE_CHECKING:
 
 Term = tuple[S, Sequence[Factor], Vector[S]]
 """A triple (f, W, v) that represents the term f W(ad_x) v. Here f is a scalar, W is a product of functions of
-ad_x, and v is an element of the algebra. If ad*_x replaces ad_x, v is an element of the dual.
+ad_x, and v is an element of the algebra or of its dual.
 """
 
 
 class Coadjoint(LieGroup):
-    """The adjoint action and the coadjoint action. Variational methods and scenes with a Hamiltonian on T*G
-    need this capability.
+    """The adjoint action and the coadjoint action.
 
     The argument g is an element of the group, x is an element of the algebra, and mu is an element of the
     dual of the algebra. The pairing <mu, x> is the dot product of the coordinates of mu and x.
@@ -78,9 +74,9 @@ class Coadjoint(LieGroup):
 
         The linear map D is the derivative of dexpinv(x, y, order) with respect to x.
 
-        The covector p is the sum of -B_k/k! ad*_z (ad*_x)^i mu over all i and k with 0 <= i < k <= order.
-        For each term, z = ad_x^{k-1-i} y. B_k are the Bernoulli numbers. The formula is eq. 3.16 of
-        H. Marthinsen's thesis.
+        The covector p is the sum of -B_k/k! ad*_z (ad*_x)^i mu over all i and k with 0 <= i < k <= order
+        (eq. 3.16 of H. Marthinsen's thesis). For each term, z = ad_x^{k-1-i} y. B_k are the Bernoulli
+        numbers.
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -99,8 +95,7 @@ class Coadjoint(LieGroup):
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        The result is the momentum of the product of exp(x, n) and (q, mu) in the group T*G. This momentum
-        does not depend on q.
+        The result is the momentum of the product of exp(x, n) and (q, mu) in the group T*G.
         """
         turned = self.Adtinv(d, self.exp(d, x), mu)
         pushed = self.dexpt(d, tuple(-a for a in x), n)
@@ -111,8 +106,7 @@ class Coadjoint(LieGroup):
     ) -> Vector[S]:
         """Return the product of exp(x, n) and (q, mu) in the group T*G.
 
-        Here (x, n) is an element of the algebra of T*G, and (q, mu) is an element of T*G. The first component
-        of the product is exp(x) q. The second component is the result of :meth:`transport`.
+        Here (x, n) is an element of the algebra of T*G, and (q, mu) is an element of T*G.
         """
         return self.expmul(d, x, q) + self.transport(d, x, n, mu)
 
@@ -139,9 +133,8 @@ class LeftTranslation(Coadjoint):
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
         """Return the equations of the group as replacement rules.
 
-        Each rule replaces a product of two coordinates by a polynomial. For elements of the group, the
-        product and the polynomial are equal. The argument ``q`` contains the names of
-        the coordinates of an element.
+        Each rule replaces a product of two coordinates by a polynomial. The argument ``q`` contains the names
+        of the coordinates of an element.
         """
 
     @abstractmethod
@@ -165,8 +158,7 @@ class BodyFrame(LeftTranslation):
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return g exp(x).
 
-        If g is a matrix, row i of the result depends only on x and on row i of g. Therefore the compiler can
-        omit the rows that a step does not use.
+        If g is a matrix, row i of the result depends only on x and on row i of g.
         """
 
 
@@ -192,10 +184,8 @@ class ClosedFormSeries(Coadjoint):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        If ``dual`` is true, ad*_x replaces ad_x.
-
-        The optional function ``total`` computes sums of f v by a short formula. For a tuple of indices
-        of terms, ``total`` returns the sum of f v over these terms.
+        If ``dual`` is true, ad*_x replaces ad_x. For a tuple of indices of terms, the optional function
+        ``total`` returns the sum of f v over these terms.
         """
 
 
@@ -214,10 +204,9 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of an element, given its matrix. The method inverts :meth:`matrix`.
+        """Return the coordinates of an element, given its matrix.
 
-        The map from matrices to coordinates must be linear, because the method is also called for differences
-        of matrices.
+        The map from matrices to coordinates must be linear.
         """
 
     @abstractmethod
@@ -245,7 +234,7 @@ class CayleyMap(LieGroup):
     """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and the inverse of its differential. Here 1 is the
     identity, and x is a matrix or a quaternion.
 
-    For each element x, the algebra must also contain x^3. Then cay(x) is an element of the group.
+    For each element x, the algebra must also contain x^3.
     """
 
     provides: ClassVar[str] = "Cayley map"
@@ -263,10 +252,10 @@ class CayleyMap(LieGroup):
         """
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the product x y x.
+        """Return the product x y x = 4 y - 2 [x, y] - 4 dcay^{-1}_x y.
 
-        The product is computed as 4 y - 2 [x, y] - 4 dcay^{-1}_x y. For small x, this formula loses digits by
-        cancellation. A subclass may override this method by a more accurate formula.
+        For small x, this formula loses digits by cancellation. A subclass may override this method by a more
+        accurate formula.
         """
         terms = zip(y, self.ad(d, x, y), self.dcayinv(d, x, y), strict=True)
         four, two = d.rational(4), d.rational(2)
@@ -323,12 +312,10 @@ class MatrixElements(MatrixRepresentation, Inverse):
 
 
 class Covered(LieGroup):
-    """The group has a covering group ``cover``. An element of the cover has fewer coordinates than an element
-    of the group.
+    """The group has a covering group ``cover``.
 
-    The covering map is a homomorphism and a local diffeomorphism. Therefore a differential equation on the
-    group can be solved on the cover. The text ``covering_formula`` describes the covering map in the header
-    of emitted code. There, q denotes an element of the cover, and g denotes the image of q in the group.
+    The covering map is a homomorphism and a local diffeomorphism. In the text ``covering_formula``, q denotes
+    an element of the cover, and g denotes the image of q in the group.
     """
 
     provides: ClassVar[str] = "covering group"
@@ -343,16 +330,14 @@ class Covered(LieGroup):
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
         """Return the image of q under the covering map.
 
-        The coordinates q must satisfy the equations of the covering group. The coordinates of the image are
-        polynomials in q.
+        The coordinates q must satisfy the equations of the covering group.
         """
 
     @abstractmethod
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
         """Project q onto the cover, and return the image of the projected element under the covering map.
 
-        The coordinates q can violate the equations of the cover by small errors. Apart from rounding
-        errors, the result satisfies the equations of the group.
+        The coordinates q can violate the equations of the cover by small errors.
         """
 
     @abstractmethod
@@ -367,7 +352,7 @@ class Covered(LieGroup):
         """Return one number, the pivot, for each formula of :meth:`lift`.
 
         If the pivot of a formula is positive, the formula is valid for g. For every g at least one pivot is
-        positive. The formula with the largest pivot has the smallest rounding error.
+        positive.
         """
 
     @abstractmethod
@@ -433,9 +418,8 @@ class CotangentBundle(LieGroup):
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
         """Return the image of ``covector`` under the canonical Poisson bivector of T*G at the point z.
 
-        The covector and its image are right-trivialised: ``covector`` is in the dual of the algebra of T*G,
-        and the image is in the algebra. If ``covector`` is the differential of a Hamiltonian, the image is
-        the Hamiltonian vector field.
+        The covector and its image are right-trivialised. If ``covector`` is the differential of a
+        Hamiltonian, the image is the Hamiltonian vector field.
         """
 
 
@@ -448,8 +432,7 @@ class Projection(LieGroup):
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g after an approximate projection onto the group.
 
-        If g is in the group, the result is g. If g violates the equations of the group by eps, the result
-        violates the equations by O(eps^2).
+        If g violates the equations of the group by eps, the result violates the equations by O(eps^2).
         """
 
 
@@ -468,8 +451,7 @@ class DependentCoordinates(LieGroup):
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
         """Return g with new values of the coordinates that have the indices ``missing``.
 
-        The new values are computed from the other coordinates of g. The tuple ``missing`` is an element of
-        :meth:`determined`.
+        The tuple ``missing`` is an element of :meth:`determined`.
         """
 
 

@@ -7,8 +7,7 @@ from codegen.groups.base import LieGroup
 
 
 def check_size(name: str, n: object, least: int) -> None:
-    """Raise :class:`SceneError` if the size n of a group is not an integer of at least ``least``. ``name`` is
-    the name of the group class in the error message.
+    """Raise :class:`SceneError` if the size n of a group is not an integer of at least ``least``.
 
     >>> check_size("SO", "3", 2)
     Traceback (most recent call last):
@@ -25,8 +24,7 @@ def check_size(name: str, n: object, least: int) -> None:
 def check_factor(name: str, group: object) -> None:
     """Raise :class:`SceneError` if ``group`` is not a group.
 
-    The text ``name`` describes the larger group that is constructed from ``group``, for example "a product".
-    The error message contains ``name``.
+    The text ``name`` describes the larger group in the error message, for example "a product".
     """
     if not isinstance(group, LieGroup):
         shown = group.__name__ if isinstance(group, type) else repr(group)

@@ -13,12 +13,8 @@ from codegen.ir.domain import Domain, FloatDomain
 class AffineAction(Action):
     """Affine maps acting on points, g.z = A z + b, for matrices g = [[A, b], [0, 1]].
 
-    An element x of the algebra has a matrix [[L, c], [0, 0]], and the velocity of the point z is L z + c.
-
-    For example, consider the equation z' = L z + N(z) with a constant matrix L. Let z0 be the state at the
-    beginning of a step. The Lie-Euler method replaces N(z) by the constant c = N(z0). A step of size h maps
-    z0 to exp(h L) z0 + h phi(h L) N(z0), where phi(w) = (exp(w) - 1)/w. A method with this step is called the
-    exponential Euler method.
+    An element x of the algebra has a matrix [[L, c], [0, 0]], and the velocity of the point z is L z + c. For
+    the equation z' = L z + N(z), use c = N(z). The Lie-Euler method is then the exponential Euler method.
     """
 
     name = "affine maps"

@@ -1,8 +1,7 @@
 """The base class of left actions of a group on a manifold.
 
 To define an action, write a subclass of :class:`Action` with the members ``name``, ``act`` and ``velocity``.
-The three members are enough for scenes (problems), emitted code and convergence tests. The methods
-``point_size``, ``laws`` and ``to_orbit`` are optional.
+The methods ``point_size``, ``laws`` and ``to_orbit`` are optional.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ class Action(ABC):
     A point y of the manifold is the tuple of its coordinates.
 
     - ``name`` is printed in messages and in the headers of emitted code.
-    - ``needs`` is a class of :mod:`codegen.groups.capabilities`. The group must have this capability.
+    - ``needs`` is the capability that the group must have (:mod:`codegen.groups.capabilities`).
     - ``on_itself`` is true if y contains the coordinates of an element of the group.
     """
 
@@ -53,10 +52,9 @@ class Action(ABC):
         return None
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the manifold. Each equation is a pair (name, residual).
+        """Return the equations of the manifold as pairs (name, residual).
 
-        The residual is computed from the coordinates y. If y is a point of the manifold, all residuals are
-        zero. By default there are no equations.
+        If y is a point of the manifold, all residuals are zero.
         """
         return ()
 
@@ -66,23 +64,16 @@ class Action(ABC):
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x.y, the derivative of exp(eps x).y at eps = 0. Here x is an element of the algebra.
-
-        The result has one entry for each coordinate of y.
-        """
+        """Return x.y, the derivative of exp(eps x).y at eps = 0. Here x is an element of the algebra."""
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
         """Return an approximate projection of y onto the orbit of ``start``.
 
         If the distance of y from the orbit is eps, the distance of the projection from the orbit is O(eps^2).
-
-        By default, the result is y. If the orbit is an open subset of the manifold, no projection is needed,
-        because a small error does not move a point out of the orbit.
+        By default, the result is y.
         """
         return y
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x).y. By default, exp(x) is computed, and :meth:`act` applies it to y. A subclass may
-        override this method with a cheaper formula.
-        """
+        """Return exp(x).y. A subclass may override this method with a cheaper formula."""
         return self.act(d, group, group.exp(d, x), y)

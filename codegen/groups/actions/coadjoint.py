@@ -15,9 +15,6 @@ class CoadjointAction(Action):
     The velocity is x.mu = -ad*_x mu. Let H(mu) be a Hamiltonian with the derivative H'(mu). For the
     Lie-Poisson equation mu' = -ad*_{H'(mu)} mu, use the field f(mu) = H'(mu). For the Lie-Poisson equation
     mu' = ad*_{H'(mu)} mu, use f(mu) = -H'(mu).
-
-    Each solution stays on one orbit of the action. Casimir functions are constant on each orbit. Therefore
-    the solutions conserve the Casimir functions.
     """
 
     name = "coadjoint action"

@@ -13,8 +13,7 @@ from codegen.ir.domain import Domain
 class Columns(Action):
     """The matrices g act on n x k matrices Y by g.Y = g Y.
 
-    A point contains the entries of the matrix Y row by row. The number of columns is k = ``columns``. For
-    matrices with orthonormal columns, use :class:`Stiefel`.
+    A point contains the entries of the matrix Y row by row. The number of columns is k = ``columns``.
     """
 
     name = "linear maps of columns"

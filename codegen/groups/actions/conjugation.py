@@ -13,9 +13,7 @@ class Conjugation(Action):
     """The matrices g act on n x n matrices P by g.P = g P g^-1. Isospectral flows, such as the flow of the
     Toda lattice, use this action.
 
-    A point contains the entries of the matrix P row by row. The matrices g P g^-1 and P have the same
-    eigenvalues. For the group SO(n), the orbit of an orthogonal projection P of rank k is a Grassmann
-    manifold.
+    A point contains the entries of the matrix P row by row.
     """
 
     name = "conjugation"

@@ -35,8 +35,8 @@ class FactorwiseAction(Action):
     def check(self, group: LieGroup, where: str = "") -> None:
         """Raise :class:`codegen.errors.SceneError` if the actions cannot be used with the group.
 
-        The group must be a direct product with one factor for each action. Each action must pass its
-        own ``check`` with its factor. The method ``point_size`` of each action must return a number.
+        The group must be a direct product with one factor for each action. The method ``point_size`` of each
+        action must return a number.
         """
         self.require(group, DirectProduct, where)
         factors = group.require(DirectProduct).factors
@@ -78,8 +78,7 @@ class FactorwiseAction(Action):
     ) -> Vector[S]:
         """Apply an operation to each factor, with x = (x1, x2, ...) and y = (y1, y2, ...).
 
-        The calls are operation(action1, factor1, x1, y1) and so on. The method returns all results as one
-        tuple of coordinates.
+        The calls are operation(action1, factor1, x1, y1) and so on.
         """
         parts = group.require(DirectProduct).parts(x)
         rows = zip(self._pairs(group), parts, self._split(group, y), strict=True)

@@ -33,9 +33,8 @@ class Linear(Action):
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
         """If the group consists of rotations, scale y approximately to the length of ``start``.
 
-        For other groups, return y. Let e = 1 - (y.y)/(start.start) with the dot product. The factor
-        (1 - e)^(-1/2) would give the length of ``start``. Instead, y is multiplied by 1 + e/2 + 3 e^2/8, the
-        first terms of the Taylor series of (1 - e)^(-1/2). The relative error of the length is O(e^3).
+        For other groups, return y. Let e = 1 - (y.y)/(start.start) with the dot product. The factor is
+        1 + e/2 + 3 e^2/8, and the relative error of the length is O(e^3).
         """
         if group.offers(Rotations) is None:
             return y

@@ -12,8 +12,7 @@ from codegen.ir.domain import Domain
 class RightMultiplication(Action):
     """A group acting on itself by g.y = y g^-1. The action is a left action: (g k).y = g.(k.y).
 
-    The velocity is x.y = -y x. Therefore the equation y' = y F(y) has the form y' = f(y).y with f = -F. For
-    example, if y is the attitude of a body, F(y) is the angular velocity in the body frame.
+    The velocity is x.y = -y x. Therefore the equation y' = y F(y) has the form y' = f(y).y with f = -F.
     """
 
     name = "right multiplication"

@@ -21,8 +21,7 @@ class Stiefel(Columns):
     def check(self, group: LieGroup, where: str = "") -> None:
         """Raise :class:`codegen.errors.SceneError` if the group does not admit this action.
 
-        The group must preserve orthonormal columns. Therefore the matrices of the algebra must be skew. A
-        point must not have more columns than rows, because orthonormal columns are linearly independent.
+        The matrices of the algebra must be skew. A point must not have more columns than rows.
         """
         super().check(group, where)
         matrices, d = group.require(MatrixElements), FloatDomain(0.0)
@@ -53,7 +52,7 @@ class Stiefel(Columns):
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations Y^T Y = I as pairs (name, residual). I is the unit matrix.
 
-        Y^T Y is symmetric. Therefore the pairs for the entries above the diagonal are omitted.
+        The pairs for the entries above the diagonal are omitted.
         """
         gram, one = self._gram(y), d.rational(1)
         return tuple(
@@ -65,13 +64,12 @@ class Stiefel(Columns):
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
         """Return an approximate projection of the matrix Y onto the matrices with orthonormal columns.
 
-        The result is Y (3 I - Y^T Y)/2 with the unit matrix I. Let eps be the norm of Y^T Y - I. The columns
-        of the result are orthonormal up to O(eps^2). The argument y contains the entries of Y row by row.
+        The result is Y (3 I - Y^T Y)/2 with the unit matrix I. The argument y contains the entries of Y row
+        by row.
         """
         gram, half, k = self._gram(y), d.rational(1, 2), self.columns
         unit: tuple[Vector[S], ...] = units(d, k)
-        # The result is computed as Y + Y E/2 with E = I - Y^T Y. If the columns of Y are almost orthonormal,
-        # the term Y E/2 is small, and its rounding errors are negligible.
+        # In the sum Y + Y E/2 with E = I - Y^T Y, the rounding errors of the small term Y E/2 are negligible.
         defect = [[half * (unit[i][j] - gram[i][j]) for j in range(k)] for i in range(k)]
         rows = [y[i : i + k] for i in range(0, len(y), k)]
         return tuple(

@@ -1,8 +1,8 @@
 """Coordinate maps for Runge-Kutta-Munthe-Kaas methods, one file for each map.
 
 By default every scene (problem) uses the exponential map: ``coordinates="exp"``. The inverse differential of
-the exponential map is an infinite series of brackets. Methods truncate this series. The inverse differentials
-of the maps in this package have exact formulas.
+the exponential map is an infinite series of brackets. The inverse differentials of the maps in this package
+have exact formulas.
 """
 
 from __future__ import annotations

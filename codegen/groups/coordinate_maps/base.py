@@ -17,8 +17,7 @@ class CoordinateMap(ABC):
     tau at zero is the identity map.
 
     A Runge-Kutta-Munthe-Kaas method solves y' = f(y).y with y(0) = y0, where f(y) is in the algebra. With
-    y = tau(x).y0, the equation becomes x' = dtau^{-1}_x f(tau(x).y0). A Runge-Kutta method solves the
-    equation for x. Because dtau^{-1} is not truncated, the order of the Runge-Kutta method is kept.
+    y = tau(x).y0, the equation becomes x' = dtau^{-1}_x f(tau(x).y0).
 
     - ``name`` selects this map in the option ``coordinates`` of a scene.
     - ``text`` describes the map in the headers of emitted code.
@@ -39,6 +38,5 @@ class CoordinateMap(ABC):
     def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return dtau^{-1}_x y, where dtau_x is the right-trivialised differential of tau at x.
 
-        If x' = dtau^{-1}_x y, the curve g(t) = tau(x(t)) satisfies g' = y.g. The method
-        :meth:`LieGroup.velocity` computes y.g.
+        If x' = dtau^{-1}_x y, the curve g(t) = tau(x(t)) satisfies g' = y.g.
         """
