@@ -14,13 +14,13 @@ from codegen.ir.kernel import Kernel, Let
 
 
 def chain(kernel: Kernel) -> int:
-    """Return the depth of a step. ``kernel`` contains the scalar assignments of the step.
+    """Return the depth of a step.
 
-    The depth is the largest number of nested Stumpff functions. The smallest depth is 1.
+    The depth is the largest number of nested Stumpff functions, and at least 1.
 
-    In two cases, rotations do not amplify previous rounding errors. The depth is then also 1:
+    In two cases, rotations do not amplify previous rounding errors, and the depth is 1:
 
-    - The kernel solves implicit equations by iteration. Each iteration reduces the errors of all angles.
+    - The kernel solves implicit equations by iteration.
     - The kernel is a step of a splitting method with deferred flows (:class:`codegen.ir.kernel.Deferred`).
 
     >>> from codegen.ir.expr import Space
@@ -42,18 +42,16 @@ def chain(kernel: Kernel) -> int:
 
 
 def _depth(root: Expr, depths: Mapping[str, int]) -> int:
-    """Return the depth of an expression. ``depths`` contains the depths of its symbols."""
+    """Return the depth of an expression from the depths of its symbols."""
     by_node: dict[int, int] = {}
     for node in walk([root]):
-        # ``below`` is the largest depth of the arguments. ``walk`` yields the arguments before the node, so
-        # their depths are known.
+        # ``walk`` yields the arguments before the node, so their depths are known.
         below = max((by_node[a.id] for a in node.args), default=0)
         # The inputs of the step (for example the old state) depend on no angle of this step, so
         # these inputs have depth 0.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # A Stumpff function increases the depth by 1. A derivative of a Stumpff function (``slope2`` etc.)
-        # does not increase the depth: each formula with such a derivative also contains a Stumpff function of
+        # Derivatives (``slope2`` etc.) are not counted: they occur only together with a Stumpff function of
         # the same angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

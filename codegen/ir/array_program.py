@@ -1,9 +1,7 @@
 """Array programs: lists of assignments to matrices. Emitted code executes assignments in loops.
 
-Loops keep the code short for large matrices. A :class:`Matrix` is an array, or a rectangular part of an
-array. The scalars in a program are expressions (:mod:`codegen.ir.expr`). The entries of a constant matrix are
-numbers or formulas. In a formula, the symbols :data:`ROW` and :data:`COLUMN` denote the row index and the
-column index of the entry. Indices begin at zero.
+A :class:`Matrix` is an array, or a rectangular part of an array. The entries of a constant matrix are numbers
+or formulas in the row index :data:`ROW` and the column index :data:`COLUMN`. Indices begin at zero.
 """
 
 from __future__ import annotations
@@ -16,8 +14,8 @@ from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
 
 ROW, COLUMN = "row.index", "column.index"
-"""The names of the symbols for the row index and the column index of an entry. Both names contain a dot, so
-they differ from every name that a user can choose.
+"""The names of the symbols for the row index and the column index of an entry. A user cannot choose names
+with a dot.
 """
 
 Arrays = MutableMapping[str, list[Scalar]]
@@ -30,7 +28,7 @@ class Matrix:
     ``start`` in the array.
 
     ``stride`` is the distance in the array between the first entries of successive rows. The value 0 denotes
-    the number of columns: there are no gaps between the rows.
+    the number of columns.
     """
 
     name: str
@@ -63,8 +61,8 @@ class Matrix:
 
 
 Entry = Expr | tuple[Number, ...]
-"""The entries of a matrix, or the entries of one diagonal of a matrix. An ``Entry`` is a formula with the
-symbols :data:`ROW` and :data:`COLUMN`, or a tuple of numbers.
+"""The entries of a matrix or of one of its diagonals: numbers, or a formula in :data:`ROW` and
+:data:`COLUMN`.
 """
 
 
@@ -117,7 +115,7 @@ class ConstantMatrix:
         """Yield (row, column, value) for each entry on ``diagonals``, or for all entries if there are no
         ``diagonals``.
 
-        ``symbols`` maps the symbols in formulas to their values. All values are scalars of ``domain``.
+        ``symbols`` maps the symbols in formulas to their values.
         """
         for diagonal in self.diagonals:
             # A diagonal with a negative offset begins in row -offset, because column indices begin at 0.
@@ -136,13 +134,11 @@ def _valued(
         yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
         return
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
-    # The formula is evaluated twice. The first evaluation replaces only the symbols ``ROW`` and ``COLUMN`` by
-    # numbers. The second evaluation replaces the other symbols by their values.
+    # The first evaluation replaces only the symbols ``ROW`` and ``COLUMN`` by numbers.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # The formula may compare indices to select a branch. In the first evaluation all indices are exact
-        # integers, so every comparison succeeds. In ``domain``, the indices could be power series. Power
-        # series cannot always be compared.
+        # Indices are exact here: a formula may compare indices, and power series in ``domain`` cannot always
+        # be compared.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -245,7 +241,7 @@ class ArrayProgram:
         """Execute the program, and return the entries of the result, row by row.
 
         ``argument`` contains the entries of the argument, row by row. ``symbols`` contains the values of all
-        symbols except :data:`ROW` and :data:`COLUMN`. All values are scalars of ``domain``.
+        symbols except :data:`ROW` and :data:`COLUMN`.
         """
         arrays: Arrays = {self.argument.name: list(argument)}
         for statement in self.body:
@@ -255,8 +251,8 @@ class ArrayProgram:
     def moved(self, argument: Matrix, result: Matrix, name: str) -> tuple[ArrayStatement, ...]:
         """Return the statements of this program for use inside another program.
 
-        The matrices ``argument`` and ``result`` belong to the other program. They replace ``self.argument``
-        and ``self.result``. The names of all other arrays get the prefix ``name``.
+        The matrices ``argument`` and ``result`` replace ``self.argument`` and ``self.result``. The names of
+        all other arrays get the prefix ``name``.
         """
 
         # Without the prefix, an array of this program might have the name of an array of the other program.
@@ -293,8 +289,7 @@ def evaluated(
     """Execute one statement with scalars of ``domain``, and store the result in ``arrays``."""
     target = statement.target
     zero = domain.rational(0)
-    # The first assignment to an array creates the array. The target of the first assignment must therefore be
-    # the whole array.
+    # The target of the first assignment to an array must be the whole array.
     array = arrays.setdefault(target.name, [zero] * target.size)
     match statement:
         case Multiplication():
@@ -302,8 +297,7 @@ def evaluated(
         case Apply():
             values = _applied(statement, domain, arrays, symbols)
         case Combination(terms=terms):
-            # The old value of the target may occur in a term. All new values are therefore computed before
-            # the target is changed.
+            # The old value of the target may occur in a term, so the target is changed last.
             values = [zero] * target.size
             for term in terms:
                 c = evaluate([term.coefficient], domain, symbols)[0]
@@ -325,15 +319,14 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
-        # The number a is the entry of the matrix C (:class:`Apply`) in row r = ``row`` and column
-        # c = ``column``. For the product M C, a times column r of M is added to column c of the result.
+        # For the product M C (:class:`Apply`), a times column ``row`` of M is added to column ``column``.
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
-            # For the product C M, a times row c of M is added to row r of the result.
+            # For the product C M, a times row ``column`` of M is added to row ``row``.
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values
@@ -350,7 +343,7 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
             # ``start`` contains one value for each entry of the target, row by row without gaps.
             total = start[i * target.columns + j]
             for k in range(statement.inner):
-                # No transpose is formed. The entries of a transposed factor are read with exchanged indices.
+                # The entries of a transposed factor are read with exchanged indices.
                 x = a[left.place(k, i) if statement.left_transposed else left.place(i, k)]
                 y = b[right.place(j, k) if statement.right_transposed else right.place(k, j)]
                 total = total + x * y
@@ -370,15 +363,13 @@ def operations(statement: ArrayStatement) -> dict[str, int]:
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)
-            # An entry of the target that is a sum of k > 0 products needs k - 1 additions. If all entries are
-            # such sums, the total is ``products - size``. If many entries are zero, the difference may be
-            # negative.
+            # A sum of k > 0 products needs k - 1 additions. If many entries are zero, ``products - size``
+            # is negative.
             return {"add": max(0, products - size), "mul": products}
         case Combination(terms=terms):
             sizes = [term.matrix.size for term in terms]
             scaled = [n for n, t in zip(sizes, terms, strict=True) if not _is_unit(t.coefficient)]
-            # The first term is only copied and needs no additions. A coefficient 1 or -1 needs no
-            # multiplications.
+            # The first term is only copied, and a coefficient 1 or -1 needs no multiplication.
             return {"add": sum(sizes[1:]), "mul": sum(scaled)}
 
 

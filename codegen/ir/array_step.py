@@ -33,9 +33,7 @@ from codegen.ir.array_program import (
 from codegen.ir.expr import Expr
 
 TERMS = 8
-"""The estimated cost of a step assumes this number of terms in the series of phi(z) = (exp(z) - 1)/z.
-In emitted code the number of terms depends on the norm of the generator.
-"""
+"""The estimated cost of a step assumes this number of terms in the series of phi(z) = (exp(z) - 1)/z."""
 
 MOST_TERMS = 18
 """The largest number of terms in the series of phi(z) = (exp(z) - 1)/z for a matrix z. For matrices with a
@@ -59,7 +57,7 @@ class Move:
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).
     - ``core`` is S, and ``gram`` is B^T B.
-    - ``start`` is the displacement of X, that is, X = X_0 + B * ``start``. If ``start`` is None, X is X_0.
+    - ``start`` is the displacement of X, or None if X is X_0.
     - ``start`` may have fewer rows than ``target``. The missing rows are zero.
     """
 
@@ -76,10 +74,8 @@ class Move:
         """
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        # The last formula at the beginning of this module gives the new point. S and G S are m x m matrices.
         # The four summands of ``products`` are the multiplications for G S, for the norm of B S B^T, for G C,
-        # and for S phi(G S) G C. Each of the ``TERMS`` terms needs one product with G S. The factor S needs
-        # one more product. In addition, each term is multiplied by a number.
+        # and for S phi(G S) G C.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 
@@ -89,8 +85,7 @@ StepStatement = ArrayStatement | AddUnit | Move
 
 @dataclass(frozen=True)
 class ArrayStep:
-    """The statements of one step. The statements ``body`` compute the matrix ``result`` from the matrix
-    ``argument``.
+    """The statements of one step: ``body`` computes the matrix ``result`` from the matrix ``argument``.
 
     If the method has an error estimate, the statements ``estimate`` compute the matrix ``error``. The matrix
     ``error`` is the difference between ``result`` and an embedded solution of lower order.

@@ -1,10 +1,8 @@
 """An arithmetic with many digits, based on Arb balls.
 
-This arithmetic is a faster alternative to :class:`codegen.ir.domain.PreciseDomain`. An operation on two Arb
-balls is about six times faster than the same operation on two mpmath numbers.
+An operation is about six times faster than in :class:`codegen.ir.domain.PreciseDomain`.
 
-A ball is a midpoint with an error radius. The radii would grow without bound in iterations. After each
-operation of a step program (such as exp or Ad) the ball is therefore replaced by its midpoint. Hence the
+After each operation of a step program (such as exp or Ad), each ball is replaced by its midpoint. Hence the
 results have no rigorous error bounds.
 
 The working precision of balls is a global variable of python-flint. Code that uses this domain therefore runs
@@ -48,18 +46,16 @@ GUARD = 32
 class BallDomain:
     """An arithmetic with ``digits`` decimal digits. The scalars are midpoints of Arb balls.
 
-    The step size ``h`` is an mpmath number, a float or a Fraction. The method :meth:`scalar` converts a
-    number of one of these three types to a scalar, and :meth:`mpf` converts a scalar to an mpmath number. Let
-    n be :data:`codegen.ir.domain.LARGEST_BITS`. If an argument of a function such as exp has an absolute
-    value of 2^n or more, OverflowError is raised.
+    The step size ``h`` is an mpmath number, a float or a Fraction. Let n be
+    :data:`codegen.ir.domain.LARGEST_BITS`. If an argument of a function such as exp has an absolute value of
+    2^n or more, OverflowError is raised.
     """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         self.digits = digits
         self.bits = math.ceil(digits * BITS_PER_DIGIT) + GUARD
         with self.precision():
-            # The number eps is 2^-b, where b is the number of bits without the guard bits. Hence eps is about
-            # 10^-digits.
+            # The guard bits are excluded, so eps is about 10^-``digits``.
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
         # If a fixed-point method has not converged after this number of iterations, Newton's method is used.
@@ -70,9 +66,7 @@ class BallDomain:
         return precision(self.bits)
 
     def scalar(self, x: Scalar) -> arb:
-        """Convert a float, an mpmath number or a Fraction to a scalar. A Fraction is rounded to the working
-        precision. Other numbers are not rounded.
-        """
+        """Convert a float, an mpmath number or a Fraction to a scalar. Only a Fraction is rounded."""
         if isinstance(x, Fraction):
             return self.rational(x.numerator, x.denominator)
         if isinstance(x, int | float):
@@ -89,8 +83,7 @@ class BallDomain:
             fraction = value.fraction()
             return self.rational(fraction.numerator, fraction.denominator)
         with precision(self.bits + 16):
-            # ``approximate`` returns a decimal text with b/3 + 5 digits, where b is the number of bits. A
-            # number with b bits has only about 0.301 b digits, so the rounding of the text is negligible.
+            # A number with b bits has only about 0.301 b digits, so the text with b/3 + 5 digits is accurate.
             enclosure = arb(value.ring.approximate(value.element, self.bits // 3 + 5))
         return enclosure.mid()
 
@@ -110,7 +103,7 @@ class BallDomain:
         if function == "quotient":
             return args[0] / args[1] if args[1].mid() != 0 else args[0] * 0
         if selects(function):
-            # A ball that contains zero has no definite sign. Therefore the signs of midpoints are used.
+            # A ball that contains zero has no definite sign.
             centres = tuple(x.mid() for x in args)
             value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
             return value.mid()
@@ -123,7 +116,7 @@ class BallDomain:
         if "stumpff" in function:
             return self._stumpff(int(function[-1]), z)
         value = getattr(arb, function)(*(x.mid() for x in args)).mid()
-        # Arb raises no exception if the function has no real value. The result is then a NaN.
+        # If the function has no real value, Arb returns a NaN and raises no exception.
         if not value.is_finite():
             raise ValueError(f"{function} of {z.str(10, radius=False)} is not a finite real number")
         return value
@@ -138,21 +131,19 @@ class BallDomain:
         if isinstance(called, MatrixExponential):
             return exponential(called.n, called.level, self.bits, numbers)
         if isinstance(called, ExponentialAction):
-            # The result is exp(A) y with a matrix A and a vector y. Unlike emitted code, this domain forms
-            # the matrix exp(A).
+            # To compute exp(A) y, this domain forms the matrix exp(A), unlike emitted code.
             entries = called.matrix(numbers, arb(0))
             rows = self.vector(f"expm{called.n}", entries)
             y = numbers[-called.n :]
             lines = (rows[called.n * i : called.n * i + called.n] for i in range(called.n))
             with precision(2 * self.bits):
-                # Each entry of exp(A) y is a sum whose terms may cancel. With twice the working
-                # precision, the sums remain accurate.
+                # Each entry of exp(A) y is a sum whose terms may cancel.
                 sums = [sum((a * x for a, x in zip(line, y, strict=True)), arb(0)) for line in lines]
             return tuple(x.mid() for x in sums)
         if isinstance(called, MatrixInverse):
             with precision(2 * self.bits):
-                # The inversion of an ill-conditioned matrix loses many bits. Let b be ``self.bits``. With
-                # 2 b bits, the inverse is accurate for condition numbers up to about 2^b.
+                # With 2 b bits (b = ``self.bits``), the inverse is accurate for condition numbers up to about
+                # 2^b.
                 inverse = arb_mat(block_matrix(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
         if isinstance(called, SpecialUnitaryExponential):
@@ -173,8 +164,7 @@ class BallDomain:
                 return 2 * ((root / 2).sin() / root) ** 2
             sine = root.sin()
             return sine / root if k == 1 else (root - sine) / (root * z)
-        # For z <= 1 the series loses almost no digits by cancellation. For z < 0 all terms are positive. For
-        # 0 < z <= 1 the terms decrease fast.
+        # For z <= 1 the series loses almost no digits by cancellation.
         total, j, term = arb(0), 0, arb(1) / math.factorial(k)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -184,17 +174,12 @@ class BallDomain:
         return total
 
     def _slope(self, k: int, z: arb) -> arb:
-        """Return the derivative c_k'(z) of the Stumpff function c_k.
-
-        For abs(z) <= 1, the power series of c_k' is summed. For larger abs(z), c_k' is computed from c_{k-1}
-        and c_k.
-        """
+        """Return the derivative c_k'(z) of the Stumpff function c_k."""
         if abs(z) > 1:
             # For small z, c_{k-1} and k c_k are both close to 1/(k-1)!, and their difference would lose
             # digits.
             return (self._stumpff(k - 1, z) - k * self._stumpff(k, z)) / (2 * z)
-        # The series of c_k has the terms (-z)^j/(2j+k)!. The derivative of the constant term j = 0 is 0, so
-        # the sum begins with j = 1.
+        # The term (-z)^j/(2j+k)! of c_k has the derivative 0 for j = 0, so the sum begins with j = 1.
         total, j, term = arb(0), 1, -arb(1) / math.factorial(k + 2)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -204,16 +189,11 @@ class BallDomain:
         return total
 
     def _curvature(self, k: int, z: arb) -> arb:
-        """Return the second derivative c_k''(z) of the Stumpff function c_k.
-
-        For abs(z) <= 1, the power series of c_k'' is summed. For larger abs(z), c_k'' is computed from
-        c_{k-2}, c_{k-1} and c_k.
-        """
+        """Return the second derivative c_k''(z) of the Stumpff function c_k."""
         if abs(z) > 1:
             a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
-        # The series of c_k has the terms (-z)^j/(2j+k)!. The second derivatives for j = 0 and j = 1 are 0, so
-        # the sum begins with j = 2.
+        # The terms (-z)^j/(2j+k)! of c_k have the second derivative 0 for j = 0 and j = 1.
         total, j, term = arb(0), 2, 2 * arb(1) / math.factorial(k + 4)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -230,16 +210,15 @@ class BallDomain:
         """Return the pair (converged, change) after an iteration from the values ``old`` to ``new``.
 
         ``change`` is the largest absolute difference between ``old`` and ``new``. ``previous`` is the change
-        in the previous iteration, or None in the first iteration. If the change is zero, the values
-        have converged. If the change is positive, convergence requires two conditions:
+        in the previous iteration, or None in the first iteration. The values have converged if the change is
+        zero, or if both conditions hold:
 
-        - The change is of the size of the rounding errors, that is, at most 2^12 eps max(1, m). Here m is the
-          largest absolute value in ``old``, and eps is about 10^-``digits``.
-        - The change no longer decreases: it is not smaller than ``previous``.
+        - The change is at most 2^12 eps max(1, m). Here m is the largest absolute value in ``old``, and eps
+          is about 10^-``digits``.
+        - The change is not smaller than ``previous``.
         """
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
-        # For a NaN all comparisons below are false. Without this test the caller would continue up to the
-        # largest permitted number of iterations.
+        # Without this test, a NaN would cause iterations up to the largest permitted number.
         if not all(x.is_finite() for x in new):
             raise NotConverged("an iteration computed a number that is not finite")
         # The factor 4096 = 2^12 allows for the accumulated rounding errors of an iteration.
@@ -248,7 +227,6 @@ class BallDomain:
 
     def increment(self, x: arb) -> arb:
         """Return an increment d for which the difference quotient (f(x + d) - f(x))/d is accurate."""
-        # Let eps be about 10^-``digits``. For abs(x) <= 1, the difference quotient has a rounding error of
-        # about eps/d and a truncation error of about d. The two errors are about equal for d = sqrt(eps). For
-        # abs(x) > 1, d is sqrt(eps) abs(x).
+        # For abs(x) <= 1 and d = sqrt(eps), the rounding error eps/d and the truncation error d are about
+        # equal.
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()

@@ -2,10 +2,7 @@
 3/2 (a - b).
 
 The rewriting is exact. Each expression becomes a linear combination of atoms. An atom is an expression that
-is not a linear combination itself. Numeric factors of products and powers become coefficients of the linear
-combination. The product c (1/y) with a number c becomes the quotient c/y. For example, 3/2 (1/sqrt x)^3
-becomes (3/2)/(x sqrt x). The rewritten expressions are used only if they have fewer operations than the given
-expressions.
+is not a linear combination itself. The product c (1/y) with a number c becomes the quotient c/y.
 """
 
 from __future__ import annotations
@@ -17,7 +14,7 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Sum = dict[int, tuple[Number, Expr]]
-"""A linear combination of atoms. The dictionary maps the node number of each atom to the pair (coefficient,
+"""A linear combination of atoms: a dictionary from the node number of each atom to the pair (coefficient,
 atom). For a constant term the atom is the expression 1.
 """
 
@@ -27,8 +24,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
 
     If this does not reduce the number of operations, ``roots`` is returned unchanged.
 
-    The expressions in ``kept`` are not rewritten, apart from their numeric factors. For example, if ``kept``
-    contains 3 x, the factor 3 may be combined with other numbers.
+    The expressions in ``kept`` are not rewritten, apart from their numeric factors.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -49,8 +45,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     # The expressions in ``bare`` are not rewritten, so their operations are not counted.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
-    # ``collected`` may have fewer shared subexpressions than ``roots`` and therefore need more operations. If
-    # ``collected`` and ``roots`` need the same number of operations, ``roots`` is returned.
+    # ``collected`` may have fewer shared subexpressions than ``roots`` and therefore need more operations.
     return collected if _operations(collected, still) < _operations(roots, still) else tuple(roots)
 
 
@@ -64,39 +59,32 @@ def _bare(node: Expr) -> Expr:
 
 def _operations(roots: Sequence[Expr], still: set[int]) -> int:
     nodes = [node for node in walk(roots, stop=lambda n: n.id in still) if node.id not in still]
-    # A negation is not counted, because it usually turns a sum into a difference. A power x^n is counted as
-    # n - 1 products.
+    # A negation is not counted, because it usually turns a sum into a difference.
     products = sum(int(node.payload) - 1 for node in nodes if node.op == "pow")
     return products + sum(node.op not in ("const", "sym", "neg", "pow") for node in nodes)
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Return the powers y^n of inverse roots y = 1/sqrt x that are to be rewritten as quotients. For example,
-    y^3 becomes 1/(x sqrt x).
+    """Return the powers y^n of inverse roots y = 1/sqrt x that are to be rewritten as quotients.
 
-    If a power of y is used only in other powers of y, it is an intermediate value. All other powers of y are
-    final values. If all final values of y have odd exponents n >= 3, the powers of y are rewritten.
-
-    The result maps the node number of a power to the pair (node number of y, n). Subexpressions of ``kept``
-    are skipped.
+    The result maps the node number of a power to the pair (node number of y, n).
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # The list contains a pair (argument, node) for each argument of each node. For a root the pair is
-    # (root, None).
+    # Each argument is paired with its node, and each root with None.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
-            # Let y = 1/sqrt(x). For each node c y^n with a number c, ``ranks`` contains the pair (node number
+            # For each node c y^n with a number c and y = 1/sqrt x, ``ranks`` contains the pair (node number
             # of y, n).
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # ``read`` contains the pairs (node number of y, n) of the final values.
+    # ``read`` contains the pairs (node number of y, n) of the powers that are used outside powers of y.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     # ``bases`` contains the node numbers of those y whose powers are not rewritten.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
@@ -106,16 +94,14 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
     """Return True if a node equals c y^n, where c is a number and y is an inverse root.
 
-    ``inside`` contains one pair (node number of y, n) for each argument of the form c y^n. Two arguments may
-    contain different inverse roots y.
+    ``inside`` contains one pair (node number of y, n) for each argument of the form c y^n.
     """
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
 
 
 def _is_inverse(node: Expr) -> bool:
-    # A node is an inverse if it is a quotient with the numerator 1. A space contains only one object for the
-    # number 1, so ``is`` is sufficient.
+    # A space contains only one object for the number 1, so ``is`` is sufficient.
     return node.op == "div" and node.args[0] is node.space.one
 
 
@@ -128,21 +114,17 @@ class _Gathering:
 
     def whole(self, root: Expr) -> Expr:
         """Return the expression ``root`` with its constants combined."""
-        # ``walk`` yields the arguments of a node before the node. Hence ``sums`` already contains the linear
-        # combinations of the arguments.
+        # ``walk`` yields the arguments of a node before the node.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
-                # A node may occur in several roots. The stored linear combination is used again.
+                # A node may occur in several roots.
                 self.sums[node.id] = self._sum(node)
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return the linear combination of a node as an expression.
-
-        A term c (1/y) becomes (c/e) (e/y). The method :meth:`_inverse` selects the positive number e.
-        """
+        """Return the linear combination of a node as an expression."""
         if node.id not in self.written:
-            # A node may occur in several expressions. The stored expression is used again.
+            # A node may occur in several expressions.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
         return self.written[node.id]
@@ -150,21 +132,17 @@ class _Gathering:
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
         """Return the term c times ``atom`` as a pair (number, expression).
 
-        For an inverse 1/y the pair is (c/e, e/y) with a positive number e. The first call for 1/y sets
-        e = |c|. Later calls for 1/y use the same e. For every other atom the pair is (c, ``atom``).
+        For an inverse 1/y the pair is (c/e, e/y), where the first call for 1/y sets e = |c|.
         """
         if not _is_inverse(atom):
             return c, atom
-        # ``numerator`` is e, and ``atom`` is 1/y. The division e/y is not slower than 1/y. If e = |c|, then
-        # c/e is 1 or -1, and the term (c/e) (e/y) needs no multiplication.
+        # If ``numerator`` is |c|, the quotient c / ``numerator`` is 1 or -1 and needs no multiplication.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
-        # Irrational constants are not combined with other numbers, for two reasons. Constants of different
-        # number fields cannot be added. A constant may be known only as a ball (midpoint and radius), and
-        # each operation would enlarge the radius.
+        # Irrational constants are not combined, because constants of different number fields cannot be added.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":
@@ -176,17 +154,17 @@ class _Gathering:
                 other if node.op == "add" else _scaled(other, Number.rational(-1))
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
-            # If terms cancel, their sum has the coefficient zero. Terms with a zero coefficient are removed.
+            # If terms cancel, their sum has the coefficient zero.
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
             return self._power(node)
-        # The product of a number and a sum is expanded. The product of two sums is not expanded, because the
-        # number of terms would grow exponentially in nested products.
+        # The product of two sums is not expanded, because the number of terms would grow exponentially in
+        # nested products.
         if node.op == "mul":
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
                     return _scaled(self.sums[b.id], a.payload)
-            # Let c and d be numbers. The product (c x)(d y) becomes the coefficient c d with the atom x y.
+            # With numbers c and d, (c x)(d y) has the coefficient c d and the atom x y.
             (c, x), (d, y) = self._content(node.args[0]), self._content(node.args[1])
             atom = x * y
             return {atom.id: (c * d, atom)}
@@ -196,15 +174,14 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # An atom must not be a linear combination. ``Space.div`` and similar methods may simplify an
-        # expression to a linear combination. ``Space._make`` creates the atom without simplification.
+        # An atom must not be a linear combination, so ``Space._make`` creates it without simplification.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 
     def _power(self, node: Expr) -> Sum:
         """Return the linear combination of a node c y^n, where c is a number and y = 1/sqrt x.
 
-        For n = 2 m the power y^n becomes 1/x^m. For n = 2 m + 1 it becomes 1/(x^m sqrt x).
+        Here y^(2 m) = 1/x^m and y^(2 m + 1) = 1/(x^m sqrt x).
         """
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()
@@ -220,10 +197,7 @@ class _Gathering:
         return {atom.id: (c, atom)}
 
     def _content(self, node: Expr) -> tuple[Number, Expr]:
-        """Return a number c and an expression x such that the node equals c x.
-
-        If the node is zero or a sum of several terms, c is 1 and x is the whole node.
-        """
+        """Return a number c and an expression x such that the node equals c x."""
         total = self.sums[node.id]
         # A sum is not divided by a common factor, because other expressions may contain the same sum.
         if len(total) != 1:
@@ -241,13 +215,8 @@ def _size(c: Number) -> Number:
 
 
 def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
-    """Return the linear combination with the terms ``total`` as an expression.
-
-    Terms whose coefficients have the same absolute value share one product. For example, 3/2 a - 3/2 b
-    becomes 3/2 (a - b).
-    """
-    # Terms with the same |c| form a group. For example, 3/2 a - 3/2 b is one group and needs one product.
-    # The groups have the order of their first terms.
+    """Return the linear combination with the terms ``total`` as an expression."""
+    # Terms with the same |c| form a group, which needs only one product.
     groups: dict[object, list[tuple[bool, Expr]]] = {}
     sizes: dict[object, Number] = {}
     key: object
@@ -261,7 +230,6 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
         for minus, atom in terms[1:]:
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # If the first term of a group is negative, the group is subtracted. Hence the factor of a group is
-        # never negative, and emitted code does not need both constants c and -c.
+        # The factor of a group is never negative, so emitted code does not need both constants c and -c.
         result = result - part if first else result + part
     return result

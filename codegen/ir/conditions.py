@@ -1,8 +1,7 @@
 """The conditions of sympy's ``Piecewise``: comparisons of expressions, joined by And, Or and Not.
 
 ``choose(x, yes, no)`` (:data:`codegen.ir.selection.CHOOSE`) selects one of two expressions by the sign of x.
-Every comparison a > b becomes a call of ``choose`` with x = a - b. Emitted code evaluates both expressions,
-so it needs no branches for conditions.
+Every comparison a > b becomes a call of ``choose`` with x = a - b. Emitted code evaluates both expressions.
 """
 
 from __future__ import annotations
@@ -36,8 +35,7 @@ def negation(condition: Condition) -> Condition:
 
 def both(a: Condition, b: Condition) -> Condition:
     """Return the conjunction of the conditions a and b."""
-    # If condition a is true, condition b selects ``yes`` or ``no``. If condition a is false, the result is
-    # ``no``.
+    # If condition a is true, condition b selects ``yes`` or ``no``.
     return lambda yes, no: a(b(yes, no), no)
 
 
@@ -47,11 +45,11 @@ def always(yes: Expr, no: Expr) -> Expr:
 
 
 def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], where: str) -> Condition:
-    """Convert a condition of sympy to a :data:`Condition`. The function ``node`` converts the two sides of a
-    comparison from sympy to :class:`Expr`. Error messages contain ``where``, the place of the formula.
+    """Convert a condition of sympy to a :data:`Condition`.
 
-    A condition may contain comparisons that are joined by And, Or and Not. For all other conditions,
-    :class:`SceneError` is raised.
+    The function ``node`` converts the two sides of a comparison from sympy to :class:`Expr`. ``where`` is the
+    place of the formula in error messages. Comparisons may be joined by And, Or and Not. For all other
+    conditions, :class:`SceneError` is raised.
     """
     import sympy
 
@@ -66,11 +64,10 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
     if isinstance(condition, sympy.And | sympy.Or):
         joins_all = isinstance(condition, sympy.And)
         total: Condition = always
-        # Sorting makes the result reproducible. The order of the operands in sympy depends on hashes.
+        # The order of the operands in sympy depends on hashes.
         for part in sorted(condition.args, key=sympy.default_sort_key):
             total = both(total, inner(part) if joins_all else negation(inner(part)))
-        # For Or, the operands were negated, so ``total`` means that no operand is true. The negation of
-        # ``total`` means that at least one operand is true (De Morgan's rule).
+        # For Or, the operands were negated, so the result is the negation of ``total`` (De Morgan's rule).
         return total if joins_all else negation(total)
     if not isinstance(condition, sympy.core.relational.Relational):
         raise SceneError(f"{condition} is not a condition", where=where, expected=EXPECTED)
@@ -81,7 +78,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
             return above
         case sympy.StrictLessThan():
             return below
-        # ``choose`` only tests whether its first argument is positive. Hence a >= b becomes not (b > a).
+        # The comparison a >= b becomes not (b > a), because ``choose`` tests only for positive values.
         case sympy.GreaterThan():
             return negation(below)
         case sympy.LessThan():

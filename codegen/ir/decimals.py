@@ -1,7 +1,6 @@
 """Conversion of floats in a user's formulas to exact fractions.
 
-A float becomes the shortest decimal that rounds to this float, so 0.1 becomes 1/10. The exact binary value of
-the float is not used. For 0.1 it would be 3602879701896397/36028797018963968.
+A float becomes the shortest decimal that rounds to this float, so 0.1 becomes 1/10.
 """
 
 from __future__ import annotations
@@ -26,8 +25,7 @@ def decimal(value: sympy.Float) -> Fraction:
     from mpmath.libmp import from_str, to_str
 
     bits = int(value._prec)
-    # A number with b bits is determined by 0.30103 b + 2 decimal digits. Hence the loop always ends with
-    # ``break``.
+    # The loop ends with ``break``, because 0.30103 b + 2 decimal digits determine a number with b bits.
     for digits in range(1, int(bits * DIGITS_OF_BITS) + 3):
         text = to_str(value._mpf_, digits)
         if from_str(text, bits, "n") == value._mpf_:
@@ -50,12 +48,11 @@ def exact(value: object) -> Fraction | None:
     import sympy
 
     try:
-        # ``Rational`` converts a text such as "1/3" or "0.1" exactly. ``sympify`` with ``strict=True``
-        # converts numbers only, and raises an error for a text.
+        # ``sympify`` with ``strict=True`` converts numbers only, and raises an error for a text.
         number = sympy.Rational(value) if isinstance(value, str) else sympy.sympify(value, strict=True)
     except (sympy.SympifyError, TypeError, ValueError):
         return None
-    # ``sympify`` converts a float of Python to a ``Float`` of sympy. ``decimal`` converts 0.1 to 1/10.
+    # ``sympify`` converts a float of Python to a ``Float`` of sympy.
     if isinstance(number, sympy.Float):
         return decimal(number)
     if not getattr(number, "is_Rational", False):

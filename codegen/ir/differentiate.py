@@ -26,15 +26,13 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     >>> gradient(x * x * x, ["x", "y"])[1]
     0
     """
-    # The adjoint of a node is the derivative of ``root`` with respect to the node. Hence the adjoint of
-    # ``root`` is 1. ``bars`` contains the adjoints by node number.
+    # ``bars`` maps node numbers to adjoints, the derivatives of ``root`` with respect to the nodes.
     space = root.space
     bars: dict[int, Expr] = {root.id: space.one}
-    # A node is visited after all nodes that use it. At this point its adjoint is complete.
+    # A node is visited after all nodes that use it, so its adjoint is complete.
     for node in reversed(list(walk([root]))):
         bar = bars.get(node.id)
-        # The adjoint of a node is zero if its terms cancel. A zero adjoint contributes nothing to the
-        # adjoints of the arguments.
+        # A zero adjoint contributes nothing to the adjoints of the arguments.
         if bar is None or bar is space.zero:
             continue
         for arg, factor in zip(node.args, partials(node), strict=True):
@@ -45,9 +43,9 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in the order of the arguments.
 
-    Derivatives of vector functions are expensive. For a result of a vector function, derivatives are computed
-    only with respect to arguments whose node numbers are in ``moving``. For the other arguments, zero is
-    returned. If ``moving`` is None, all derivatives are computed.
+    For a result of a vector function, derivatives are computed only with respect to arguments whose node
+    numbers are in ``moving``. For the other arguments, zero is returned. If ``moving`` is None, all
+    derivatives are computed.
 
     :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
@@ -60,8 +58,7 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
         case "mul":
             return [args[1], args[0]]
         case "div":
-            # The derivatives of a/b are 1/b and -(a/b)(1/b). The node itself is a/b, so 1/b is the only
-            # new division.
+            # The node is a/b, so 1/b is the only new division.
             inverse = space.one / args[1]
             return [inverse, -(node * inverse)]
         case "neg":
@@ -73,8 +70,7 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
             result = component(node.payload)
             if result is None:
                 return _derivatives(node)
-            # The derivative of a vector function consists of many expressions. Hence it is computed only for
-            # the arguments in ``moving``.
+            # The derivative of a vector function consists of many expressions.
             wanted = [moving is None or a.id in moving for a in node.args]
             return [partial(node, *result, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:
@@ -82,8 +78,7 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
 
 
 def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each function
-    """Return the partial derivatives of ``node`` with respect to its arguments. ``node`` is a call of a
-    scalar function.
+    """Return the partial derivatives of ``node``, a call of a scalar function.
 
     The Stumpff functions c_k satisfy c_k' = (k c_{k+2} - c_{k+1})/2.
     """
@@ -95,8 +90,7 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case name if name in (ABSOLUTE, CHOOSE):
             return _selection(node)
         case name if name == ANGLE:
-            # The node is atan2(x, b). The derivatives of atan2(x, b) with respect to x and b are
-            # b/(x^2 + b^2) and -x/(x^2 + b^2).
+            # The derivatives of atan2(x, b) with respect to x and b are b/(x^2 + b^2) and -x/(x^2 + b^2).
             size = x * x + node.args[1] * node.args[1]
             return [node.args[1] / size, -(x / size)]
         case "sqrt":
@@ -111,14 +105,12 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
             return [node]
         case "log":
             return [space.one / x]
-        # The Stumpff function c_0 has the derivative -c_1/2. ``stumpff0`` computes c_0(x) for x >= 0 only.
-        # ``signed_stumpff0`` computes c_0(x) for all x.
+        # The Stumpff function c_0 has the derivative -c_1/2.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
             return [half * (space.call("stumpff3", x) - space.call("stumpff2", x))]
-        # The formula for c_2' contains c_4, and the formula for c_3' contains c_5. Emitted code has no
-        # functions for c_4 and c_5. Therefore the functions ``slope2`` and ``slope3`` compute c_2' and c_3'.
+        # The formulas for c_2' and c_3' contain c_4 and c_5, for which emitted code has no functions.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
         case "slope2" | "slope3" as name:
@@ -128,8 +120,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case "signed_stumpff1" | "signed_stumpff2" | "signed_stumpff3" as name:
             return [space.call(f"signed_slope{name[-1]}", x)]
         case "quotient":
-            # The derivatives of quotient(a, b) contain 1/b. For b = 0 they are set to 0, because a division
-            # would give infinity.
+            # For b = 0 the derivatives of quotient(a, b) are set to 0, because a division would give
+            # infinity.
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:
@@ -144,16 +136,14 @@ def sign(x: Expr) -> Expr:
 
 
 def _selection(node: Expr) -> list[Expr]:
-    """Return the partial derivatives of ``fabs(x)`` or ``choose(x, a, b)``.
+    """Return the partial derivatives of ``fabs(x)`` or ``choose(x, a, b)`` (``a`` for x > 0, else ``b``).
 
-    ``choose(x, a, b)`` equals ``a`` for x > 0, and ``b`` for x <= 0. At x = 0, the derivatives of both
-    functions with respect to x are set to 0.
+    At x = 0, the derivatives of both functions with respect to x are set to 0.
     """
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # The derivative of ``choose(x, a, b)`` with respect to x is 0, except at the jump at x = 0. If a or b is
-    # a constant, the derivative with respect to this constant is not needed, so 0 is returned for it.
+    # The derivative with respect to a constant a or b is not needed, so 0 is returned for it.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]
