@@ -1,9 +1,9 @@
 """Domains: number types for the steps of integrators and the operations of Lie groups.
 
-The numbers (scalars) of a domain are floats, mpmath numbers, truncated power series in h, or expressions.
-Every group operation is implemented once, for all domains. Evaluation with expressions gives the formulas of
-emitted code. All scalars have the operators +, -, * and /. The domain supplies constants, named functions,
-the step size h, and a convergence test for iterations."""
+The numbers (scalars) of a domain are floats, mpmath numbers, truncated power series in the step size h, or
+expressions. All scalars have the operators +, -, * and /. The domain supplies constants, named functions, h,
+and a convergence test for iterations.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class NotConverged(ArithmeticError):
 
 # The types of scalars (float, mpf, arb, series and Expr) have the same operators, but no common base class.
 Scalar: TypeAlias = Any
-"""A number (scalar) of a domain. The type of a scalar depends on the domain and is known only at run time."""
+"""A number (scalar) of a domain. The type of a scalar depends on the domain."""
 
 Value: TypeAlias = Any
 """The value of a variable: a scalar for a real number, otherwise a flat tuple of scalars."""
@@ -55,9 +55,10 @@ class Domain(Protocol):
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the pair (converged, change) after one sweep of an iteration. The sweep replaces the values
-        ``old`` by ``new``. The change is the largest absolute difference of ``old`` and ``new``. ``previous``
-        is the change in the preceding sweep. In the first sweep, ``previous`` is None."""
+        """Return the pair (converged, change) after a sweep of an iteration from ``old`` to ``new``. The
+        change is the largest absolute difference of ``old`` and ``new``. ``previous`` is the change in the
+        preceding sweep, or None in the first sweep.
+        """
 
 
 class Differenced(Domain, Protocol):
@@ -70,9 +71,8 @@ class Differenced(Domain, Protocol):
 def stumpff(k: int, z: float) -> float:
     """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3 and real z.
 
-    For large z, c_k contains sin s or cos s with s = sqrt z. The rounding error of s causes an error of about
-    2^-53 s in the sine and the cosine. For z > 2^52 the result is NaN. In emitted code the bound is smaller
-    (:func:`codegen.snippets.stumpff.limit`).
+    For large z, the computed sine and cosine of sqrt z have errors of about 2^-53 sqrt z. For z > 2^52 the
+    result is NaN.
 
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
@@ -90,10 +90,9 @@ def stumpff(k: int, z: float) -> float:
         return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
-    # The formula for c_3 contains the difference s - sin s with s = sqrt z. For small s, this difference
-    # loses digits by cancellation. For c_3, the series is therefore used for s < 2, that is, for z < 4.
+    # For s = sqrt z < 2, the difference s - sin s in the formula for c_3 loses digits by cancellation.
     if z < (0.5 if k < 3 else 4.0):
-        # Horner's rule begins with the power z^14. The first omitted term is below 1e-27 for abs(z) <= 4.
+        # The first omitted term of the series is below 1e-27 for abs(z) <= 4.
         total, j = 0.0, 14
         while j >= 0:
             total = 1.0 / math.factorial(2 * j + k) - z * total
@@ -103,8 +102,8 @@ def stumpff(k: int, z: float) -> float:
     if k == 1:
         return math.sin(root) / root
     if k == 2:
-        # The function c_2(z) is (1 - cos s)/z with s = sqrt z. The difference 1 - cos s is computed as
-        # 2 sin^2(s/2), because the subtraction would lose digits by cancellation for small s.
+        # In c_2 = (1 - cos s)/s^2, the difference is computed as 2 sin^2(s/2), because the subtraction would
+        # lose digits for small s.
         half = math.sin(root / 2)
         return 2 * half * half / z
     return (root - math.sin(root)) / (z * root)
@@ -113,8 +112,7 @@ def stumpff(k: int, z: float) -> float:
 def slope(k: int, z: float) -> float:
     """Return the derivative c_k'(z) of the Stumpff function c_k for k = 1, 2, 3, and positive or negative z.
 
-    For abs(z) <= 1 the power series of c_k' is summed. Otherwise c_k' is computed as
-    (c_{k-1} - k c_k)/(2 z).
+    For z != 0, c_k' is (c_{k-1} - k c_k)/(2 z).
 
     >>> slope(2, 0.0) == -1 / 24, slope(3, 0.0) == -1 / 120
     (True, True)
@@ -131,8 +129,7 @@ def slope(k: int, z: float) -> float:
 def curvature(k: int, z: float) -> float:
     """Return the second derivative c_k''(z) of the Stumpff function c_k for k = 2, 3 and z >= 0.
 
-    For z <= 1 the power series of c_k'' is summed. Otherwise c_k'' is computed as
-    (c_{k-2} - (2 k + 1) c_{k-1} + k (k + 2) c_k)/(2 z)^2.
+    For z != 0, c_k'' is (c_{k-2} - (2 k + 1) c_{k-1} + k (k + 2) c_k)/(2 z)^2.
 
     >>> curvature(2, 0.0) == 2 / 720
     True
@@ -185,26 +182,23 @@ class FloatDomain:
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Return the pair (converged, change), see :meth:`Domain.settled`."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
-        # All comparisons below are false for a NaN. Without this test, a NaN would not end the iteration.
+        # Without this test, a NaN would not end the iteration.
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
-        # ``change`` is compared with the largest unknown. A small unknown can be a sum of large terms that
-        # cancel. The rounding errors of the large terms do not cancel.
+        # A small unknown can have the rounding errors of large terms that cancel, so ``change`` is compared
+        # with the largest unknown.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # With q = ``change``/``before``, the next change is about q * ``change``. This next change must be
-        # smaller than the rounding error of the largest unknown. As q is inaccurate, ``change`` itself must
-        # also be small.
+        # The next change, about ``change``^2/``before``, must be smaller than the rounding error of the
+        # largest unknown. As this estimate is inaccurate, ``change`` itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
-        # Small changes that no longer decrease are rounding errors. Large changes that no longer decrease are
-        # a sign of divergence.
+        # Small changes that no longer decrease are rounding errors.
         return change == 0.0 or 0 < before <= change <= 2.0**-44 * max(1.0, scale), change
 
     def increment(self, x: float) -> float:
         """Return the increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
-        # For abs(x) <= 1, the difference quotient has a rounding error of about 2^-53/d and a truncation
-        # error of about d. The two errors are about equal for d = 2^-26. For abs(x) > 1, d is 2^-26 abs(x).
+        # For abs(x) <= 1, the rounding error 2^-53/d is about equal to the truncation error d if d is 2^-26.
         return math.ldexp(max(1.0, abs(x)), -26)
 
 
@@ -213,11 +207,10 @@ LARGEST_BITS = 16384
 
 
 class PreciseDomain:
-    """The arithmetic of mpmath numbers with ``digits`` decimal digits. Each instance has its own mpmath
-    context.
+    """The arithmetic of mpmath numbers with ``digits`` decimal digits.
 
-    Let n be :data:`LARGEST_BITS`. If an argument of a function has an absolute value of 2^n or more,
-    OverflowError is raised. A divergent iteration therefore ends before mpmath functions become very slow.
+    If an argument of a function has an absolute value of 2^n or more with n = :data:`LARGEST_BITS`,
+    OverflowError is raised.
     """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
@@ -269,8 +262,7 @@ class PreciseDomain:
             return closed[k] if k < 3 else (root - sine) / (root * z)
         total, j = self.context.mpf(0), 0
         term = self.context.mpf(1) / math.factorial(k)
-        # Terms below eps/1024 do not change the digits of the sum. Here eps is the distance from 1 to the
-        # next larger number.
+        # Terms below eps/1024 do not change the digits of the sum.
         while abs(term) > self.context.eps / 1024:
             total += term
             j += 1
@@ -282,8 +274,7 @@ class PreciseDomain:
         return named(function).in_digits(self.context, self.digits, args)
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
-        """Return the derivative c_k'(z) of the Stumpff function c_k. For abs(z) <= 1 the power series of
-        c_k' is summed. Otherwise c_k' is computed from c_{k-1} and c_k."""
+        """Return the derivative c_k'(z) of the Stumpff function c_k."""
         if abs(z) > 1:
             return (self.call(f"stumpff{k - 1}", z) - k * self.call(f"stumpff{k}", z)) / (2 * z)
         total, j = self.context.mpf(0), 1
@@ -295,8 +286,7 @@ class PreciseDomain:
         return total
 
     def _curvature(self, k: int, z: Scalar) -> Scalar:
-        """Return the second derivative c_k''(z) of the Stumpff function c_k. For abs(z) <= 1 the power
-        series of c_k'' is summed. Otherwise c_k'' is computed from c_{k-2}, c_{k-1} and c_k."""
+        """Return the second derivative c_k''(z) of the Stumpff function c_k."""
         if abs(z) > 1:
             a, b, c = (self.call(f"stumpff{i}", z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
@@ -322,9 +312,9 @@ class PreciseDomain:
 
 
 class SeriesDomain:
-    """The arithmetic of power series in h over an exact ring ``base``. Powers above h^``order`` are
-    truncated. The Taylor coefficients of the local error of a step are exact in this arithmetic. If the
-    coefficients of the local error up to h^p are zero, the step has the order p."""
+    """The arithmetic of power series in the step size h over an exact ring ``base``. Powers above h^``order``
+    are truncated.
+    """
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
@@ -344,9 +334,9 @@ class SeriesDomain:
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the series of ``function`` at the series ``args``. ArithmeticError is raised if the result
-        cannot be computed exactly. For example, the argument of sin must have no constant term. The function
-        ``quotient`` divides two series. If the divisor begins with the power h^v, truncation makes the last v
-        coefficients of the quotient unknown. These coefficients are set to zero."""
+        cannot be computed exactly. If the divisor of ``quotient`` begins with the power h^v, the last v
+        coefficients of the quotient are unknown and set to zero.
+        """
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
@@ -362,13 +352,13 @@ class SeriesDomain:
             "sinh": (1, 2, z),
             "cosh": (0, 2, one),
         }
-        # sin, cos and exp of a non-zero algebraic number are transcendental. The exact field ``base``
-        # contains algebraic numbers only.
+        # sin, cos and exp of a non-zero algebraic number are transcendental, so they are not in the field
+        # ``base``.
         if self.base.is_zero(z.coefficients[0]) is not True:
             raise ArithmeticError(f"{function} of a series with a constant term cannot be computed exactly")
         if "slope" in function:
             k = int(function[-1])
-            # This is the formula c_k' = (k c_{k+2} - c_{k+1})/2. For series, c_k is available for every k.
+            # This is the formula c_k' = (k c_{k+2} - c_{k+1})/2.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
             return (k * c - d) * self.ring.rational(1, 2)
         if "curvature" in function:
@@ -387,8 +377,7 @@ class SeriesDomain:
         if function not in starts:
             raise ArithmeticError(f"the function {function} cannot be computed for exact power series")
         k, step, first = starts[function]
-        # ``_sum`` computes a series with alternating signs. The series of sin and cos have alternating signs.
-        # The series of exp, sinh and cosh have no negative coefficients, so ``power`` is negated for them.
+        # ``_sum`` computes a series with alternating signs, so ``power`` is negated for exp, sinh and cosh.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
@@ -401,8 +390,9 @@ class SeriesDomain:
         return -1 if self.base.approximate(start).startswith("-") else 1
 
     def _angle(self, y: Scalar, x: Scalar) -> Scalar:
-        """Return the series atan2(y, x). At h = 0, the point (x, y) must be on the positive x-axis. Other
-        points cause an ArithmeticError, because their angles are not algebraic numbers."""
+        """Return the series atan2(y, x). If the point (x, y) is not on the positive x-axis at h = 0,
+        ArithmeticError is raised.
+        """
         if self.base.is_zero(y.coefficients[0]) is not True or self._sign(x) < 0:
             raise ArithmeticError("atan2(y, x) is exact only if (x, y) is on the positive x-axis at h = 0")
         return self._arc("atan", y / x)
@@ -424,15 +414,14 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return the series a/b. If b is zero, return 0. If a begins with a lower power of h than b, a/b has
-        a pole at h = 0, and ArithmeticError is raised."""
+        """Return the series a/b, or 0 if b is zero. If a/b has a pole at h = 0, ArithmeticError is raised."""
         # ``power`` is the exponent of the lowest power of h in b.
         power = self.ring.valuation(b)
         if power > self.order:
             return self.ring.zero
         if self.ring.valuation(a) < power:
             raise ArithmeticError("a quotient of power series has a pole at h = 0")
-        # The series a and b are divided by h^power. The new divisor has a constant term, so it is invertible.
+        # After the division by h^power, the divisor has a constant term, so it is invertible.
         shifted = (self.ring.from_coefficients(x.coefficients[power:]) for x in (a, b))
         return next(shifted) / next(shifted)
 
@@ -444,27 +433,26 @@ class SeriesDomain:
             # Term j is term j - 1, multiplied by -z and divided by (step j + k)!/(step (j - 1) + k)!.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # The series z has no constant term, so the lowest power of h increases from term to term. Powers
-            # above h^order are truncated. Hence some term is zero, and the loop ends.
+            # The series z has no constant term, so truncation makes some term zero, and the loop ends.
             if self.ring.is_zero(term):
                 return total
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return (True, None) if ``old`` and ``new`` are equal, otherwise (False, None)."""
-        # Each sweep multiplies the error by O(h), so it gives one more correct coefficient. Convergence takes
-        # about order + 1 sweeps.
+        # The iteration ends, because each sweep gives one more correct coefficient.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
 class ExprDomain:
     """The arithmetic of symbolic expressions. The step size ``h`` is a symbol. This domain does not execute
-    iterations. In emitted code, each iteration is a loop."""
+    iterations.
+    """
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The keys are the node numbers of times. Equal times have the same node number.
+        # The keys are the node numbers of times.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:
@@ -487,7 +475,8 @@ class ExprDomain:
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
         """Return a dictionary from the function names ``names`` to symbols. The symbols denote the values of
-        the functions at the time t. The caller of the emitted code supplies the functions."""
+        the functions at the time t.
+        """
         # Stages at equal times use the same symbols, so emitted code needs only one value of each function.
         if t.id not in self.samples:
             k = len(self.samples) + 1

@@ -33,8 +33,7 @@ class Elementary:
 
 
 def _of_cosine(x: Expr, f: Expr) -> Expr:
-    # This is the derivative of sinh. The value f = sinh x is not used, because cosh x is not a polynomial in
-    # sinh x.
+    # The value f = sinh x is not used, because cosh x is not a polynomial in sinh x.
     return x.space.call("cosh", x)
 
 
@@ -85,8 +84,7 @@ ELEMENTARY = {
 """The elementary functions of this module, by name."""
 
 MATHEMATICAL = ("sqrt", "sin", "cos", "exp", "log", *ELEMENTARY)
-"""Functions of one argument. Each function has the same name in the mathematical libraries of C, Python,
-mpmath and python-flint."""
+"""Functions of one argument with the same name in C, Python, mpmath and python-flint."""
 
 ANGLE = "atan2"
 """The function atan2(y, x): the polar angle of the point (x, y), from -pi to pi."""

@@ -1,15 +1,12 @@
-"""The product exp(A) y of the exponential of an n x n matrix A and a vector y. The matrix exp(A) is not
-formed.
+"""The product exp(A) y of the exponential of an n x n matrix A and a vector y.
 
-In doubles, A is divided by a power 2^s. The number s is chosen such that the matrix B = A/2^s has a small
-norm. The vector y is multiplied 2^s times by the Taylor polynomial of exp(B) (A. H. Al-Mohy and N. J. Higham,
-SIAM J. Sci. Comput. 33 (2011) 488). Let m be the degree of the Taylor polynomial. A multiplication by the
-polynomial replaces y by y + B (p/m!). The vector p is the sum of (m!/j!) B^(j-1) y over j = 1, ..., m.
-Horner's rule computes p.
+In doubles, the number s is chosen such that the matrix B = A/2^s has a small norm. The vector y is multiplied
+2^s times by the Taylor polynomial of exp(B) (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011)
+488). Let m be the degree of the Taylor polynomial. A multiplication by the polynomial replaces y by
+y + B (p/m!). The vector p is the sum of (m!/j!) B^(j-1) y over j = 1, ..., m.
 
-The integers m!/j! need no rounding. The coefficients 1/j! would be rounded, with the same rounding errors in
-all steps of an integrator. For a skew matrix A, the length of y would then drift. Emitted code
-and :meth:`ExponentialAction.in_doubles` execute the same operations in the same order.
+The integers m!/j! need no rounding. With rounded coefficients 1/j!, the length of y would drift for a skew
+matrix A.
 """
 
 from __future__ import annotations
@@ -27,14 +24,11 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 HALVINGS = 13
-"""The largest number s of halvings of the matrix A. The vector y is multiplied 2^s times by a Taylor
-polynomial, so more halvings would take too long. If A needs more halvings, all results are NaN.
-"""
+"""The largest number s of halvings of the matrix A. If A needs more halvings, all results are NaN."""
 
 SPARSE = 12
 """If A has more rows than this number, the emitted function contains a loop over all entries of A. For
-smaller matrices, the emitted function contains one sum for each row. The zero entries of a smaller matrix are
-not arguments of the function.
+smaller matrices, the emitted function contains one sum for each row, without the zero entries.
 """
 
 
@@ -48,13 +42,12 @@ def degrees(bits: int) -> tuple[int, ...]:
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
-    # The odd part of an integer is its largest odd divisor. An integer needs no rounding if its
-    # odd part has at most ``bits`` bits. The odd part of m!/j! is not larger than the odd part of m!, so the
-    # loop tests only factorials.
+    # An integer needs no rounding if its largest odd divisor has at most ``bits`` bits. For m!/j!, this
+    # divisor is largest for j = 0.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
-    # Only every fourth degree is returned. A slightly larger degree than necessary costs little time.
+    # Every fourth degree is enough, because a slightly larger degree than necessary costs little time.
     return tuple(range(m, 3, -4))[::-1]
 
 
@@ -70,8 +63,7 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
     The norm is the largest row sum of absolute values. For degree m, the largest norm is
     ((m + 1)! 2^-(bits + 10))^(1/(m + 1)), rounded to three digits. The truncation error of the Taylor
-    polynomial is then about 2^-10 times the unit roundoff 2^-bits. With the factor 2^-10, the sum of the
-    truncation errors of many time steps remains small.
+    polynomial is then about 2^-10 times the unit roundoff 2^-bits.
 
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)
@@ -85,8 +77,8 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 class ExponentialAction(VectorFunction):
     """The function exp(A) y. The arguments are entries of A, row by row, and the vector y.
 
-    If ``pattern`` is 0, all entries of A are arguments. If ``pattern`` is not 0, entry k of A is an
-    argument if bit k of ``pattern`` is set. The entries that are not arguments are zero.
+    If ``pattern`` is not 0, entry k of A is an argument only if bit k of ``pattern`` is set. All other
+    entries are zero.
     """
 
     n: int
@@ -151,8 +143,7 @@ class ExponentialAction(VectorFunction):
         a, e = (self.matrix(x[:entries], space.zero) for x in (args, rates))
         y, v = args[entries:], rates[entries:]
         zeros = [space.zero] * n
-        # The block matrix has the rows (A, A') and (0, A). ``block`` contains the entries of the block matrix
-        # row by row.
+        # The block matrix has the rows (A, A') and (0, A).
         block = [x for i in range(n) for x in (*a[n * i : n * i + n], *e[n * i : n * i + n])]
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
@@ -167,9 +158,9 @@ class ExponentialAction(VectorFunction):
 
         - If ``pattern`` is not 0, the result is None.
         - If A is zero, the result is y.
-        - If A is not zero and has at most :data:`SPARSE` rows, the results are calls of another
-          function. The arguments of the other function are the non-zero entries of A, and y.
-        - If A is not zero and has more rows, the result is None.
+        - If A has at most :data:`SPARSE` rows, the results are calls of a function of y and the
+          non-zero entries of A.
+        - If A has more rows, the result is None.
         """
         # If ``pattern`` is not 0, the zero entries of A are not arguments.
         if self.pattern:
@@ -180,8 +171,7 @@ class ExponentialAction(VectorFunction):
         # If A = 0, then exp(A) y = y.
         if not pattern:
             return tuple(args[size:])
-        # For a large matrix, separate sums for the rows would be long. Emitted code therefore contains a loop
-        # over all entries, including the zero entries.
+        # For a large matrix, a loop over all entries is shorter than separate sums for the rows.
         if self.n > SPARSE:
             return None
         own = ExponentialAction(self.n, pattern)
@@ -214,28 +204,25 @@ class ExponentialAction(VectorFunction):
         for _ in range(parts):
             p, weight = y, 1.0
             for k in range(degree, 1, -1):
-                # Let m be ``degree``. The next line changes ``weight`` from m!/k! to m!/(k - 1)!.
+                # With m = ``degree``, the next line changes ``weight`` from m!/k! to m!/(k - 1)!.
                 weight *= k
-                # The next line is a step of Horner's rule without a division. In this step
-                # p becomes A p + ``weight`` * y.
+                # The next line is a step of Horner's rule without a division.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
-            # Now ``weight`` is m!. The product of the Taylor polynomial and y is y + A (p/m!).
+            # Now ``weight`` is m!, so the product of the Taylor polynomial and y is y + A (p/``weight``).
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
         return tuple(y)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return exp(A) y for mpmath numbers.
 
-        A is an n x n matrix. :class:`OverflowError` is raised if an entry of A has an absolute value of
-        2^40/n or more.
+        OverflowError is raised if an entry of the n x n matrix A has an absolute value of 2^40/n or more.
         """
         entries, rows = len(self.places), self.rows
         largest = max((abs(x) for x in args[:entries]), default=0) * self.n
         if not largest < 2**40:
             raise OverflowError("the norm of the matrix is too large for its exponential")
-        # The vector y is multiplied ``parts`` times by exp(A/``parts``). The row sums of A are at most
-        # ``largest``, so the norm of A/``parts`` is below 1. Therefore the Taylor series of exp(A/``parts``)
-        # loses only few digits by cancellation.
+        # The norm of A/``parts`` is below 1, so the Taylor series of exp(A/``parts``) loses only few digits
+        # by cancellation.
         parts = int(largest) + 1
         work = context.clone()
         # Each product with exp(A/``parts``) adds a rounding error, so the working precision is higher than
@@ -261,15 +248,13 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # Let A = A_0 + H, where A_0 contains the constant terms, and let p be ``ring.order``. The power
-        # A^(n (p + 1)) is a sum of products of A_0 and H. Truncation removes each product with more than p
-        # factors H. Every other product contains A_0^n. If A_0 is nilpotent, then A_0^n = 0, the truncated
-        # power of A is zero, and the loop finds a zero term.
+        # If the matrix A_0 of constant terms is nilpotent, A^(n (p + 1)) = 0 with p = ``ring.order``. Each
+        # product in this power contains A_0^n or more than p factors A - A_0.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)
             term = [factor * x for x in _product(rows, args[:entries], term, ring.zero)]
-            # Each term is A times the previous term, divided by k. After a zero term, all terms are zero.
+            # After a zero term, all terms are zero.
             if all(ring.is_zero(x) is True for x in term):
                 return tuple(total)
             total = [x + z for x, z in zip(total, term, strict=True)]
@@ -281,8 +266,7 @@ def _product(
 ) -> list[Scalar]:
     """Return A y.
 
-    ``a`` contains the entries of A that may be non-zero. ``rows`` contains pairs (k, j) for each row of A:
-    ``a[k]`` is the entry of this row in column j.
+    For each pair (k, j) in ``rows[i]``, ``a[k]`` is the entry of A in row i and column j.
     """
     result = []
     for row in rows:

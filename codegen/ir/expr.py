@@ -1,10 +1,7 @@
 """Scalar expressions. An expression is an immutable node of a :class:`Space`.
 
-In a space, equal expressions are the same object. Nodes are numbered in the order of their creation. Each
-compilation uses a new space, so earlier compilations do not influence the emitted text.
-
-Local rules simplify new nodes. For example, x - x becomes 0. A nested sum (a + b) + c is not replaced by one
-sum of three terms, because other expressions can share the node a + b.
+In a space, equal expressions are the same object. Local rules simplify new nodes. For example, x - x
+becomes 0.
 
 The operations of nodes are ``const`` (a constant :class:`Number`), ``sym`` (a symbol with a name), ``add``,
 ``sub``, ``mul``, ``div``, ``neg``, ``pow`` (integer exponent >= 2), and ``call``. A ``call`` is the value of
@@ -28,22 +25,20 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Payload: TypeAlias = Any
-"""The type of ``Expr.payload``.
-
-The payload is the number of a ``const``, the name of a ``sym``, the exponent of a ``pow``, or the function of
-a ``call``. A function is a name or a :class:`PiecewisePolynomial`. All other nodes have the payload None.
+"""The payload of a node is the number of a ``const``, the name of a ``sym``, the exponent of a ``pow``, or
+the function (a name or a :class:`PiecewisePolynomial`) of a ``call``. All other nodes have the payload None.
 """
 
 FUNCTIONS = (
     *MATHEMATICAL,
     ANGLE,
     *SELECTING,
-    # Stumpff functions c_k(z) = sum_j (-z)^j/(2j+k)! for z >= 0. For example, c_0(z) is cos(sqrt z).
+    # Stumpff functions c_k(z) = sum_j (-z)^j/(2j+k)! for z >= 0.
     "stumpff0",
     "stumpff1",
     "stumpff2",
     "stumpff3",
-    # The functions c_k for positive and negative z. For example, c_0(z) is cosh(sqrt(-z)) for z < 0.
+    # The functions c_k for positive and negative z.
     "signed_stumpff0",
     "signed_stumpff1",
     "signed_stumpff2",
@@ -58,8 +53,7 @@ FUNCTIONS = (
     "signed_slope1",
     "signed_slope2",
     "signed_slope3",
-    # The function quotient(a, b) is a/b for b != 0, and 0 for b = 0. It is used if a/b tends to 0 as b tends
-    # to 0, or if the value for b = 0 has no effect on the final result.
+    # The function quotient(a, b) is a/b for b != 0, and 0 for b = 0.
     "quotient",
 )
 
@@ -67,8 +61,7 @@ FUNCTIONS = (
 class Expr:
     """One node of an expression. Only the methods of a :class:`Space` create nodes."""
 
-    # The default ``==`` and ``hash`` use the identity of objects. They are sufficient, because equal
-    # expressions of one space are the same object.
+    # Equal expressions of one space are the same object, so the default ``==`` and ``hash`` are sufficient.
     __slots__ = ("args", "id", "op", "payload", "space")
 
     def __init__(self, space: Space, id: int, op: str, args: tuple[Expr, ...], payload: Payload) -> None:
@@ -124,8 +117,7 @@ class Space:
     """
 
     def __init__(self) -> None:
-        # Nodes are never removed from the table. The number of a new node is the length of the table, so no
-        # number is used twice.
+        # The number of a new node is the length of the table, so nodes are never removed from the table.
         self._table: dict[tuple[object, ...], Expr] = {}
         self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
         """A cache: the derivatives of calls of vector functions (see
@@ -135,8 +127,8 @@ class Space:
         self.one = self.const(Number.rational(1))
 
     def _make(self, op: str, args: tuple[Expr, ...] = (), payload: Payload = None) -> Expr:
-        # The arguments of a node are created before the node, so their numbers are smaller. Nodes sorted by
-        # number are therefore in topological order.
+        # The arguments of a node are created before the node, so nodes sorted by number are in topological
+        # order.
         key = (op, tuple(a.id for a in args), payload)
         node = self._table.get(key)
         if node is None:
@@ -166,8 +158,7 @@ class Space:
             return self.const(-a.payload)
         if a.op == "neg":
             return a.args[0]
-        # -(a - b) is replaced by b - a, because b - a needs no negation. In floating-point arithmetic
-        # -(a - b) and b - a give the same value, except for the sign of zero.
+        # In floating-point arithmetic, -(a - b) and b - a give the same value, except for the sign of zero.
         if a.op == "sub":
             return self._make("sub", (a.args[1], a.args[0]))
         return self._make("neg", (a,))
@@ -184,7 +175,7 @@ class Space:
             return self.sub(a, b.args[0])
         if a.op == "neg":
             return self.sub(b, a.args[0])
-        # The sum a + a is replaced by the product 2 a. Both have the same floating-point value.
+        # The sum a + a and the product 2 a have the same floating-point value.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
         # Floating-point addition is commutative, so a + b and b + a are one node. Floating-point addition is
@@ -204,8 +195,7 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # Here a = -x. The difference -x - b is replaced by -(x + b). A later sum y + (-(x + b)) becomes
-            # y - (x + b), without a negation.
+            # With a = -x, a later sum y + (-(x + b)) becomes y - (x + b), without a negation.
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
@@ -223,20 +213,18 @@ class Space:
                 return self.neg(b)
             if b.op == "const" and _joinable(a, b):
                 return self.const(a.payload * b.payload)
-            # For constants c and d, the product c (d x) becomes (c d) x. The constant c d is exact, because
-            # constants are rounded only when they are printed.
+            # The product of two constants is exact, because constants are rounded only when they are printed.
             if b.op == "mul" and b.args[0].op == "const" and _joinable(a, b.args[0]):
                 return self.mul(self.const(a.payload * b.args[0].payload), b.args[1])
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
-            # Here b = -y. If a is a constant, the product a b becomes (-a) y. Otherwise, a b becomes -(a y),
-            # and other expressions can share the node a y.
+            # With b = -y, other expressions can share the node a y. A constant a includes the sign instead.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
-        # The factors are sorted by node number. Therefore a b and b a are one node. A constant factor remains
-        # the first argument, because compiler passes expect it there.
+        # The factors are sorted, so a b and b a are one node. A constant factor remains the first argument,
+        # because compiler passes expect it there.
         if a.op != "const" and b.id < a.id:
             a, b = b, a
         return self._make("mul", (a, b))
@@ -248,10 +236,9 @@ class Space:
         if a is self.zero:
             return self.zero
         if b.op == "const":
-            # A multiplication by 1/b is several times faster than a division by b. The constant 1/b is exact
-            # until it is printed.
+            # A multiplication by 1/b is several times faster than a division by b.
             return self.mul(self.const(Number.rational(1) / b.payload), a)
-        # a/a becomes 1, although a may be zero at some point. A divisor is always assumed to be non-zero.
+        # a/a becomes 1, because a divisor is always assumed to be non-zero.
         if a is b:
             return self.one
         if a.op == "neg":
@@ -269,8 +256,7 @@ class Space:
         if n == 1:
             return a
         if a.op == "const":
-            # The power of a constant is computed exactly. Repeated multiplication is fast enough, because
-            # exponents in formulas are small.
+            # Repeated multiplication is fast enough, because exponents in formulas are small.
             value = a.payload
             for _ in range(n - 1):
                 value = value * a.payload
@@ -278,8 +264,8 @@ class Space:
         if a.op == "neg":
             power = self.pow(a.args[0], n)
             return self.neg(power) if n % 2 else power
-        # (sqrt x)^(2m) = x^m holds for x >= 0. Formulas are evaluated only where the arguments of their
-        # square roots are not negative.
+        # (sqrt x)^(2m) is x^m, because formulas are evaluated only where the arguments of their square roots
+        # are not negative.
         if a.op == "call" and a.payload == "sqrt" and n % 2 == 0:
             return self.pow(a.args[0], n // 2)
         return self._make("pow", (a,), n)
@@ -303,7 +289,7 @@ class Space:
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return one call node for each result of a vector function (:mod:`codegen.ir.vector_function`)."""
-        # All these nodes have the same arguments. Therefore the emitter can compute all results in one call.
+        # All these nodes have the same arguments, so the emitter can compute all results in one call.
         given, size = tuple(args), named(function).size
         return tuple(self._make("call", given, f"{function}.{k}") for k in range(size))
 
@@ -318,8 +304,7 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
         test, *values = args[0].args
-        # ``choose(x, 1, -1)`` is positive if and only if x is positive. Therefore
-        # ``choose(choose(x, 1, -1), a, b)`` equals ``choose(x, a, b)``.
+        # ``choose(x, 1, -1)`` is positive if and only if x is positive.
         if [v.payload.text() if v.op == "const" else "" for v in values] == ["1", "-1"]:
             return test.space.call(CHOOSE, test, *args[1:])
     if function not in SELECTING or args[0].op != "const" or not args[0].payload.is_rational:
@@ -338,13 +323,12 @@ def _joinable(a: Expr, b: Expr) -> bool:
 
 
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
-    """Yield each node of the expressions once. The arguments of a node are yielded before the node.
+    """Yield each node of the expressions once, after the arguments of the node.
 
-    If ``stop`` is true for a node, the node is yielded, but the walk does not continue to its arguments.
+    If ``stop`` is true for a node, the walk does not continue to the arguments of the node.
     """
-    # An explicit stack is used in place of recursion, because expressions may be nested more deeply than
-    # Python's recursion limit allows. The loop is written for speed, because a compilation visits millions of
-    # nodes.
+    # An explicit stack replaces recursion, because expressions may be nested more deeply than Python's
+    # recursion limit allows.
     seen: set[Expr] = set()
     users: list[tuple[Expr, Iterator[Expr]]] = []
     for root in roots:
@@ -361,8 +345,7 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     continue
                 seen.add(arg)
                 if arg.args and (stop is None or not stop(arg)):
-                    # The arguments of ``arg`` are visited next. The stack ``users`` contains ``node`` and its
-                    # remaining arguments.
+                    # The arguments of ``arg`` are visited before the remaining arguments of ``node``.
                     users.append((node, args))
                     node, args = arg, iter(arg.args)
                     break
@@ -385,14 +368,12 @@ _BINARY: dict[str, Callable[[Any, Any], Any]] = {
 def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]) -> list[Scalar]:
     """Return the values of the expressions ``roots`` in an arithmetic ``domain`` (:mod:`codegen.ir.domain`).
 
-    ``values`` contains the value of each symbol. If the scalars of ``domain`` are expressions, each symbol is
-    replaced by an expression.
+    ``values`` contains the value of each symbol.
     """
     # ``roots`` is used twice below, but an iterator can be read only once.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
-    # All results of a call of a vector function are computed together. A key of ``vectors`` consists of the
-    # name of the function and the ids of its arguments.
+    # A key of ``vectors`` consists of the name of a vector function and the ids of its arguments.
     vectors: dict[tuple[str, tuple[int, ...]], tuple[Scalar, ...]] = {}
     for node in walk(roots):
         # ``walk`` yields the arguments of a node before the node, so the arguments already have values.
@@ -421,13 +402,12 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
 
 
 def power(x: Scalar, n: int) -> Scalar:
-    """Return x**n for n >= 1 by repeated squaring. The bits of n are read from the leading bit to the last.
+    """Return x**n for n >= 1 by repeated squaring.
 
     Emitted code computes a power by the same sequence of products.
     """
     result = x
-    # ``bin(n)`` begins with "0b" and the leading bit. The loop skips the leading bit, because ``result``
-    # starts at x.
+    # The loop skips "0b" and the leading bit, because ``result`` starts at x.
     for bit in bin(n)[3:]:
         result = result * result
         if bit == "1":

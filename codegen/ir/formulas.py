@@ -24,7 +24,7 @@ class Formulas(ExprDomain):
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the results of a vector function. The results of products and commutators of matrices are
-        scalar formulas. All other functions are evaluated as in :class:`ExprDomain`.
+        scalar formulas.
         """
         called = named(function)
         if isinstance(called, BilinearFunction):

@@ -32,19 +32,18 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""The safe argument of each function. A function is finite at its safe argument.
+"""The safe argument of each function, at which the function is finite.
 
-All branches of a Piecewise formula are evaluated. In a branch that is not selected, a function could be
-infinite or undefined. Therefore the safe argument replaces the argument of the function in this branch.
+In a branch of a Piecewise formula that is not selected, the safe argument replaces the argument of the
+function.
 """
 
 
 def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     """Convert a sympy expression to a node of ``space``.
 
-    Rational numbers stay exact. A float becomes the shortest decimal that rounds to this float, so 0.1
-    becomes 1/10. :class:`SceneError` is raised if a subexpression is not supported. The message names the
-    subexpression and the place of the formula, ``where``.
+    A float becomes the shortest decimal that rounds to this float, so 0.1 becomes 1/10. :class:`SceneError`
+    is raised if a subexpression is not supported. The message names the place ``where`` of the formula.
     """
     import sympy
 
@@ -59,7 +58,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
 
 @dataclass
 class _Reader:
-    """Converts one formula. Each subexpression is converted only once, even if it occurs several times.
+    """Converts one formula.
 
     During the conversion of a branch of a Piecewise formula, ``guard`` is an expression with the value 1 if
     the branch is selected, and -1 otherwise. Outside of Piecewise formulas ``guard`` is None.
@@ -72,8 +71,7 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Convert a sympy expression to a node."""
-        # ``known`` contains the results of earlier conversions. Each result depends on the guard, so the
-        # guard is part of the key.
+        # Each result in ``known`` depends on the guard, so the guard is part of the key.
         key = e, -1 if self.guard is None else self.guard.id
         if key not in self.known:
             self.known[key] = self._read(e)
@@ -88,8 +86,7 @@ class _Reader:
             return self.space.const(Number.rational(int(e.p), int(e.q)))
         if isinstance(e, sympy.Float):
             return self._float(e)
-        # A sum becomes a sequence of additions of two terms. The terms are sorted, because
-        # the rounding errors depend on the order of the additions.
+        # The terms are sorted, because the rounding errors depend on the order of the additions.
         if isinstance(e, sympy.Add):
             return _fold(self.space.add, [self.node(a) for a in _sorted(e)])
         if isinstance(e, sympy.Mul):
@@ -103,14 +100,13 @@ class _Reader:
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
-            # atan2(y, x) is not differentiable at x = y = 0. In a branch of a Piecewise formula that is not
-            # selected, 1 replaces x.
+            # atan2(y, x) is not differentiable at x = y = 0.
             return self.space.call(ANGLE, y, self.guarded(x, 1))
         if name in SELECTIONS:
             return self._selection(name, e)
         table = getattr(e, "polynomial", None)
         if isinstance(table, PiecewisePolynomial):
-            # The last argument is the point of evaluation. All other arguments are the data of the table.
+            # The last argument is the point of evaluation.
             return self.space.call(table, self.node(e.args[-1]))
         if name in JUMPING:
             hint = "use a Piecewise formula or a table that covers the range of the argument"
@@ -135,13 +131,11 @@ class _Reader:
         return self.space.const(Number.rational(*value.as_integer_ratio()))
 
     def guarded(self, x: Expr, safe: int) -> Expr:
-        """Return an expression that replaces the argument x of a function in a branch of a Piecewise formula.
+        """Return an expression with the value x for ``guard`` = 1, and ``safe`` for ``guard`` = -1.
 
-        If the branch is selected, the value of the expression is x. If the branch is not selected, the value
-        is ``safe``. If x is constant or ``guard`` is None, x is returned.
+        If x is constant or ``guard`` is None, x is returned.
         """
-        # All branches are evaluated. In a branch that is not selected, a root, a quotient or a derivative
-        # could be a NaN at x. At the argument ``safe`` the root, the quotient and the derivative are finite.
+        # In a branch that is not selected, a root, a quotient or a derivative could be a NaN at x.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
@@ -155,7 +149,7 @@ class _Reader:
             case "sign":
                 return sign(self.node(e.args[0]))
             case "Heaviside":
-                # The second argument is the value of Heaviside at x = 0. By default, sympy inserts 1/2.
+                # The second argument (by default 1/2) is the value of Heaviside at x = 0.
                 x, middle = map(self.node, e.args)
                 return positive(x)(space.one, positive(-x)(space.zero, middle))
             case "Min":
@@ -166,9 +160,7 @@ class _Reader:
                 return self._piecewise(e)
 
     def _piecewise(self, e: sympy.Piecewise) -> Expr:
-        """Convert a Piecewise formula. The resulting expression evaluates all branches, and then selects one
-        of their values.
-        """
+        """Convert a Piecewise formula to an expression that evaluates all branches and selects one value."""
         import sympy
 
         if e.args[-1][1] != sympy.true:
@@ -177,8 +169,8 @@ class _Reader:
                 where=self.where,
                 expected="a last branch (formula, True)",
             )
-        # ``e`` may be part of a branch of an outer Piecewise formula. ``rest`` is true if the outer branch
-        # is selected and all earlier conditions of ``e`` are false.
+        # ``rest`` is true if the outer branch (if it exists) is selected and all earlier conditions of ``e``
+        # are false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
         for formula, condition in e.args:
@@ -191,14 +183,13 @@ class _Reader:
         self.guard = outer
         # The last branch is the default, because its condition is ``True``.
         (_, total) = branches.pop()
-        # In sympy, the first true condition selects the branch. The choice by the first condition
-        # contains all other choices, so the loop adds it last.
+        # In sympy, the first true condition selects the branch, so the loop adds the first choice last.
         for holds, formula in reversed(branches):
             total = holds(formula, total)
         return total
 
     def _product(self, e: sympy.Mul) -> Expr:
-        """Convert a product. All factors with negative exponents form one divisor."""
+        """Convert a product, with one divisor for all factors with negative exponents."""
         import sympy
 
         # ``above`` contains the factors of the numerator, and ``below`` the factors of the divisor.
@@ -209,7 +200,7 @@ class _Reader:
                 below.append(self._power(self.guarded(self.node(a.base), 1), -a.exp, a))
             else:
                 above.append(self.node(a))
-        # The formula x/(y z) contains one division. The product of x, 1/y and 1/z would contain two.
+        # The formula x/(y z) contains one division instead of two.
         product = _fold(self.space.mul, above) if above else self.space.one
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
 
@@ -221,16 +212,13 @@ class _Reader:
             # An exponent such as 0.5 is converted to the exact fraction 1/2.
             exponent = sympy.Rational(*decimal(exponent).as_integer_ratio())
         if exponent.is_Integer:
-            # A negative power is infinite for the base 0. In a branch of a Piecewise formula that is not
-            # selected, 1 replaces the base.
+            # A negative power is infinite for the base 0.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # In a branch of a Piecewise formula that is not selected, 1 replaces the base. The root and its
-            # derivative are finite at 1.
+            # The root and its derivative are finite at the safe base 1.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
-            # The integer n is odd. If n > 0, the power x^(n/2) is x^m sqrt(x) with m = (n - 1)/2. If n < 0,
-            # the power x^(n/2) is the reciprocal of x^(-n/2).
+            # For odd n > 0, the power x^(n/2) is x^m sqrt(x) with m = (n - 1)/2.
             value = space.mul(space.pow(base, abs(n) // 2), root)
             return value if n > 0 else space.div(space.one, value)
         raise SceneError(
@@ -243,8 +231,7 @@ class _Reader:
 def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
     import sympy
 
-    # In sympy the order of the arguments depends on hashes. The hashes of one expression differ between
-    # processes. Sorting makes the order reproducible.
+    # In sympy the order of the arguments depends on hashes, which differ between processes.
     return sorted(e.args, key=sympy.default_sort_key)
 
 
