@@ -1,18 +1,15 @@
-"""The exponential of an n x n matrix, and the derivatives of the exponential. The matrix entries are doubles,
-numbers with many digits, or power series.
+"""The exponential of an n x n matrix, and the derivatives of the exponential.
 
-Derivatives are computed with jets. A jet of level 1 is a sum A + d E, where A and E are matrices and d is a
-symbol with d^2 = 0. The exponential of this jet is exp(A) + d L. Here L is the derivative of exp at A in the
-direction E.
+A jet of level 1 is a sum A + d E, where A and E are matrices and d is a symbol with d^2 = 0. The exponential
+of this jet is exp(A) + d L. Here L is the derivative of exp at A in the direction E.
 
 A jet of level l contains l symbols d_0, ..., d_(l-1) with d_k^2 = 0. The jet is the sum of the terms A_m e_m
 for m = 0, ..., 2^l - 1. Here A_m is a matrix, and e_m is the product of the symbols d_k for which bit k of m
 is 1. The matrices are stored in the order A_0, A_1, ..., and each matrix is stored row by row.
 
-In doubles the algorithm is scaling and squaring (N. J. Higham, *Functions of Matrices*, SIAM 2008, ch. 10).
-A division by 2^s makes the norm of the matrix small. A Taylor polynomial of degree 4, 8, 12 or 16 is
-evaluated by the method of Paterson and Stockmeyer, and its value is squared s times. Emitted code executes
-the same operations in the same order (:mod:`codegen.run.matrix_functions`).
+In doubles the algorithm is scaling and squaring (N. J. Higham, *Functions of Matrices*, SIAM 2008, ch. 10). A
+Taylor polynomial of degree 4, 8, 12 or 16 is evaluated by the method of Paterson and Stockmeyer. Emitted code
+executes the same operations in the same order (:mod:`codegen.run.matrix_functions`).
 """
 
 from __future__ import annotations
@@ -29,14 +26,10 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Scalar
 
 DEGREES = (4, 8, 12, 16)
-"""The degrees of the Taylor polynomials. For g = 1, 2, 3 and 4, the polynomial of degree 4 g requires g + 2
-products of matrices.
-"""
+"""The degrees of the Taylor polynomials."""
 
 LEAST_DIGITS = 10
-"""If the bound of the relative error of the exponential exceeds 2^-``LEAST_DIGITS``, all results are NaN. Ten
-binary digits are about three decimal digits.
-"""
+"""If the bound of the relative error of the exponential exceeds 2^-``LEAST_DIGITS``, all results are NaN."""
 
 Pairs = tuple[tuple[tuple[int, int], ...], ...]
 
@@ -51,8 +44,7 @@ def pairs(level: int) -> Pairs:
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
     """
-    # If j and k have a common bit, the product e_j e_k contains the square of a symbol and is zero. Otherwise
-    # e_j e_k = e_(j + k). The pairs for m are therefore (j, m - j), where all bits of j are also bits of m.
+    # If j and k have a common bit, the product e_j e_k is zero. Otherwise e_j e_k = e_(j + k).
     masks = range(2**level)
     return tuple(tuple((a, m ^ a) for a in masks if a & m == a) for m in masks)
 
@@ -73,7 +65,7 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
 
 def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
-    """Return the exponential of the jet ``a``. A jet is an n x n matrix with its derivatives.
+    """Return the exponential of the jet ``a``, an n x n matrix with its derivatives.
 
     All results are NaN if at least three correct digits cannot be guaranteed.
     """
@@ -90,13 +82,9 @@ def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
 
 
 def _halvings(norm: float) -> tuple[float, int, float]:
-    """Return the scale 2^-s, the number s of halvings, and the norm of the scaled matrix.
-
-    ``norm`` is the norm of the matrix before scaling.
-    """
+    """Return the scale 2^-s, the number s of halvings, and the norm of the scaled matrix."""
     scale, squarings = 1.0, 0
-    # More than 53 squarings are useless. The relative error is at least 2^-53, and each squaring about
-    # doubles it.
+    # The relative error is at least 2^-53, and each squaring about doubles it.
     while norm * scale > largest_norms(53)[-1] and squarings < 53:
         scale *= 0.5
         squarings += 1
@@ -117,14 +105,12 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
     result: list[Scalar] = []
     for parts in pairs(level):
         factors = [(a[size * p : size * p + size], b[size * q : size * q + size]) for p, q in parts]
-        # The products x y of the pairs (x, y) in ``factors`` are added. ``left`` contains the rows of each
-        # matrix x, and ``right`` contains the columns of each matrix y.
+        # The products x y of the pairs (x, y) in ``factors`` are added.
         left = [[x[n * i : n * i + n] for i in rows] for x, _ in factors]
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                # Entry (i, j) is the sum of row i of x times column j of y over the pairs (x, y), that
-                # is, a sum of products of two numbers. ``merged`` yields the factors of each product.
+                # Entry (i, j) is the sum of row i of x times column j of y over the pairs (x, y).
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
@@ -139,28 +125,25 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
 
 
 def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]:
-    """Return the Taylor polynomial of the exponential, evaluated at ``b1``. Here ``b1`` is a jet (a matrix
-    with its derivatives).
+    """Return the Taylor polynomial of the exponential, evaluated at the jet ``b1``.
 
-    ``norm`` is the norm of the matrix. This norm determines the degree of the polynomial
+    The norm ``norm`` of the first matrix of ``b1`` determines the degree of the polynomial
     (:func:`largest_norms`).
     """
-    # Let A be the argument ``b1``, and let G be ``groups``. The degree of the polynomial is 4 G. For g < G,
-    # the terms of degrees 4 g to 4 g + 3 form group g. Each group is the product of A^(4 g) and a polynomial
-    # of degree 3. The term of degree 4 G belongs to no group.
+    # The degree of the polynomial is 4 ``groups``. For g < ``groups``, the terms of degrees 4 g to 4 g + 3
+    # form group g.
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
-    # ``b2``, ``b3`` and ``b4`` are A^2, A^3 and A^4. These powers are computed once for all groups.
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
-    # In Horner's rule, each pass of the loop multiplies ``total`` by A^4 and adds a polynomial of degree 3.
-    # Before the loop ``total`` is c_(4 G) A^4, so the first pass omits the product with A^4.
+    # In Horner's rule, each pass multiplies ``total`` by the power ``b4`` and adds a polynomial of degree 3.
+    # Before the first pass ``total`` already contains the factor ``b4``.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group
         if group < groups - 1:
             total = product(n, level, total, b4)
-        # The terms of low degree are the largest terms. They are added last to reduce rounding errors.
+        # The terms of low degree, the largest terms, are added last to reduce rounding errors.
         terms = zip(total, b3, b2, b1, strict=True)
         total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
         for i in range(n):
@@ -172,9 +155,8 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
 def _growth(n: int, a: Sequence[float], scale: float) -> float:
     """Return a bound of the spectral norm of exp(``scale`` * ``a``), where ``a`` is an n x n matrix.
 
-    The logarithmic norm of ``a`` is the largest eigenvalue of its symmetric part. Gershgorin's circles give
-    an upper bound of this eigenvalue. The result is the exponential of ``scale`` times this upper bound. For
-    a skew-symmetric matrix the result is 1.
+    The bound is exp(``scale`` b). Gershgorin's circles give an upper bound b of the eigenvalues of the
+    symmetric part of ``a``.
     """
     # The largest eigenvalue can be negative, so no absolute values of the diagonal entries are taken.
     largest = a[0]

@@ -15,9 +15,8 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 EXPANDED = 4
-"""If the sum 1 + A + A^2/2 + ... has at most this number of terms, exp(A) is computed by scalar formulas.
-
-The sum has finitely many terms if a power of the matrix A is zero.
+"""If the sum 1 + A + A^2/2 + ... has at most this number of non-zero terms, exp(A) is computed by scalar
+formulas.
 """
 
 
@@ -27,7 +26,7 @@ class MatrixExponential(VectorFunction):
 
     For ``level`` = 0 the function maps a matrix A to exp(A). For ``level`` = 1 the arguments are A and a
     derivative of A, and the results are exp(A) and the derivative of exp(A). Each further level adds the
-    derivatives of all arguments and of all results. A matrix with its derivatives is called a jet.
+    derivatives of all arguments and of all results.
     """
 
     n: int
@@ -46,16 +45,13 @@ class MatrixExponential(VectorFunction):
     @property
     def operations(self) -> dict[str, int]:
         """Approximate numbers of additions and multiplications in one call. Squarings are not counted."""
-        # The numbers are for a Taylor polynomial of degree 12. It requires five products of jets.
-        # A product of two jets consists of 3^``level`` products of matrices.
+        # A Taylor polynomial of degree 12 requires five products of jets. A product of two jets consists of
+        # 3^``level`` products of matrices.
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivatives of the results. ``rates`` are the derivatives of the arguments ``args``.
-
-        The exponential with ``level`` + 1 computes the results, followed by their derivatives.
-        """
+        """Return the derivatives of the results. ``rates`` are the derivatives of the arguments ``args``."""
         space, both = args[0].space, (*args, *rates)
         next_level = MatrixExponential(self.n, self.level + 1)
         expanded = next_level.expanded(both)
@@ -65,13 +61,11 @@ class MatrixExponential(VectorFunction):
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return the sum 1 + A + A^2/2 + ... if it has at most :data:`EXPANDED` terms, otherwise None.
 
-        A is the jet ``args`` (a matrix with its derivatives). The zeros in A determine the number of terms.
+        A is the jet ``args`` (a matrix with its derivatives).
         """
-        # ``pattern`` contains 0 for each entry of A that is always zero, and 1 for each other entry. If an
-        # entry of the k-th power of ``pattern`` is zero, the entry of A^k in the same place is always zero.
+        # A zero entry of the k-th power of ``pattern`` is always a zero entry of A^k.
         pattern = power = [int(not x.is_zero) for x in args]
-        # If a power of the first matrix is zero, a power of the jet is zero. The reason is that a product of
-        # more than ``level`` terms with a symbol d_k is zero (:mod:`codegen.ir.matrix_exponential`).
+        # If a power of the first matrix is zero, a power of the jet is zero.
         if not is_nilpotent(self.n, pattern):
             return None
         # ``count`` is the number of terms 1, A, A^2/2, ... before the first term that is always zero.
@@ -106,11 +100,9 @@ class MatrixExponential(VectorFunction):
         ``args`` contains A, followed by its derivatives. The matrix of the constant terms of A must be
         nilpotent.
         """
-        # A power of the jet is a sum of products of terms of the jet. One term of the jet is the matrix C of
-        # the constant terms of A. C is nilpotent, so C^n = 0. Each other term contains h or one of the
-        # ``level`` symbols d_k (:mod:`codegen.ir.matrix_exponential`). In a non-zero product, at most
-        # ``ring.order`` factors contain h, at most ``level`` factors contain a d_k, and fewer than n
-        # successive factors are C. The number of factors is therefore less than ``longest``.
+        # In a non-zero product of terms of the jet, at most ``ring.order`` factors contain h and at most
+        # ``level`` contain a symbol d_k. Fewer than n successive factors are the nilpotent matrix of the
+        # constant terms of A.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -165,8 +157,7 @@ class MatrixInverse(VectorFunction):
         """
 
         def size(x: Scalar) -> int:
-            # A pivot must have an inverse. A power series has an inverse if its constant term is not zero,
-            # that is, if its valuation (the lowest exponent of h) is 0.
+            # A pivot must have an inverse, so its valuation (the lowest exponent of h) must be 0.
             return int(ring.valuation(x) == 0)
 
         return self._invertible(matrix_inverse.inverse(self.n, args, ring.one, size))
@@ -180,9 +171,8 @@ class MatrixInverse(VectorFunction):
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
     """Return True if every n x n matrix with the zeros of ``pattern`` is nilpotent.
 
-    The matrix entries at the other positions are arbitrary. The criterion uses a graph with the vertices
-    0, ..., n - 1. Each non-zero entry (i, j) of ``pattern`` is an edge from i to j. The function returns True
-    if this graph has no cycle.
+    Each non-zero entry (i, j) of ``pattern`` is an edge from i to j of a graph. The function returns True if
+    this graph has no cycle.
 
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)
@@ -190,8 +180,8 @@ def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
     # Each pass of the loop removes vertices that are in no cycle from ``left``.
     left = set(range(n))
     while left:
-        # A vertex without an edge to a vertex in ``left`` is in no cycle. If no such vertex exists, every
-        # path in ``left`` can be continued, so the graph has a cycle.
+        # A vertex without an edge to a vertex in ``left`` is in no cycle. If no such vertex exists, the graph
+        # has a cycle.
         ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
         if not ends:
             return False

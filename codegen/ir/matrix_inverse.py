@@ -12,11 +12,10 @@ if TYPE_CHECKING:
 def inverse(
     n: int, a: Sequence[Scalar], one: Scalar, size: Callable[[Scalar], Any]
 ) -> tuple[Scalar, ...] | None:
-    """Return the inverse of a matrix, row by row, or None for a singular matrix.
+    """Return the inverse of the n x n matrix ``a``, row by row, or None for a singular matrix.
 
-    ``a`` contains the entries of the n x n matrix, row by row. ``one`` is the number 1 in the type of the
-    entries. ``size`` compares the entries of a column: the pivot is the remaining entry x with the largest
-    ``size(x)``. Emitted code executes the same operations in the same order.
+    ``one`` is the number 1 in the type of the entries. The pivot is the remaining entry x of a column with
+    the largest ``size(x)``. Emitted code executes the same operations in the same order.
     """
     rows = [list(a[n * i : n * i + n]) for i in range(n)]
     order: list[int] = []
@@ -29,16 +28,15 @@ def inverse(
         rows[k], rows[pivot] = rows[pivot], rows[k]
         factor = one / rows[k][k]
         rows[k] = [x * factor for x in rows[k]]
-        # Elimination turns column k of the matrix into a unit vector. The unit vector is not stored: column k
-        # of ``rows`` is used for a column of the inverse.
+        # Column k of the matrix becomes a unit vector, so column k of ``rows`` stores a column of the
+        # inverse.
         rows[k][k] = factor
         for i in range(n):
             if i != k:
                 multiple = rows[i][k]
                 rows[i] = [x - multiple * y for x, y in zip(rows[i], rows[k], strict=True)]
                 rows[i][k] = -(multiple * factor)
-    # Each row exchange has exchanged two columns of the inverse. The loop undoes the exchanges, the last
-    # exchange first.
+    # Each row exchange has exchanged two columns of the inverse.
     for k in reversed(range(n)):
         for row in rows:
             row[k], row[order[k]] = row[order[k]], row[k]

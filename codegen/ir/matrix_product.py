@@ -48,7 +48,7 @@ class BilinearFunction(VectorFunction):
         # The loop adds f(a', b) and f(a, b').
         for pair in ((*rates[:size], *args[size:]), (*args[:size], *rates[size:])):
             changing = rates[:size] if pair[:size] == tuple(rates[:size]) else rates[size:]
-            # If a' is zero, f(a', b) is omitted. If b' is zero, f(a, b') is omitted.
+            # A term f(a', b) or f(a, b') with a zero derivative is omitted.
             if not all(x.is_zero for x in changing):
                 term = space.vector(self.name, pair)
                 total = tuple(x + y for x, y in zip(total, term, strict=True))
@@ -60,15 +60,13 @@ class BilinearFunction(VectorFunction):
         ``args`` are the entries of a and b, and ``argument`` is the index of this one entry in ``args``.
         """
         space = args[0].space
-        # Let E be the matrix with a 1 at this entry and zeros elsewhere. For an entry of a, the derivative is
-        # f(E, b). For an entry of b, the derivative is f(a, E).
+        # The derivative is f(E, b) or f(a, E), where E has a 1 at this entry and zeros elsewhere.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
         # ``half`` selects the entries of the matrix that E replaces: a or b.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
-        # Most entries of E are zero. Therefore scalar formulas for the result are short, and no call of f is
-        # needed.
+        # Most entries of E are zero, so scalar formulas for the result are short.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:

@@ -3,8 +3,7 @@
 The linear operator L multiplies each mode by its eigenvalue lambda, and N is the nonlinear part. A step of
 size h evaluates N several times, each time at a linear combination of the old state and of earlier values of
 N. The new state is a linear combination of the old state and of all values of N. The coefficients of these
-linear combinations are functions of z = h lambda (:class:`Multiplier`). Emitted code computes these
-coefficients once for each step size.
+linear combinations are functions of z = h lambda (:class:`Multiplier`).
 """
 
 from __future__ import annotations
@@ -26,9 +25,7 @@ phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w itself.
 """
 
 WIDTH = 100
-"""The largest number of characters of a formula on one line. A longer formula is printed with one line for
-each term.
-"""
+"""The largest number of characters of a formula on one line."""
 
 STATE = -1
 """The value of :attr:`Term.source` if the term is a multiple of the old state."""
@@ -51,7 +48,7 @@ class Factor:
     @property
     def order(self) -> tuple[str, float, str]:
         """The sort key of the factor: its function, then its scale."""
-        # Two different scales may round to the same double. The text of the scale then determines the order.
+        # Two different scales may round to the same double.
         return self.function, float(self.scale), self.scale.text()
 
 
@@ -82,8 +79,7 @@ class Multiplier:
             # At 0, POWER has the value 0, EXP has the value 1, and PHI and BERNOULLI have the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # A multiple of z is stored as a coefficient and the factor z. All multiples of z thus have the
-            # same monomial.
+            # All multiples of z must have the same monomial.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -91,7 +87,7 @@ class Multiplier:
         total = dict(self.terms)
         for monomial, value in other.terms.items():
             total[monomial] = total[monomial] + value if monomial in total else value
-        # Terms with the coefficient zero are removed. Equal polynomials therefore have equal terms.
+        # Equal polynomials must have equal terms, so terms with the coefficient zero are removed.
         return Multiplier({m: x for m, x in total.items() if not x.is_zero})
 
     def __mul__(self, other: Multiplier) -> Multiplier:
@@ -158,7 +154,7 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
     # An exponential with the exponent 0 is the factor 1 and is omitted.
     if not exponent.is_zero:
         powers[Factor(EXP, exponent)] = 1
-    # The factors are sorted. Equal products are therefore equal tuples.
+    # The factors are sorted, so equal products are equal tuples.
     return tuple(sorted(powers.items(), key=lambda item: item[0].order))
 
 
@@ -189,9 +185,8 @@ class Table:
 class Term:
     """A coefficient times the old state, or a coefficient times a value of the nonlinear part N.
 
-    If ``source`` is :data:`STATE`, the coefficient multiplies the old state. Otherwise ``source`` is the
-    index of an evaluation of N, and the coefficient multiplies its value. If ``table`` is None, the
-    coefficient is 1. Otherwise ``table`` is the index of the coefficient in :attr:`ModeStep.tables`.
+    ``source`` is :data:`STATE` for the old state, otherwise the index of an evaluation of N. ``table`` is the
+    index of the coefficient in :attr:`ModeStep.tables`, or None for the coefficient 1.
     """
 
     source: int
@@ -214,13 +209,12 @@ class Evaluation:
 class Nonlinearity:
     """The nonlinear part N(u), a sum of x-derivatives of functions f_j.
 
-    - ``inner`` lists the x-derivatives of u that occur in the functions f_j. Each entry is a pair (order,
-      name of the derivative). Order 0 is u itself.
+    - ``inner`` lists the x-derivatives of u in the functions f_j as pairs (order, name). Order 0 is u itself.
     - ``outer`` lists the orders of the x-derivatives of f_1, f_2, ... in the sum.
     - ``formulas`` computes the values of all f_j at one point x. The kernel inputs are the derivatives in
       ``inner``, x, t and the parameters.
-    - ``kept`` is the fraction of the Fourier modes of N that the step uses. To avoid aliasing, the modes with
-      the highest wave numbers are set to zero.
+    - ``kept`` is the fraction of the Fourier modes of N that the step uses. The modes with the highest wave
+      numbers are set to zero to avoid aliasing.
     """
 
     inner: tuple[tuple[int, str], ...]
@@ -233,13 +227,13 @@ class Nonlinearity:
 class ModeStep:
     """One step on Fourier modes.
 
-    - ``tables`` contains the coefficients. A :class:`Term` contains the index of its coefficient.
+    - ``tables`` contains the coefficients.
     - ``evaluations`` contains the evaluations of N, in the order of execution.
-    - ``result`` contains the terms of the new state. The new state is their sum.
+    - ``result`` contains the terms whose sum is the new state.
     - ``nonlinearity`` is the nonlinear part N.
     - ``wave`` and ``space`` are the names of two variables: the wave number and x.
-    - ``symbol`` computes the eigenvalue lambda of L from the wave number. The first output is the real part
-      of lambda. If L may have eigenvalues that are not real, the second output is the imaginary part.
+    - ``symbol`` computes the eigenvalue lambda of L from the wave number. The outputs are the real part and,
+      if L may have eigenvalues that are not real, the imaginary part.
     - ``length`` computes the length of the periodic interval.
     - ``initial`` computes the initial state at the point x.
     """
@@ -278,8 +272,7 @@ class ModeStep:
     def backwards(self) -> bool:
         """True if a coefficient of the step contains exp(c z) or phi_1(c z) with c < 0.
 
-        Here z is h times an eigenvalue of the linear operator L. For negative eigenvalues, exp(c z) and
-        phi_1(c z) with c < 0 grow exponentially with h.
+        Here z is h times an eigenvalue of the linear operator L.
         """
         return any(f.function in (EXP, PHI) and float(f.scale) < 0 for f in self.factors)
 
@@ -287,14 +280,12 @@ class ModeStep:
     def growth(self) -> int:
         """An exponent p that bounds the functions of z in the coefficients (:attr:`Table.multiplier`).
 
-        For z < 0, the absolute value of each function is at most C (1 + |z|)^p. The constant C does not
-        depend on z. If :attr:`backwards` is true, some functions grow exponentially and p has no meaning.
+        For z < 0, the absolute value of each function is at most C (1 + |z|)^p with a constant C. If
+        :attr:`backwards` is true, p has no meaning.
         """
-        # A function with the value d in ``degrees`` grows at most like |z|^d for z -> -infinity. For example,
-        # phi_1(z) behaves like |z|^-1, and z/(exp(z) - 1) behaves like |z|.
+        # A function with the value d in ``degrees`` grows at most like |z|^d for z -> -infinity.
         degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}
-        # The degree of a product is the sum of the degrees of its factors. The result is the degree of the
-        # fastest growing product.
+        # The degree of a product is the sum of the degrees of its factors.
         products = [m for table in self.tables for m in table.multiplier.terms]
         return max((sum(degrees[f.function] * n for f, n in m) for m in products), default=0)
 
@@ -321,7 +312,7 @@ class ModeStep:
         lines += self._sum("new u", self.result, "")
         lines.append("z is h times an eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
         if any(f.function == BERNOULLI for f in self.factors):
-            # The poles are not real. If all eigenvalues are real, the text does not mention the poles.
+            # The poles are not real and do not concern real eigenvalues.
             poles = ", unbounded near the poles z = 2 pi i m for integers m != 0" if self.complex else ""
             lines.append(f"bernoulli(z) = z/(exp(z) - 1){poles}")
         lines.append(f"coefficients for z < 0: {self.bound()}")
@@ -340,7 +331,7 @@ class ModeStep:
         return "all are bounded"
 
     def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:
-        """Return lines with the formula ``name`` = sum of ``terms``. The last line ends with ``remark``."""
+        """Return lines with the formula ``name`` = sum of ``terms``, followed by ``remark``."""
         words = []
         for term in terms:
             source = "u" if term.source == STATE else f"N{term.source + 1}"

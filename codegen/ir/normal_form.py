@@ -2,10 +2,9 @@
 
 A relation is an equation between a product of two symbols and a sum. The expression is expanded as a
 polynomial. The variables of the polynomial are symbols, function calls and inverses. Each product that occurs
-in a relation is replaced by its sum. If g is orthogonal, for example, |g y|^2 becomes |y|^2.
+in a relation is replaced by its sum.
 
-The result is called the normal form of the expression. The normal form is not unique: two equal expressions
-may have different normal forms. The normal form may be longer than the expression.
+The result is the normal form of the expression. Two equal expressions may have different normal forms.
 """
 
 from __future__ import annotations
@@ -23,17 +22,15 @@ of the expression that is the variable.
 Polynomial = dict[Monomial, Number]
 
 Relation = tuple[tuple[str, str], Sequence[tuple[Number, tuple[str, ...]]]]
-"""A pair ((a, b), terms). The product of the symbols a and b equals the sum of the terms. Each term is a
-pair (number, symbols) and denotes the product of the number and the symbols.
+"""The equation a b = sum of the terms for two symbols a and b, as a pair ((a, b), terms). A term (number,
+symbols) is the product of the number and the symbols.
 """
 
 ONE = Number.rational(1)
 MOST_TERMS = 400
-"""The largest number of terms of a product of polynomials. If a product in the expansion of an expression has
-more terms, the expression is not simplified.
+"""If a product in the expansion of an expression has more terms than this, the expression is not simplified.
 
-Without a limit, the simplification of a long expression could be very slow. The limits 200 and 800 lead to
-the same emitted files.
+The limits 200 and 800 lead to the same emitted files.
 """
 
 
@@ -44,15 +41,14 @@ class TooLong(ArithmeticError):
 class NormalForms:
     """Simplifies the expressions of ``space``.
 
-    Each relation in ``relations`` replaces a product of two symbols by a sum (:data:`Relation`). Products are
-    replaced until no relation applies. The caller must choose relations for which this process ends. Each
-    expression in ``whole`` is treated as one variable and is not expanded.
+    Each relation in ``relations`` replaces a product of two symbols by a sum (:data:`Relation`). The caller
+    must choose relations for which repeated replacement ends. Each expression in ``whole`` is treated as one
+    variable.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
         self.space = space
         # Monomials contain node numbers, because integers are faster to sort and hash than expressions.
-        # ``atoms`` maps each node number to its expression.
         self.atoms: dict[int, Expr] = {}
         # An expression in ``whole`` is not expanded: it becomes a variable of the polynomials.
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
@@ -66,11 +62,11 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
-            # The sum ``right`` may contain further products to replace. ``_reduced`` replaces these products.
+            # The sum ``right`` may contain further products to replace.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
-        """Return the simplified form of ``root``. The simplified form equals ``root`` if the relations hold.
+        """Return the simplified form of ``root``.
 
         If a product in the expansion has too many terms, ``root`` itself is returned.
         """
@@ -102,8 +98,7 @@ class NormalForms:
                 case "neg":
                     value = _scaled(args[0], -ONE)
                 case "mul":
-                    # Relations replace products of two symbols. Only a multiplication can create such a
-                    # product, so sums need no reduction.
+                    # Only a multiplication can create a product to replace, so sums need no reduction.
                     value = self._reduced(self._times(args[0], args[1]))
                 case "pow":
                     value = args[0]
@@ -129,8 +124,7 @@ class NormalForms:
         for monomial in terms:
             for atom, _ in monomial:
                 count[atom] = count.get(atom, 0) + 1
-        # The variable that occurs in the most terms is factored out (Horner's rule in several variables). If
-        # two variables occur equally often, the variable with the smaller node number is factored out.
+        # The variable that occurs in the most terms is factored out (Horner's rule in several variables).
         best = max(sorted(count), key=lambda a: count[a], default=-1)
         # If no variable occurs in two terms, factoring out saves no multiplication.
         if best < 0 or count[best] < 2:
@@ -144,8 +138,8 @@ class NormalForms:
                 continue
             powers[best] -= 1
             inside[tuple(sorted((a, n) for a, n in powers.items() if n))] = c
-        # The polynomial is ``best`` times ``inside`` plus ``outside``. The recursion ends: each monomial of
-        # ``inside`` has a lower degree than before, and ``outside`` has fewer terms.
+        # The recursion ends: each monomial of ``inside`` has a lower degree than before, and ``outside`` has
+        # fewer terms.
         product = self.atoms[best] * self.expression(inside)
         return self.expression(outside) + product if outside else product
 
@@ -168,16 +162,14 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # The work is proportional to the number of pairs of terms. Many pairs may have equal products, so the
-        # limit for pairs is larger than ``MOST_TERMS``.
+        # Many pairs of terms may have equal products, so the limit for pairs is larger than ``MOST_TERMS``.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
         for m, x in a.items():
             for n, y in b.items():
                 total = _add(total, _product(m, n), x * y)
-        # If products of sums are nested, the number of terms grows exponentially. Without the limit, the
-        # terms could fill the memory.
+        # If products of sums are nested, the number of terms grows exponentially.
         if len(total) > MOST_TERMS:
             raise TooLong
         return total
@@ -185,14 +177,13 @@ class NormalForms:
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
         """Apply the relations to the products in a polynomial until no relation applies."""
         done: Polynomial = {}
-        # ``popitem`` removes the newest entry. The order of the terms is therefore reproducible.
+        # ``popitem`` removes the newest entry, so the order of the terms is reproducible.
         waiting = dict(polynomial)
         while waiting:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
-                # The relation applies if the product of i and j divides the monomial. If i = j, the exponent
-                # of i must be at least 2.
+                # The relation applies if the product of i and j divides the monomial.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1
@@ -211,8 +202,7 @@ def _product(m: Monomial, n: Monomial) -> Monomial:
     """Return the product of two monomials."""
     if not m or not n:
         return m or n
-    # The pairs of a monomial are sorted by node number. If each node number in m is smaller than each node
-    # number in n, the tuple m + n is sorted.
+    # If each node number in m is smaller than each node number in n, the tuple m + n is sorted.
     if m[-1][0] < n[0][0]:
         return m + n
     if n[-1][0] < m[0][0]:
@@ -226,7 +216,7 @@ def _product(m: Monomial, n: Monomial) -> Monomial:
 def _add(polynomial: Polynomial, monomial: Monomial, c: Number) -> Polynomial:
     old = polynomial.get(monomial)
     value = c if old is None else old + c
-    # Terms with coefficient zero are removed. Equal polynomials are therefore equal dictionaries.
+    # Equal polynomials must be equal dictionaries, so terms with coefficient zero are removed.
     if value.is_zero:
         polynomial.pop(monomial, None)
     else:

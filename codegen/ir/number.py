@@ -1,11 +1,10 @@
 """Constants, such as the coefficients of a Butcher tableau. Each constant is an element of a ring.
 
-Rational and algebraic numbers are stored exactly. Any other number is stored as a ball, that is, as an
-interval that contains the number. When code is printed, each number is rounded to a floating-point number.
+Rational and algebraic numbers are stored exactly. Each other number is stored as a ball (an interval that
+contains the number).
 
-Two balls with equal end points are treated as the same number (:attr:`Number.key`). If both operands are
-the same number, their difference is exactly 0. If this number is not zero, their quotient is exactly 1.
-Multiplication by 1 does not change a ball.
+Two balls with equal end points are treated as the same number (:attr:`Number.key`). If both operands are the
+same number, their difference is exactly 0. If this number is not zero, their quotient is exactly 1.
 """
 
 from __future__ import annotations
@@ -19,8 +18,8 @@ from functools import cached_property
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 
-# The pattern limits the number of digits, and the exponent to three digits. Without these limits,
-# ``Fraction("1e999999999")`` would build an integer with a billion digits.
+# Without limits on the number of digits, ``Fraction("1e999999999")`` would build an integer with a billion
+# digits.
 _TYPED = re.compile(r"[+-]?(\d{1,99}/\d{1,99}|(\d{1,99}\.?\d{0,99}|\.\d{1,99})([eE][+-]?\d{1,3})?)", re.ASCII)
 _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
 
@@ -70,7 +69,7 @@ class Number:
 
     @classmethod
     def read(cls, text: str) -> Number:
-        """Return the number that a user typed as ``text``. Examples are ``1/2``, ``0.25`` and ``-3e-2``.
+        """Return the number that a user typed as ``text``, for example ``1/2`` or ``0.25``.
 
         ValueError is raised if the text is not a rational number, or if :func:`is_normal` is False for this
         number.
@@ -79,8 +78,7 @@ class Number:
         True
         """
         try:
-            # ``Fraction`` converts the text "0.1" to 1/10 exactly. A conversion to float would round the
-            # number.
+            # ``Fraction`` converts the text "0.1" to 1/10 exactly.
             value = Fraction(text) if _TYPED.fullmatch(text) else None
         except ZeroDivisionError:
             value = None
@@ -92,8 +90,7 @@ class Number:
     @cached_property
     def is_zero(self) -> bool:
         """True if this number is provably zero."""
-        # The ring returns None if it cannot decide whether a number is zero. In this case ``is_zero`` is
-        # False.
+        # The ring returns None if it cannot decide whether a number is zero.
         return self.ring.is_zero(self.element) is True
 
     @cached_property
@@ -114,8 +111,7 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
-        # If the rings differ, one ring must be QQ (the rational numbers). The rational number is converted to
-        # the other ring.
+        # If the rings differ, one ring must be QQ (the rational numbers).
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
@@ -125,12 +121,10 @@ class Number:
         raise TypeError(f"numbers of two different rings cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
-        # Rational numbers are added directly. The test ``self == -other`` below is slower, because it
-        # computes the keys of both numbers.
+        # The test ``self == -other`` below is slower, because it computes the keys of both numbers.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
-        # If x is given by a ball (an interval), x + (-x) would be a ball around 0. No simplification treats
-        # such a ball as zero, so the exact 0 is returned here.
+        # If x is given by a ball (an interval), x + (-x) would be a ball around 0.
         if self == -other:
             return Number.rational(0)
         ring, x, y = self._join(other)
@@ -147,16 +141,14 @@ class Number:
     def __mul__(self, other: Number) -> Number:
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element * other.element)
-        # If one factor is 1, the other factor is returned unchanged. A multiplication by 1 in ball arithmetic
-        # could make the ball of the other factor wider.
+        # A multiplication by 1 in ball arithmetic could make the ball of the other factor wider.
         if self.is_one or other.is_one:
             return other if self.is_one else self
         ring, x, y = self._join(other)
         return Number(ring, x * y)
 
     def __truediv__(self, other: Number) -> Number:
-        # If x is given by a ball (an interval), x/x would be a ball around 1. No simplification treats such a
-        # ball as 1, so the exact 1 is returned here.
+        # If x is given by a ball (an interval), x/x would be a ball around 1.
         if self == other and not other.is_zero:
             return Number.rational(1)
         ring, x, y = self._join(other)
@@ -183,7 +175,5 @@ class Number:
         return Fraction(int(self.element.p), int(self.element.q))
 
     def text(self) -> str:
-        """Return this number as text. For a number given by a ball, the text is a rounded decimal. For any
-        other number, the text is exact.
-        """
+        """Return this number as exact text, or as a rounded decimal if the number is given by a ball."""
         return self.ring.text(self.element)

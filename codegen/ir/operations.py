@@ -1,8 +1,7 @@
 """The operations of step programs (:mod:`codegen.ir.program`): one small class for each operation.
 
-A class defines the text of its operation, the evaluation of the operation, and the kinds of its arguments and
-results. A kind is a space such as the Lie algebra or the group. Some classes have the attribute ``dual``. If
-``dual`` is true, the operation acts on the dual of the Lie algebra.
+The kind of an argument or a result is a space such as the Lie algebra or the group. If the attribute ``dual``
+of an operation is true, the operation acts on the dual of the Lie algebra.
 
 The bracket is [x, y] = AB - BA, where A and B are the matrices of x and y. The map ad*_x is the transpose of
 ad_x, without a minus sign. The map Ad*_g is the transpose of Ad_g, without an inverse.
@@ -22,8 +21,8 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
-# Each tuple contains the kind of one argument or result. A sum of tuples contains the kinds of several:
-# ``G + A`` means a group element and an element of the Lie algebra.
+# A sum of tuples contains the kinds of several arguments or results: ``G + A`` means a group element and an
+# element of the Lie algebra.
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -40,8 +39,8 @@ class Problem(Protocol):
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
         """Return the results of the function ``name`` of the group, of its action or of the scene.
 
-        For the truncated dexp^{-1} and its derivative, ``order`` is the order of the truncation. For a Taylor
-        polynomial, ``order`` is the degree. For all other functions, ``order`` is None.
+        ``order`` is the order of a truncated dexp^{-1} or its derivative, the degree of a Taylor polynomial,
+        or None.
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
@@ -51,8 +50,8 @@ class Problem(Protocol):
         """
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
-        """Apply a product of functions of ad_x to the vector v. ``word`` lists the functions. If ``dual`` is
-        true, ad*_x replaces ad_x.
+        """Apply the product of the functions ``word`` of ad_x to the vector v. If ``dual`` is true, ad*_x
+        replaces ad_x.
         """
 
     def dimension(self) -> int:
@@ -66,8 +65,8 @@ class Operation(ABC):
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """``takes`` are the kinds of the arguments, and ``gives`` are the kinds of the results. In some classes,
-    the kinds depend on parameters of the operation. Such a class overrides :meth:`signature`.
+    """``takes`` are the kinds of the arguments, and ``gives`` are the kinds of the results. Classes whose
+    kinds depend on parameters override :meth:`signature`.
     """
     # Compiler passes use linearity to simplify programs, for example ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
@@ -132,8 +131,7 @@ class Zero(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the zero vector."""
-        # ``domain.rational(0)`` has the type of the scalars of the domain. The integer 0 may have another
-        # type.
+        # ``domain.rational(0)`` has the type of the scalars of the domain.
         return ((domain.rational(0),) * problem.dimension(),)
 
 
@@ -148,23 +146,21 @@ class Linear(Operation):
 
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of the arguments and of the result for a combination in the Lie algebra."""
-        # The operation does not store whether its vectors belong to the algebra or to the dual.
-        # :meth:`accepts` permits both.
+        # The vectors may also belong to the dual (:meth:`accepts`).
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if there is one argument for each coefficient, and all arguments and the only result
         belong to the same space: the Lie algebra or its dual.
         """
-        # A sum without terms is not accepted: its kind would be unknown. The operation :class:`Zero` gives
-        # the zero vector.
+        # A sum without terms is not accepted: its kind would be unknown.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
 
     def applied(self, args: Sequence[str]) -> str:
         """Return the text of the operation applied to the arguments with the names ``args``."""
         # The verifier also prints wrong programs, in which the number of coefficients may differ from the
-        # number of arguments. A missing coefficient or argument is printed as a question mark.
+        # number of arguments.
         terms = zip_longest([f"({c.text()})" for c in self.coefficients], args)
         return " + ".join(f"{c or '?'} {a or '?'}" for c, a in terms)
 
@@ -182,7 +178,7 @@ class Linear(Operation):
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
             if not c.is_one:
-                # The scalars may be power series. A product of series is slow and is omitted for c = 1.
+                # A product of power series is slow and is omitted for c = 1.
                 factor = c.evaluate(domain)
                 part = tuple(factor * a for a in part)
             total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))
@@ -292,8 +288,7 @@ class Act(OfGroup):
     noun = "action{s}"
 
 
-# For a matrix A, exp(A) y can be computed from products of A and vectors. These products often take less
-# time than the computation of exp(A).
+# For a matrix A, products of A and vectors often give exp(A) y faster than the matrix exp(A).
 @dataclass(frozen=True)
 class ActExp(OfGroup):
     """The point exp(x).y, computed without the group element exp(x)."""
@@ -323,7 +318,7 @@ class Adjoint(OfGroup):
     @property
     def function(self) -> str:
         """The name of the method of the group that evaluates this operation."""
-        # ``Adt`` means Ad*, the transpose of Ad. A name in Python cannot contain a star.
+        # ``Adt`` means Ad*, the transpose of Ad.
         return f"Ad{'t' if self.dual else ''}{'inv' if self.inverse else ''}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -477,5 +472,5 @@ class AdSeries(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the product of the functions in ``word``, applied to the last argument."""
-        # All factors are functions of the same operator ad_x. Hence the factors commute.
+        # The factors are functions of the same operator ad_x and commute.
         return (problem.series(domain, self.word, self.dual, *args),)
