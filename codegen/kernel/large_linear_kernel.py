@@ -47,10 +47,8 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
     """Compile ``method`` for ``scene``.
 
-    The compiler passes do not depend on A, so they are verified on a small problem with a 3 x 3 matrix A.
-
-    A step may contain exponentials, linear combinations and brackets. MethodError is raised for methods with
-    other operations, with step control or with implicit stages.
+    MethodError is raised for step control, implicit stages, and operations other than exponentials, linear
+    combinations and brackets.
     """
     if method.adaptive:
         expected = "a run with constant steps"
@@ -73,8 +71,8 @@ def _model(timed: bool) -> Problem:
 def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of a program on a large linear problem.
 
-    A step may contain exponentials, linear combinations and brackets. MethodError is raised for other
-    operations and for implicit stages.
+    MethodError is raised for implicit stages, and for operations other than exponentials, linear combinations
+    and brackets.
     """
     assert isinstance(scene.matrices, LinearField)
     step = _Builder(program, scene, scene.matrices).step()
@@ -199,7 +197,7 @@ class _Builder:
     def node(self, time: Expr) -> int:
         """Return the index of the node ``time``, a time at which A is evaluated.
 
-        A new node is added to ``times``. Evaluations of A at equal times share a node.
+        Evaluations of A at equal times share a node.
         """
         if time not in self.times:
             self.times.append(time)
@@ -228,9 +226,8 @@ class _Builder:
     def bracket(self, x: _Value, y: _Value) -> _Value:
         """Return [x, y].
 
-        If x and y contain no commutators, :func:`_difference` subtracts a multiple of y from x. The new x is
-        usually a combination of differences A(t_i) - A(t_j). For small h these differences are small, so the
-        bound of the norm of [x, y] is smaller.
+        If x and y contain no commutators, :func:`_difference` usually decreases the bound of the norm
+        of [x, y].
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
@@ -254,10 +251,7 @@ class _Builder:
         return self.sum(terms)
 
     def element(self, value: _Value) -> Element:
-        """Return ``value`` as an :class:`Element`, the sum of a letter and of multiples of commutators.
-
-        The letter is a linear combination of the matrices h A(t_i). Equal letters are stored only once.
-        """
+        """Return ``value`` as an :class:`Element`, the sum of a letter and of multiples of commutators."""
         letter = None
         if value.nodes:
             # The pairs are sorted by node, so equal linear combinations have equal keys.
@@ -310,12 +304,12 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
 
 
 def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
-    """Return x - c y and y for a number c. The commutator of x - c y and y is [x, y].
+    """Return x - c y and y for a number c.
 
-    If possible, the coefficients of x - c y add up to zero. If no c has this property, c is 0.
+    If possible, the coefficients of x - c y add up to zero.
     """
     totals = [_total(x), _total(y)]
-    # If the coefficients of x add up to zero, c is 0. If those of y add up to zero, no c has the property.
+    # If the coefficients of x or of y add up to zero, c is 0.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
     ratio = totals[0] / totals[1]

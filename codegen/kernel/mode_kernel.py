@@ -1,9 +1,9 @@
 """Translates programs for semilinear problems u' = L u + N(u) to steps on Fourier modes.
 
 On one Fourier mode, L is a number lambda. The affine maps u -> exp(t lambda) u + c form a group. The pair
-(a, b) denotes the vector field u -> a lambda u + b, an element of the Lie algebra of this group. In a step, b
-is a linear combination of values of N. The coefficients of b are functions of z = h lambda
-(:mod:`codegen.ir.mode_step`). This module executes a program symbolically. Three formulas are sufficient:
+(a, b) denotes the vector field u -> a lambda u + b, an element of the Lie algebra of this group. In a step,
+b is a linear combination of values of N. The coefficients of b are functions of z = h lambda
+(:mod:`codegen.ir.mode_step`). Three formulas are sufficient:
 
 - The exponential of h (a, b) maps u to exp(a z) u + h phi_1(a z) b, where phi_1(z) = (exp(z) - 1)/z.
 - The bracket [(a, b), (c, d)] is (0, lambda (a d - c b)).
@@ -112,7 +112,7 @@ class ModeMethod:
 
 
 def mode_method(scene: Problem, method: Method) -> ModeMethod:
-    """Compile ``method`` for ``scene``. Each compiler pass is verified on a model problem with one mode.
+    """Compile ``method`` for ``scene``.
 
     MethodError is raised for implicit methods, and for operations that semilinear scenes do not support.
     """
@@ -147,7 +147,7 @@ def _sum(parts: Iterable[tuple[Multiplier, Sum]]) -> Sum:
     for factor, terms in parts:
         for source, multiplier in terms.items():
             total[source] = total.get(source, Multiplier()) + factor * multiplier
-    # The keys are sorted, so equal sums give equal code. Zero coefficients are left out.
+    # The keys are sorted, so equal sums give equal code.
     return {source: m for source, m in sorted(total.items()) if m.terms}
 
 
@@ -157,10 +157,7 @@ def _constant(value: Number) -> Multiplier:
 
 @dataclass
 class _Execution:
-    """Executes the program of a step symbolically on one Fourier mode.
-
-    Every coefficient is a formula in z = h lambda, so the result is valid for all modes.
-    """
+    """Executes the program of a step symbolically on one Fourier mode."""
 
     scene: Problem
     semilinear: Semilinear
@@ -179,8 +176,7 @@ class _Execution:
                 # Times are in units of h, and the step begins at time 0.
                 self.times[var] = ZERO
             else:
-                # A point is a linear combination of the old state and of values of N. The point at the
-                # beginning of the step is 1 times the old state.
+                # The point at the beginning of the step is 1 times the old state.
                 self.points[var] = {STATE: _constant(ONE)}
         for assign in program.assigns():
             self._execute(assign)
@@ -195,14 +191,13 @@ class _Execution:
         )
 
     def _kernel(self, formulas: tuple[Expr, ...]) -> Kernel:
-        """Return the kernel that computes ``formulas``. The symbols in the formulas are the inputs of the
-        kernel.
+        """Return the kernel that computes ``formulas``.
 
-        But a parameter that is no run-time argument becomes a constant.
+        A parameter that is no run-time argument becomes a constant.
         """
         domain = ExprDomain(formulas[0].space)
         symbols = sorted({n.payload for n in walk(formulas) if n.op == "sym"})
-        # Run-time parameters stay symbols. The numbers of all other parameters are inserted.
+        # Run-time parameters stay symbols.
         values = {s: domain.space.sym(s) for s in symbols} | {
             name: domain.number(number)
             for name, number in self.scene.parameters.items()
@@ -220,7 +215,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
-                # The power of h is arbitrary for a zero element. The power 1 is used.
+                # The power of h is arbitrary for a zero element.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)
@@ -265,15 +260,15 @@ class _Execution:
         return _Element(total, _sum((_constant(c.value), x.b) for c, x in parts), power)
 
     def _evaluated(self, point: Var, *time: Var) -> _Element:
-        """Record an evaluation of N at ``point`` and ``time``. Return the value of the vector field."""
+        """Record an evaluation of N at ``point`` and ``time``."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # Let N_j be the new value of N. The pair (1, N_j) denotes the vector field u -> lambda u + N_j.
+        # With the new value N_j of N, the pair (1, N_j) denotes the vector field u -> lambda u + N_j.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
         assert x.is_zero or x.power == 1
-        # The exponential maps u to exp(a z) u + h phi_1(a z) b. A ``_Map`` stores a and phi_1(a z) b.
+        # The exponential maps u to exp(a z) u + h phi_1(a z) b.
         return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
 
     def _product(self, g: _Map, k: _Map) -> _Map:
@@ -318,12 +313,8 @@ class _Execution:
         return _Element(y.a, _sum([(beta, y.b), (rest, x.b)]), y.power)
 
     def _terms(self, point: Sum) -> tuple[Term, ...]:
-        """Return a linear combination as a sequence of terms.
-
-        Each term contains the index of a table with the coefficients for all modes. If the coefficient is 1,
-        the index is None.
-        """
-        # As in a ``_Map``, the values of N have a factor h. The old state has no factor h.
+        """Return a linear combination as a sequence of terms."""
+        # As in a ``_Map``, the values of N have a factor h.
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
 
     def _table(self, multiplier: Multiplier, power: int) -> int | None:

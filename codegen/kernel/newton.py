@@ -1,9 +1,7 @@
 """Matrices 1 - g'(u) of Newton's method for equations u = g(u).
 
-A matrix is either exact or expanded to first order in h. The expansion is cheap, because it contains only
-derivatives at h = 0. The error of the expanded matrix is O(h^2). Therefore each iteration with the expanded
-matrix multiplies the error of u by O(h^2), and the iteration converges fast for small h. Small matrices are
-inverted by cofactors.
+A matrix is either exact or expanded to first order in the step size h. Each iteration with the expanded
+matrix multiplies the error of u by O(h^2).
 """
 
 from __future__ import annotations
@@ -20,8 +18,7 @@ from codegen.ir.jacobian import jacobian
 SMALL = 3
 """The largest number of rows of a matrix whose inverse is computed from cofactors.
 
-For larger matrices, Gaussian elimination takes fewer operations. A 3 x 3 matrix has 9 cofactors, and each
-cofactor takes 3 operations. A 4 x 4 matrix has 16 cofactors, and each cofactor takes 14 operations.
+For larger matrices, Gaussian elimination takes fewer operations.
 """
 
 Rows = tuple[tuple[Expr, ...], ...]
@@ -102,8 +99,7 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
-    # Cofactors need no pivoting, so the emitted code has no branches. Rounding errors of the inverse slow
-    # Newton's iteration down, but do not change its limit.
+    # Cofactors need no pivoting, so the emitted code has no branches.
     determinant = space.zero
     # The determinant is expanded along the first row.
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
@@ -119,7 +115,7 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     if n == 1:
         return space.one
     # For n = 3, the rows i, a, b and the columns j, c, d are in cyclic order, so the cofactor needs no sign
-    # factor. For n = 2, only the row a and the column c remain, and the sign is set explicitly.
+    # factor.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
     if n == 2:

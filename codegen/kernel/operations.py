@@ -23,10 +23,10 @@ from codegen.kernel.schedule import (
 )
 
 STEP = "step"
-"""The key for the operations outside loops. Every step executes these operations."""
+"""The key for the operations outside loops."""
 
 START = "start"
-"""The key for the operations of the initial guess. Only the first step of a run computes this guess."""
+"""The key for the operations of the initial guess."""
 
 
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
@@ -66,7 +66,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
-        # A step may consist of several substeps. Each substep executes the operations outside loops once.
+        # Each substep executes the operations outside loops once.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
@@ -78,8 +78,8 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     For some kinds of kernels, the following operations are counted instead:
 
     - Taylor polynomial: the computation of the coefficients, and the evaluation of the polynomial.
-    - Step with large matrices: the operations of the whole step. The number of series terms in an exponential
-      depends on the matrix, so a typical number is assumed.
+    - Step with large matrices: the operations of the whole step, with a typical number of series terms in an
+      exponential.
     - Step on a lattice: the operations for one site or for one pair of sites.
     - Step on Fourier modes: only the Fourier transforms.
     """
@@ -96,15 +96,14 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     # Horner's rule takes ``degree`` additions and products for each component of the state.
     number = expansion.degree * sum(len(f.symbols) for f in expansion.coefficients.state)
     if expansion.following is not None:
-        # The kernel ``coefficients`` computes the Taylor coefficients of order 1. The kernel ``following`` is
-        # called once for each further order.
+        # The kernel ``following`` is called once for each order greater than 1.
         last = expansion.degree - 1
         each = operations(arrange(expansion.following))[STEP]
         total = _plus(total, {name: n * last for name, n in each.items()})
         # For n = 1, ..., ``last``, a loop computes the sums a_1 b_(n-1) + ... + a_(n-1) b_1 of n - 1 terms.
         number += expansion.sums * (last * (last - 1) // 2)
     total = _plus(total, {"add": number, "mul": number})
-    # The polynomial may use other coordinates than the state. ``enter`` and ``leave`` convert them.
+    # The polynomial may use other coordinates than the state.
     for part in (expansion.enter, expansion.leave):
         total = total if part is None else _plus(total, operations(arrange(part))[STEP])
     return {STEP: total}
@@ -113,8 +112,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
     """Count the operations for one site by name.
 
-    The result has the same keys as in :func:`operations`: ``step``, the label of each block of equations, and
-    the key of each Newton matrix.
+    The keys are ``step``, the label of each block of equations, and the key of each Newton matrix.
     """
     parts = {STEP: step.unrepeated, **{block.label: step.repeated(block) for block in step.blocks}}
     counted: dict[str, dict[str, int]] = {}
@@ -159,8 +157,7 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # At the end of a run, the momentum increases by the difference of two results of ``outward``. Each
-        # component takes a subtraction and an addition, and both operations count as ``add``.
+        # At the end of a run, the momentum increases by the difference of two results of ``outward``.
         added = {"add": 2 * len(turned[1].outputs)}
         # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]

@@ -1,9 +1,7 @@
 """Outlined functions: a tree of operations that a step repeats becomes one function.
 
-The last operation of a tree computes the results of the tree. The results of any other operation are read by
-one operation of the tree only. The arguments of the function are the inputs of the tree and the coefficients
-of its linear combinations. If all calls pass the same constant for an argument, the function contains this
-constant instead. A function returns only the results that the step reads.
+The last operation of a tree computes the results of the tree. The arguments of the function are the inputs of
+the tree and the coefficients of its linear combinations.
 """
 
 from __future__ import annotations
@@ -25,8 +23,7 @@ LETTER = {Kind.REAL: "r", Kind.ALG: "x", Kind.DUAL: "m", Kind.GROUP: "g", Kind.P
 class _Inputs:
     """The inputs of an outlined function.
 
-    If all calls pass the same constant for an input, this constant replaces the input. Otherwise the input is
-    a symbol.
+    If all calls pass the same constant for an input, this constant replaces the input.
     """
 
     def __init__(self, name: str, space: Space, fixed: Sequence[Expr | None]) -> None:
@@ -36,8 +33,7 @@ class _Inputs:
     def take(self, words: Sequence[str]) -> Values:
         """Return the next inputs of the function, one for each name in ``words``."""
         first = len(self.symbols)
-        # Constants are inserted before the operations are executed, so expressions of constants are
-        # simplified. The list ``fixed`` may be longer, because it has entries for all inputs.
+        # The list ``fixed`` may be longer, because it has entries for all inputs.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
@@ -45,10 +41,9 @@ class _Inputs:
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Return the text of the coefficient ``c``, for example ``c1 h``.
 
-        ``x`` is the function input for ``c`` without its powers of h: a symbol or a constant. The text
-        contains the name of the symbol or the number.
+        ``x`` is the function input for ``c`` without its powers of h: a symbol or a constant.
         """
-        # The symbol is named ``FUNCTION.ARGUMENT``. The text contains only ``ARGUMENT``.
+        # The symbol is named ``FUNCTION.ARGUMENT``.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
@@ -69,8 +64,7 @@ def function(
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The recorded expressions of a tree may be simplified for special inputs, for example zeros. The function
-    # must be correct for all inputs. Therefore the tree is executed again with symbols as inputs.
+    # The recorded expressions of a tree may be simplified for special inputs, for example zeros.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -92,11 +86,10 @@ def function(
         if assign.terms:
             # Equal coefficients of a sum share one argument.
             own_terms = distinct(assign)
-            # ``numbers`` contains the coefficients of all sums. The coefficients of this sum begin at the
-            # index ``first``.
+            # In ``numbers``, the coefficients of this sum begin at the index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
-            # The argument for a coefficient c h^p is the number c. The function computes the product c h^p.
+            # The argument for a coefficient c h^p is the number c.
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [
@@ -115,13 +108,13 @@ def function(
     # An argument is dropped if no returned result depends on it.
     taken = inputs.read(outputs)
     own_inputs = [inputs.symbols[p].payload for p in taken]
-    # Operations may read parameters of the scene. These parameters become further arguments.
+    # Operations may read parameters of the scene.
     parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))
     return Function(name, (*own_inputs, *parameters), (), outputs, texts[-1]), taken, parameters
 
 
 def _words(kinds: Sequence[Kind]) -> list[str]:
-    """Return names for inputs of the given kinds. The inputs of each kind are numbered separately.
+    """Return names for inputs of the given kinds.
 
     >>> _words([Kind.ALG, Kind.DUAL, Kind.ALG])
     ['x1', 'm1', 'x2']
@@ -135,8 +128,7 @@ def calls(kernel: Kernel) -> dict[str, int]:
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
         if name in places:
-            # Each result of a call is a separate expression. All expressions of one call have equal
-            # arguments, so the call is counted once.
+            # All expressions of one call have equal arguments, so the call is counted once.
             places[name][tuple(a.id for a in node.args)] = None
     return {name: len(calls_of_it) for name, calls_of_it in places.items()}
 

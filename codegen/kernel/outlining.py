@@ -1,15 +1,7 @@
 """Outlining: computations that a step repeats become one function with several calls.
 
-Operations of a program are joined into trees (:mod:`codegen.kernel.repeated_trees`). Trees with equal keys
-differ only in their operands and coefficients. One function replaces several trees with equal keys
-(:mod:`codegen.kernel.outlined_functions`). The arguments of the function are the operands and coefficients.
-
-Outlining shortens the code. But if two calls contain a common subexpression, for example the sine of one
-angle, each call computes the subexpression again. In short steps the repeated computations cost more time
-than the shorter code saves. Therefore only long steps are outlined.
-
-Apart from rounding errors, outlining does not change the values of expressions. To verify this, the old and
-the new expressions are evaluated at a test point.
+Outlining shortens the code. But if two calls contain a common subexpression, each call computes the
+subexpression again. Therefore only long steps are outlined.
 """
 
 from __future__ import annotations
@@ -32,40 +24,33 @@ LONG, LONG_EXPLICIT = 700, 500
 """An implicit step is outlined if it has more than LONG assignments, and an explicit step if it has more than
 LONG_EXPLICIT assignments.
 
-An explicit step has no loop, so its code fills the instruction cache sooner. For example, outlining shortens
-a step of cg:cg5 on dipole from 2345 to 545 lines, and the step then takes a third less time.
+Outlining shortens a step of cg:cg5 on dipole from 2345 to 545 lines, and the step then takes a third less
+time.
 
-The exact limits hardly matter. To choose new limits, set both to 0 and compare the times that
-``orderconds bench dipole`` measures.
+To choose new limits, set both to 0 and compare the times that ``orderconds bench dipole`` measures.
 """
 
 WORTH = 0.85
 """A step is outlined only if this reduces the number of its assignments to less than this fraction.
 
-Calls cost time, so the step must become much shorter. The exact limit hardly matters. The fraction is between
-0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole, and for ``vcg:gauss4`` on
-heavy_top.
+The fraction is between 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole, and
+for ``vcg:gauss4`` on heavy_top.
 """
 
 AGREE = 1e-9
 """The largest relative difference of two values that is attributed to rounding errors.
 
-Rounding errors cause differences of at most 1.4e-17 for the methods named at :data:`WORTH`. If a call had a
-wrong argument, the leading digits of the values would change.
+Rounding errors cause differences of at most 1.4e-17 for the methods named at :data:`WORTH`.
 """
 
 ATTEMPTS, DIGITS = 8, 60
 """The verification tries ATTEMPTS test points in double precision.
 
-If no point gives finite values, the verification tries ATTEMPTS further points with DIGITS decimal digits. If
-no further point gives finite values, MethodError is raised.
+If no point gives finite values, the verification tries ATTEMPTS further points with DIGITS decimal digits.
 """
 
 Shape = tuple[Key, tuple[int, ...]]
-"""A pair (key, indices) that describes an outlined function.
-
-The function replaces trees with this key, and returns the results with these indices.
-"""
+"""The key of the trees that a function replaces, and the indices of the results that the function returns."""
 
 
 @dataclass
@@ -86,11 +71,10 @@ class Outline:
         """Replace repeated parts of the expressions ``roots`` by calls of functions, and return the new
         expressions.
 
-        The functions are added to ``outlined``. If nothing is repeated, the result is None. Each block of
-        equations is solved by a loop. ``owners`` maps each unknown of the blocks to the number of its block.
+        The functions are added to ``outlined``. If nothing is repeated, the result is None. ``owners`` maps
+        each unknown of the blocks of equations to the number of its block.
         """
-        # The level of a value is the number of the last block whose unknowns determine the value. The level
-        # of a call is the largest level of its inputs.
+        # The level of a value is the number of the last block whose unknowns determine the value.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -101,11 +85,10 @@ class Outline:
             # Simplification may have removed some of the new calls, so the remaining calls are counted.
             calls: dict[str, int] = {}
             for node in walk(rewritten_roots):
-                # Each result of a call is a separate node. Only the node of result 0 is counted, so each
-                # call is counted once.
+                # Only the node of result 0 is counted, so each call is counted once.
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
-            # A function with fewer than two calls saves nothing. Without its trees, the choice is repeated.
+            # A function with fewer than two calls saves nothing.
             if all(calls.get(name, 0) > 1 for name in shapes):
                 self._verify(roots, rewritten_roots)
                 return rewritten_roots
@@ -140,14 +123,13 @@ class Outline:
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
-                    # Two trees may have the same expression as a result. The call of the first tree then
-                    # replaces the expression.
+                    # Two trees may have the same expression as a result.
                     calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
         # The expressions ``roots`` were simplified, so they need not contain all operands and results of
-        # assignments. Therefore the walk visits these values, too.
+        # assignments.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
@@ -157,8 +139,7 @@ class Outline:
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
         """Return the trees to outline, with one group for each function."""
-        # If a tree is removed, the step computes it without a call. The step may then read further results
-        # of the remaining trees. Therefore the choice is repeated with the remaining trees.
+        # If a tree is removed, the step may read further results of the remaining trees.
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
@@ -168,8 +149,7 @@ class Outline:
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
             kept = {key: alike for key, alike in groups.items() if len(alike) > 1}
-            # A function with a single call saves nothing. So a tree is removed if no other tree has the same
-            # shape.
+            # A function with a single call saves nothing.
             left = [t for alike in kept.values() for t in alike]
             # If no tree was removed, a repetition would find the same groups.
             if len(left) == len(trees):
@@ -199,25 +179,19 @@ class Outline:
                     t, k = ends[node.id]
                     read.setdefault(t, set()).add(k)
                 seen.add(node.id)
-            # The call reads the inputs of the tree, so the walk continues at these inputs. The trees are
-            # sorted, because every compilation must visit the nodes in the same order.
+            # The trees are sorted, because every compilation must visit the nodes in the same order.
             fresh = sorted(set(read) - entered)
             entered |= set(fresh)
             waiting = [x for t in fresh for x in self.trees.inputs(trees[t])]
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Return True if one call can compute the results ``read`` of a tree.
-
-        All these results must belong to the loop that executes the call. No input of the call may depend on
-        one of the results.
-        """
+        """Return True if one call can compute the results ``read`` of a tree."""
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # The loop of block ``deepest`` executes the call. A result with a lower level does not depend on the
-        # unknowns of this block, so the loop must not compute this result.
+        # The loop of block ``deepest`` executes the call. Results that do not depend on the unknowns of this
+        # block stay outside the loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # Nodes are numbered in the order of their creation. If a result is newer than all inputs, no input
-        # depends on this result.
+        # If a result is newer than all inputs, no input depends on this result.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 
@@ -246,7 +220,6 @@ class Outline:
             if not all(abs(x) < math.inf for x in old):
                 continue
             # A small value may be a difference of large values, with a large relative rounding error.
-            # Therefore all errors are compared with the largest value.
             scale = max(1.0, *map(abs, old))
             if not all(abs(a - b) <= AGREE * scale for a, b in zip(old, new, strict=True)):
                 raise IllFormed(f"outlining changed the results of {self.program.name}")

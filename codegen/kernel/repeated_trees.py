@@ -1,9 +1,7 @@
 """Finds repeated trees: groups of assignments that occur several times and can become one outlined function.
 
 If only one assignment reads the results of another assignment, both assignments can be joined into one tree.
-Pairs of trees that occur often are joined into larger trees. The pairs that save the most lines of code are
-joined first. Each tree has a key. Trees with equal keys have the same operations. Their operands
-and coefficients may differ.
+The pairs of trees that save the most lines of code are joined first.
 """
 
 from __future__ import annotations
@@ -20,16 +18,12 @@ from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""Operations that are never outlined. ``Advance``, ``Zero`` and ``Identity`` cost almost nothing. The others
-are exact flows of parts of the vector field.
-"""
+"""Operations that are never outlined. ``Advance``, ``Zero`` and ``Identity`` cost almost nothing."""
 
 NODES = 3
 """The average number of operations in one line of emitted code, for the methods of the gallery.
 
-NODES converts a number of operations to a number of lines. The values 2, 3 and 5 of NODES give the same files
-in ``generated/``. For longer steps, the three values give different code: the step of cg:cg5 on dipole has
-471, 454 and 394 assignments.
+The values 2, 3 and 5 of NODES give the same files in ``generated/``.
 """
 
 Values = tuple[Expr, ...]
@@ -100,8 +94,7 @@ class Trees:
     ) -> None:
         """Record an assignment. ``place`` is the number of the block that contains it, or -1 outside blocks.
 
-        If ``joined`` is false, the assignment is never outlined, because its results depend on values other
-        than ``args``.
+        If ``joined`` is false, the assignment is never outlined.
         """
         assign, args = self._from_the_whole(assign, args)
         self.executions.append(
@@ -117,14 +110,12 @@ class Trees:
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
         """Replace a multiple of a multiple by one product: c (d v) becomes (c d) v.
 
-        Here c and d are coefficients, and v is a variable. Other assignments do not change.
+        Here c and d are coefficients, and v is a variable.
         """
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Two assignments can be joined only if no third assignment reads the result of the first. For
-        # example, y = h x is read by z = y/2 and by another assignment. With z = (h/2) x, only one reader of
-        # y remains.
+        # Two assignments can be joined only if no third assignment reads the result of the first.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -135,8 +126,7 @@ class Trees:
     def joined(self) -> list[Tree]:
         """Join assignments into trees while joining saves lines of emitted code. Return the trees."""
         self._find_users()
-        # At the beginning each tree contains one assignment. The index of a tree is the index of its last
-        # assignment. ``owner`` maps each assignment to the index of its tree.
+        # The index of a tree is the index of its last assignment.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
         # Each round except the last joins at least one pair of trees, so the number of trees decreases.
@@ -154,8 +144,7 @@ class Trees:
                 # Assignments that cannot be outlined are not in ``owner``.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # The result of the first tree can be any input of the second tree. Therefore the key of
-                    # a pair also contains the key of the joined tree.
+                    # The result of the first tree can be any input of the second tree.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
             # The choice is greedy: the pair that saves the most lines is joined first.
@@ -167,7 +156,7 @@ class Trees:
                     best, saved = key, gain
             if best is None:
                 return list(trees.values())
-            # Joining two trees changes their keys. Therefore each tree is joined at most once in a round.
+            # Joining changes the keys of trees, so each tree is joined at most once in a round.
             used: set[int] = set()
             for i, j in pairs[best]:
                 if i in used or j in used:
@@ -184,10 +173,9 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # If a tree also occurs outside these pairs, the function of the tree is still needed. The function of
-        # the joined tree then contains a copy of the same lines.
+        # If a tree also occurs outside these pairs, the function of the tree is still needed.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # In each pair, joining replaces two calls by one. The replacement saves about three lines.
+        # In each pair, joining saves one call, which takes about three lines.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
@@ -213,18 +201,16 @@ class Trees:
         for statement in self.program.body:
             if not isinstance(statement, Assign):
                 for v in (*statement.starts, *statement.images, *statement.residuals):
-                    # This reader is not an assignment, so it belongs to no tree. None represents the
-                    # reader in the list of readers.
+                    # This reader is not an assignment, so it belongs to no tree.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
-            # Outputs are read outside the program. A reader outside the program is recorded as None.
+            # Outputs are read outside the program.
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
-        """Return the index of the assignment that reads the results of assignment ``i``.
+        """Return the index of the only assignment that reads the results of assignment ``i``.
 
-        Return None if there is no reader, or if there are several readers. Also return None if the reader is
-        in another block or outside all trees.
+        Return None if no such assignment exists in the same block.
         """
         # The readers form a set, because an operation may read one value twice.
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}
@@ -264,8 +250,7 @@ class Trees:
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
-            # The operation of a sum is omitted, because it contains the values of the coefficients. The kind
-            # of the result distinguishes sums in the Lie algebra from sums in its dual.
+            # The operation of a sum is omitted, because it contains the values of the coefficients.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
@@ -312,11 +297,10 @@ class Trees:
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
     """Return a pair for each coefficient of a sum: a label and the power of h.
 
-    Equal coefficients have equal labels. The label 0 is reserved for the coefficient 1.
+    Equal coefficients have equal labels.
     """
     seen: dict[Coefficient, int] = {}
-    # A coefficient 1 needs no product, and terms with equal coefficients need only one product. Therefore the
-    # key of a tree records which coefficients are 1 and which coefficients are equal to each other.
+    # A coefficient 1 needs no product, and terms with equal coefficients need only one product.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 
 

@@ -1,7 +1,6 @@
 """Converts a kernel to statements that can be printed.
 
-All required Stumpff functions c_k of an argument are computed by one call. Powers become products. The
-results of calls and products get new names. A new name inside a loop is not read outside this loop.
+All required Stumpff functions c_k of an argument are computed by one call. Powers become products.
 """
 
 from __future__ import annotations
@@ -111,8 +110,6 @@ class Iteration:
     - ``kept`` contains the names that are assigned in the body and read after the loop.
     - ``matrix`` contains the entries of Newton's matrix, row by row.
     - ``newton`` contains the statements that compute this matrix.
-
-    Without Newton's method ``matrix`` and ``newton`` are empty.
     """
 
     loop: Loop
@@ -183,14 +180,13 @@ def arrange(kernel: Kernel) -> Arrangement:
 
     The arithmetic operations keep their order, so rounding errors do not change.
     """
-    # In some target languages a loop has no scope of its own. Therefore names in different loops differ.
+    # In some target languages a loop has no scope, so names in different loops must differ.
     scope = _Scope(
         _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
     )
     # Outputs and error estimates can share calls, so one list contains both.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # All required Stumpff functions c_k of an argument are computed by one call. Therefore all indices k are
-    # recorded before the first statement is rewritten.
+    # All required Stumpff functions c_k of an argument are computed by one call.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -205,8 +201,7 @@ def arrange(kernel: Kernel) -> Arrangement:
         # Starting values are computed before the loop.
         starts = tuple(scope.rewrite(e) for e in statement.starts)
         statements += scope.take()
-        # Later statements may read values from the body of the loop. These values need variables that are
-        # declared outside the loop.
+        # Later statements may read values from the body of the loop.
         later = _read_later(kernel, position)
         loops += 1
         statements.append(_iteration(statement, loops, starts, scope, later))
@@ -229,16 +224,14 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
     """Return the expressions of a statement that can share calls with other statements."""
     if isinstance(statement, Let):
         return [statement.value]
-    # A ``Start`` statement can be skipped at run time, so other statements cannot use its calls. Of a loop,
-    # only the starting values are computed outside the loop.
+    # A ``Start`` statement can be skipped at run time, so other statements cannot use its calls.
     return statement.starts if isinstance(statement, Loop) else []
 
 
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # The arguments of the Stumpff functions in the body depend on the unknowns. Therefore these functions are
-    # called in the body.
+    # The arguments of the Stumpff functions in the body depend on the unknowns.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)
@@ -260,7 +253,7 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
-    """Return a dictionary whose keys are all names of the kernel. A new name must differ from all keys."""
+    """Return a dictionary whose keys are all names of the kernel."""
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -296,8 +289,7 @@ class _Scope:
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
         """Rewrite the assignments ``lets`` and the results ``values`` of a nested block, and return them."""
-        # A block can be skipped at run time, so later statements do not read its names. Therefore ``kept`` is
-        # false.
+        # A block can be skipped at run time, so later statements do not read its names.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
         rewritten = tuple(inner.rewrite(e) for e in values)
@@ -317,14 +309,13 @@ class _Scope:
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # The sorted indices k form the name of the function. For example, stumpff_12 computes c_1 and c_2.
+        # The sorted indices k form the name of the function.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        If the value is a result of a call, the value already has a name. If ``kept`` is false, the assignment
-        of such a value is omitted.
+        If ``kept`` is false, the assignment of a result of a call is omitted.
         """
         value = self.rewrite(let.value)
         before = self.take()
@@ -342,8 +333,7 @@ class _Scope:
     def rewrite(self, root: Expr) -> Expr:
         """Return ``root`` in printable form.
 
-        Calls of functions with several results become names, and powers become products. The statements that
-        define new names are added to ``pending``.
+        New statements are added to ``pending``.
         """
         space = root.space
         for node in walk([root], lambda n: n.id in self.known):
@@ -367,7 +357,7 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The keys of ``orders`` are ids of original arguments. The rewritten ``argument`` can differ.
+        # The keys of ``orders`` are ids of original arguments.
         orders = self.orders[node.args[0].id]
         # One call returns c_k for all recorded indices k, and each result gets its own name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
@@ -401,12 +391,11 @@ class _Scope:
         # In emitted code, powers of up to three factors are written as products such as ``x * x * x``.
         if n <= 3:
             return space.pow(base, n)
-        # The leading bit of n is 1, so the product starts with the base. The loop visits the other bits.
+        # The leading bit of n is 1, so the product starts with the base.
         result = base
         # Binary powering: at most 2 log2(n) products.
         for bit in bin(n)[3:]:
             result = space.pow(self._named(result), 2)
-            # The result is squared for each bit. If the bit is 1, the square is multiplied by the base.
             if bit == "1":
                 result = space.mul(result, base)
         return result
@@ -420,8 +409,7 @@ class _Scope:
 
     def _fresh(self, stem: str) -> str:
         while True:
-            # For example, the entry ``p count`` counts the names p_1, p_2, ... The key of this entry contains
-            # a space, so the key is never a name.
+            # The key contains a space, so it is never a name.
             self.taken[f"{stem} count"] = self.taken.get(f"{stem} count", 0) + 1
             name = f"{stem}_{self.taken[f'{stem} count']}"
             if name not in self.taken:
