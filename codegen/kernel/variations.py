@@ -1,8 +1,7 @@
 """Variations of a state: the coordinates in which the Jacobian of a step is expressed.
 
 A group element q is varied by an element xi of the Lie algebra: dq = xi.q (right trivialisation). In all
-other values (for example, momenta) each component is varied independently. On T*SO(3) the Jacobian is a 6 x 6
-matrix. On the sphere it is a 3 x 3 matrix, because a point of the sphere has three components.
+other values (for example, momenta) each component is varied independently.
 """
 
 from __future__ import annotations
@@ -23,9 +22,8 @@ from codegen.scene.problem import Problem
 class Variations:
     """Describes the variation of each part of a state.
 
-    Each part is a pair (group, symbols). ``symbols`` are the coordinates of the part. If the group is None,
-    the variation has one component for each coordinate. Otherwise the variation is an element of the Lie
-    algebra.
+    Each part is a pair (group, coordinates). If the group is None, each coordinate is varied independently.
+    Otherwise the variation is an element of the Lie algebra.
     """
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
@@ -77,10 +75,9 @@ class Variations:
         return seeds
 
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
-        """Return the variation of the new state.
+        """Return the variation of the new state ``state``.
 
-        ``state`` contains the coordinates of the new state. ``rates`` contains the directional derivative of
-        each coordinate along the variation of the old state.
+        ``rates`` contains the directional derivative of each coordinate along the variation of the old state.
         """
         rates_of_end: list[Expr] = []
         for group, symbols in self.parts:

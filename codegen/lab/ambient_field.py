@@ -1,8 +1,7 @@
 """The right-hand side of the differential equation of a scene, as a Python function of Arb balls.
 
-A ball is a number with an error radius. Reference solutions are computed with Arb balls because Arb is
-several times faster than mpmath. The radii are not used. The uncertainty of a reference solution is measured
-by a second integration (:mod:`codegen.lab.reference`).
+A ball is a number with an error radius. The radii are not used. Arb is used because it is several times
+faster than mpmath.
 """
 
 from __future__ import annotations
@@ -22,17 +21,14 @@ FUNCTIONS = of_scalars(arb)
 def ambient_field(scene: Problem) -> Evaluate:
     """Return the right-hand side of the differential equation of a scene, as a function of (state, t).
 
-    The returned function gives a tuple of Arb balls (numbers with an error radius). The parameters of the
-    scene have their default values. Constants are rounded to the working precision at the time of the call.
+    The parameters of the scene have their default values. Constants are rounded to the working precision at
+    the time of the call.
     """
     return velocity(scene).python(ball, FUNCTIONS)
 
 
 def ball(number: Number) -> arb:
-    """Return an exact number as a ball.
-
-    A rational number is rounded to the working precision. An irrational number is computed with 16 more
-    bits.
+    """Return an exact number as a ball with at least the working precision.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(53):

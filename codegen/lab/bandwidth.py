@@ -1,15 +1,12 @@
 """The time of a step on a large lattice, and the fraction of the memory bandwidth that the step uses.
 
-A sweep is a loop over all sites of the lattice. The arrays of the lattice are larger than the last-level
-cache. Therefore each sweep reads and writes main memory. The measurement counts the bytes that all sweeps
-of a step read and write (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`).
+The arrays of the lattice are larger than the last-level cache. Therefore each loop over all sites reads and
+writes main memory. The bandwidth of the step is compared with that of the triad ``a[i] = b[i] + s * c[i]`` of
+the STREAM benchmark (McCalpin 1995).
 
-The bandwidth of the step is compared with the bandwidth of the triad ``a[i] = b[i] + s * c[i]`` of the STREAM
-benchmark (McCalpin 1995). The step and the triad are compiled with the same flags, and run on arrays of the
-same total size. Each number that a loop reads or writes is counted once. Before the processor writes to a
-cache line, it reads this line. The additional read is not counted. Therefore the count omits a quarter of the
-memory traffic of the triad. If a loop reads more than two numbers for each number that it writes, the count
-omits a smaller part. For this reason, the counted bandwidth of a step can exceed that of the triad.
+Each number that a loop reads or writes is counted once. The additional read of a cache line before a write is
+not counted. Therefore the count omits a quarter of the memory traffic of the triad. If the count omits a
+smaller part for a step, the counted bandwidth of the step can exceed that of the triad.
 """
 
 from __future__ import annotations
@@ -42,10 +39,10 @@ if TYPE_CHECKING:
     from codegen.ir.site_step import SiteStep
 
 COMPILE_SECONDS = 8.0
-"""The longest compile time in seconds. If the compilation takes longer, the module is not measured."""
+"""The longest compile time of a measured module in seconds."""
 
 STEP_SECONDS = 0.5
-"""The largest CPU time of a step in seconds. If a step would take longer, a smaller lattice is used."""
+"""The limit for the CPU time of a step in seconds, which limits the size of the lattice."""
 
 RESOLVED = 0.01
 """The shortest duration of a timed run in seconds: far above the resolution of the clock."""
@@ -54,19 +51,13 @@ REPEATED = 5
 """The number of timed runs. The fastest run is used, because other processes can only slow a run down."""
 
 CACHES = 8
-"""The size of the arrays divided by the size of the last-level cache.
-
-If there is not enough free memory, the arrays are smaller.
-"""
+"""The largest size of the arrays divided by the size of the last-level cache."""
 
 FREE_SHARE = 8
 """The arrays take at most the fraction 1/FREE_SHARE of the free memory."""
 
 USUAL_CACHE, USUAL_MEMORY = 32 << 20, 1 << 30
-"""Assumed sizes of the last-level cache and of the free memory in bytes.
-
-If the operating system does not state a true size, the assumed size is used.
-"""
+"""Sizes of the last-level cache and of the free memory in bytes, if the true sizes are unknown."""
 
 FEW_SITES = 4096
 """The number of sites in a short run that estimates the CPU time for each site."""
@@ -74,14 +65,13 @@ FEW_SITES = 4096
 SHORTER, ATTEMPTS = 64, 4
 """If the first step fails, the step size is divided by SHORTER, and the step is repeated.
 
-At most ATTEMPTS attempts are made. The first step can fail if the initial state is far from equilibrium.
+At most ATTEMPTS attempts are made.
 """
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
 """The number of steps and the size of the small lattice on which iterations are counted.
 
-In dimension d = 1 or 2, this lattice has SIDES[d] sites along each axis. In higher dimensions, it has 4 sites
-along each axis.
+In dimension d, this lattice has SIDES[d] sites along each axis (4 for d > 2).
 """
 
 TRIAD = """\
@@ -173,9 +163,8 @@ def measure(
 ) -> Bandwidth | Unmeasured:
     """Return the bandwidth of an emitted module for a lattice, or the reason why it is not available.
 
-    All sites start from the initial state of the scene. The size of the arrays is limited to ``most_bytes``.
-    The default limit is a fraction of the free memory (:data:`FREE_SHARE`). The compile time is limited to
-    ``seconds``. ValueError is raised if the module is not for a chain or lattice.
+    ``most_bytes`` limits the size of the arrays, and ``seconds`` limits the compile time. ValueError is
+    raised if the module is not for a chain or lattice.
     """
     step = compiled.kernel.sites
     if step is None:
@@ -209,23 +198,18 @@ def measure(
 
 
 def _step_size(compiled: Compiled, step: SiteStep) -> float:
-    """Return the step size for the measurement.
-
-    The step size is the time span of the scene divided by :data:`PARTS`. For an explicit method, the step
-    size is also divided by :data:`SHORTER`.
-    """
+    """Return the step size for the measurement."""
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # For rotation angles above about one radian, the emitted code needs a slow loop. A small step size keeps
-    # the angles small.
+    # A small step size keeps rotation angles below about one radian, which avoids a slow loop.
     return h if step.blocks else h / SHORTER
 
 
 @dataclass
 class _Runs:
-    """Runs a module on lattices of different sizes. All sites start from the state ``start``.
+    """Runs a module with step size ``h`` on lattices of different sizes.
 
-    ``h`` is the step size.
+    All sites start from the state ``start``.
     """
 
     lattice: Lattice
@@ -254,10 +238,7 @@ class _Runs:
         return max(4, int(sites ** (1 / self.dimension)) // 2 * 2)
 
     def shortened(self, side: int) -> Status:
-        """Run one step. After each failure, divide ``h`` by :data:`SHORTER` and run the step again.
-
-        Make at most :data:`ATTEMPTS` attempts, and return the status of the last attempt.
-        """
+        """Run one step, repeat it with a smaller ``h`` after a failure, and return the last status."""
         for _ in range(ATTEMPTS):
             status, _ = self.timed(side, 1)
             if status == Status.OK:
@@ -266,10 +247,9 @@ class _Runs:
         return status
 
     def timed(self, side: int, steps: int, repeated: int = 1) -> tuple[Status, float]:
-        """Make ``repeated`` equal runs of ``steps`` steps. Return a status and a CPU time in seconds.
+        """Return the status and the CPU time in seconds for one site and step, in the fastest of equal runs.
 
-        If all runs succeed, the CPU time is the time for one site and one step in the fastest run. If a run
-        fails, the method returns the status of this run and a meaningless CPU time.
+        If a run fails, the method returns the status of this run and a meaningless CPU time.
         """
         import numpy as np
 
@@ -297,7 +277,7 @@ class _Runs:
         while status == Status.OK and pace * sites * steps < RESOLVED:
             steps *= 2
             status, pace = self.timed(side, steps)
-        # An unstable method may fail in the last run. In this case, use the previous number of steps.
+        # An unstable method may fail in the last run.
         steps = steps if status == Status.OK else max(steps // 2, 1)
         return self.timed(side, steps, REPEATED)[1]
 
@@ -315,9 +295,7 @@ class _Counting(Machine):
 def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs) -> tuple[float, ...]:
     """Return the mean number of iterations in a step, for each system of implicit equations.
 
-    Emitted modules do not report the number of iterations. Therefore :data:`COUNTED_STEPS` steps are executed
-    in Python on a small lattice. An iteration consists of sweeps over the sites, and each sweep has a
-    function. The calls of the function of the first sweep are counted.
+    The steps are executed in Python, because emitted modules do not report the number of iterations.
     """
     if not step.blocks:
         return ()
@@ -337,10 +315,9 @@ def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs)
 
 
 def _triad() -> Callable[[int], float]:
-    """Compile the triad loop ``a[i] = b[i] + s * c[i]``.
+    """Return a function that measures the bandwidth of the triad loop in GB/s.
 
-    Return a function that measures the bandwidth of the loop in GB/s. The argument of the returned function
-    is the total size of the three arrays in bytes.
+    The argument of the returned function is the total size of the three arrays in bytes.
     """
     import numpy as np
     from cffi import FFI

@@ -20,7 +20,7 @@ FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
 """Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``.
 
-HAMILTONIAN_METHODS is for Hamiltonian scenes. FIELD_METHODS is for scenes given by a vector field.
+FIELD_METHODS is for scenes given by a vector field.
 """
 
 REPORT_SCENES = ("dipole", "free_rigid_body")
@@ -40,16 +40,13 @@ REPORT_HAMILTONIANS = {
 }
 """The default methods that the command ``report`` runs with equal steps, and their orders.
 
-REPORT_HAMILTONIANS is for Hamiltonian scenes. REPORT_FIELDS is for scenes given by a vector field. The order
-of a method can depend on the scene. If a method has another order on the scene than in this list, the report
-omits the method.
+If a method has another order on the scene than in this list, the report omits the method.
 """
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
 """The default methods that the command ``report`` runs with step-size control.
 
-A figure has only eight colours. The methods of REPORT_HAMILTONIANS need seven colours. Therefore the report
-of a Hamiltonian scene uses only the first method of REPORT_ADAPTIVE.
+The report of a Hamiltonian scene uses only the first method, because a figure has only eight colours.
 """
 
 README_METHODS = {
@@ -91,8 +88,7 @@ README_METHODS = {
 }
 """Maps the name of each work-precision diagram of the README to its methods.
 
-All diagrams show the scene ``dipole``. Methods that are also in :data:`REPORT_ADAPTIVE` run with step-size
-control. The remaining methods run with equal steps.
+Methods that are also in :data:`REPORT_ADAPTIVE` run with step-size control.
 """
 
 PICTURED = (
@@ -102,14 +98,11 @@ PICTURED = (
     HAMILTONIAN_METHODS,
     *README_METHODS.values(),
 )
-"""Each entry lists the methods of one figure.
-
-A method has the same colour and the same marker in all figures.
-"""
+"""The methods of each figure; a method has the same colour and marker in all figures."""
 
 
 def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) -> tuple[Method, ...]:
-    """Return the named methods. If ``names`` is empty, return the default methods for the scene.
+    """Return the named methods, or the default methods for the scene if ``names`` is empty.
 
     For unknown names, the errors of :func:`codegen.method.parse` are raised.
     """
@@ -118,11 +111,7 @@ def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) ->
 
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
-    """Return the default methods of the report for a scene, as two tuples.
-
-    The first tuple contains the methods with equal steps. The second tuple contains the methods with
-    step-size control.
-    """
+    """Return the default methods of the report with equal steps, and those with step-size control."""
     families, chosen = families_for(scene), []
     for name, order in (REPORT_HAMILTONIANS if scene.is_hamiltonian else REPORT_FIELDS).items():
         if name.partition(":")[0].partition("(")[0] not in families:

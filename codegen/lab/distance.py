@@ -1,13 +1,11 @@
 """The error norm of a scene: the distance of a computed state from the reference solution.
 
-A state consists of one or several components (for example, a group element and a momentum). For each
-component, the norm of the difference from the reference is computed. The error norm is the sum of the norms.
-For group elements given by square matrices, the spectral norm is used. For all other components, the
-Euclidean norm is used.
+The error norm is the sum of the norms of the differences of all components (for example, a group element and
+a momentum). For group elements given by square matrices, the spectral norm is used. For all other components,
+the Euclidean norm is used.
 
-For example, a state may consist of a momentum mu and a rotation matrix g. Let mu_ref and g_ref be the
-reference values. The error norm is then the sum of |mu - mu_ref|_2 and |g - g_ref|_2 (H. Marthinsen, *On
-symplectic integration in Lie groups and manifolds*, Fig. 3.2).
+For a momentum mu and a rotation matrix g with reference values mu_ref and g_ref, the error norm is |mu -
+mu_ref|_2 + |g - g_ref|_2 (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, Fig. 3.2).
 """
 
 from __future__ import annotations
@@ -26,8 +24,7 @@ def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -
     """Return the distance of a computed state from the reference ``exact``, in the error norm of a scene.
 
     ``state`` and ``exact`` list the coordinates in the order of ``scene.symbols``. Differences are computed
-    in the precision of ``exact``. Therefore errors below 1e-16 are not lost. If a coordinate of ``state`` is
-    not finite, the result is infinite.
+    in the precision of ``exact``. If a coordinate of ``state`` is not finite, the result is infinite.
     """
     gap = [float(b - a) for a, b in zip(state, exact, strict=True)]
     if not all(map(math.isfinite, gap)):
@@ -42,11 +39,7 @@ def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -
 
 
 def _norm(group: LieGroup, gap: Sequence[float]) -> float:
-    """Return the norm of the difference ``gap`` of two group elements.
-
-    For a product group, the norm is the sum of the norms of the components. For a group of matrices, it is
-    the spectral norm. For all remaining groups, it is the Euclidean norm.
-    """
+    """Return the norm of the difference ``gap`` of two group elements."""
     product = group.offers(DirectProduct)
     if product is not None:
         return sum(map(_norm, product.factors, product.parts(tuple(gap))))

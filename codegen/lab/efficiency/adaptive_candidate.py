@@ -1,8 +1,7 @@
-"""Measures an emitted method with step-size control. The runs give one curve of a work-precision diagram.
+"""Measures an emitted method with step-size control for a work-precision diagram.
 
-The embedded error estimate of the method controls the step size. A :class:`Row` describes one run. The
-attribute ``control`` of a row is both the relative and the absolute tolerance. The attribute ``steps`` is the
-number of accepted steps. The CPU time includes rejected steps.
+The attribute ``control`` of a :class:`Row` is both the relative and the absolute tolerance. The attribute
+``steps`` is the number of accepted steps. The CPU time includes rejected steps.
 """
 
 from __future__ import annotations
@@ -20,8 +19,7 @@ from codegen.lab.timing import span_times
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
 """The tolerances of the runs, from loose to tight.
 
-If the error estimate of a method has a low order, the method takes many steps even with a loose tolerance.
-Therefore this list begins with looser tolerances than the list :data:`codegen.lab.peers.TOLERANCES`.
+The list begins with loose tolerances, because an error estimate of low order requires many steps.
 """
 
 
@@ -44,9 +42,8 @@ class AdaptiveCandidate(EmittedCandidate):
     def enough(self, rows: Sequence[Row]) -> bool:
         """Return True if the next run would take too long, or if rounding errors dominate.
 
-        ``rows`` contains the results of the previous runs. A run diverges if its error exceeds both 1 and the
-        norm of the reference solution. If the last run diverged, the result is False, because a smaller
-        tolerance may give a useful result.
+        If the last run in ``rows`` diverged, the result is False, because a smaller tolerance may give a
+        useful result.
         """
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))
@@ -60,10 +57,9 @@ class AdaptiveCandidate(EmittedCandidate):
         return self.arrive(control, spans=spans).accepted
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None, spans: int = 1) -> Arrival:
-        """Run over a time interval with the given tolerance.
+        """Run over ``spans`` times the time span of the scene with the given tolerance.
 
-        The interval is ``spans`` times as long as the time span of the scene. The final state and the numbers
-        of accepted and rejected steps are returned. RunFailed is raised if a step fails.
+        RunFailed is raised if a step fails.
         """
         first, last = map(float, self.scene.span)
         try:

@@ -28,7 +28,7 @@ SECONDS = 50.0
 
 @dataclass(frozen=True)
 class AdvisedMethod:
-    """A recommended method. The error of the method is at most the required error.
+    """A recommended method, whose error is at most the required error.
 
     - ``form``: the form of the equations (for example, ``quaternion``), as in the option ``--form``.
     - ``adaptive``: True for a method with step-size control, and False for a method with equal steps.
@@ -135,7 +135,7 @@ def recommend(
 
 
 def _interval(span: object) -> tuple[Fraction, Fraction]:
-    """Return ``span`` as a pair of fractions. InputError is raised if this is not possible."""
+    """Return ``span`` as a pair of fractions, or raise InputError."""
     try:
         first, last = (Fraction(t) for t in span)  # type: ignore[attr-defined]
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):

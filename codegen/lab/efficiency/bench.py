@@ -41,10 +41,8 @@ from orderconds.tableau import Tableau
 class Result:
     """The result of a bench.
 
-    - ``entries``: maps the name of a candidate (a method or another integrator) to its rows. A row describes
-      one run.
-    - ``places``: one entry for each required error, such as 1e-6. An entry contains the fastest and the
-      second fastest candidate.
+    - ``entries``: maps the name of a candidate (a method or another integrator) to one row for each run.
+    - ``places``: the fastest and the second fastest candidate for each required error, such as 1e-6.
     - ``paths``: the paths of the files that were written.
     """
 
@@ -71,9 +69,8 @@ class Result:
     def setups(self) -> tuple[tuple[str, float, float], ...]:
         """The times in seconds for the emission and the compilation of the candidates.
 
-        Each triple contains the name of a candidate, the time of emission, and the time of compilation. If a
-        candidate runs on several forms of the equations, each form has a triple, because each form is emitted
-        and compiled separately.
+        Each triple contains the name of a candidate and a form of the equations, the time of emission, and
+        the time of compilation.
         """
         return tuple(
             (in_form(label, form), own[0].emit_seconds, max(r.compile_seconds for r in own))
@@ -99,9 +96,9 @@ class Bench:
     def run(self, done: Callable[[Row], object], cache: MeasurementCache | None = None) -> Result:
         """Make all runs that are not in the cache, and rank the candidates.
 
-        The function ``done`` is called with the row of each run. If the attribute ``folder`` is not None, the
-        results are written to this folder as a CSV file, a JSON file and an SVG file. The default cache is a
-        hidden folder in ``folder``. After an interruption, the next call uses the runs in the cache.
+        The function ``done`` is called with the row of each run. If ``folder`` is not None, the results are
+        written to this folder as a CSV file, a JSON file and an SVG file. The default cache is a hidden
+        folder in ``folder``.
         """
         name, stem = self.scene.name, scenes.file_stem(self.scene)
         own = MeasurementCache(self.folder / f".{stem}.measured" if self.folder else None)
@@ -141,9 +138,8 @@ def bench(
     - ``targets``: the names of programming languages in which the methods are emitted.
     - ``budget``: the longest CPU time of a run in seconds.
     - ``output``: the folder for the files of the results, or None.
-    - ``forms``: names of forms of the equations, for example ``quaternion``, as in the option ``--form``. By
-      default, all forms are used. Most peers run on each form. Methods that treat the state as a vector in
-      R^n also run on each form. Methods that use the group run only on the equations of the scene.
+    - ``forms``: names of forms of the equations, for example ``quaternion`` (default: all forms). Methods
+      that use the group run only on the equations of the scene.
 
     InputError is raised for wrong names and options. If a method cannot be emitted for the scene, its
     candidate contains the reason.
@@ -180,10 +176,9 @@ def emitted_forms(
     *,
     adaptive: bool = False,
 ) -> list[Candidate]:
-    """Return the candidates for a method on a scene.
+    """Return the candidates for a method: one for each element of ``equations``.
 
-    If the method treats the state as a vector in R^n, there is one candidate for each element of
-    ``equations``. If the method uses the group of the scene, there is only one candidate.
+    A method that uses the group of the scene has only one candidate.
     """
     suited = equations if lowering(method.family).in_coordinates else [Equations(scene)]
     return [emitted(scene, method, exact, target, budget, adaptive=adaptive, equations=e) for e in suited]
@@ -194,8 +189,7 @@ def peer_forms(
 ) -> list[Candidate]:
     """Return one candidate for each pair of a peer and an element of ``equations``.
 
-    Some peers project their states onto the manifold of the scene. For such a peer, only one candidate is
-    returned. The candidate integrates the equations that the scene states.
+    A peer that projects onto the manifold integrates only the equations that the scene states.
     """
     return [
         PeerCandidate(scene, peer, exact, budget, equations=e)
@@ -205,11 +199,7 @@ def peer_forms(
 
 
 def entry_name(candidate: Candidate) -> str:
-    """Return the name of a candidate in the results.
-
-    The name is the label of the candidate. If the target is not the default language, the name of the target
-    follows in parentheses.
-    """
+    """Return the label of a candidate, with a target language other than the default in parentheses."""
     other = candidate.target in names() and candidate.target != DEFAULT
     return f"{candidate.label} ({candidate.target})" if other else candidate.label
 
@@ -264,10 +254,10 @@ def table(rows: Sequence[Row]) -> str:
 
 
 def curves(result: Result, styles: Styles) -> list[Curve]:
-    """Return one curve for each candidate with a successful run. A curve shows errors and CPU times.
+    """Return one curve of errors and CPU times for each candidate with a successful run.
 
-    A candidate can have runs on several forms of the equations. If another form reaches the error of a run in
-    less time, the curve omits this run (:func:`frontier`).
+    If another form of the equations reaches the error of a run in less time, the curve omits this run
+    (:func:`frontier`).
     """
     drawn = []
     for label, rows in result.entries.items():

@@ -23,10 +23,7 @@ from orderconds.tableau.method_properties import explicit
 SEARCHED = 5
 """The largest order of recipes for which the compiler searches for the number of commutators.
 
-The 2 in the name ``rkmk(2):rk4`` is a cut-off: the series of dexp^{-1} is truncated after 2 commutators. The
-name ``rkmk:rk4`` contains no cut-off. For such a name, the compiler searches for the fewest commutators that
-give the order of the method. If the order is above SEARCHED, the search takes seconds. Therefore no recipe of
-such an order uses the search.
+For larger orders, the search takes seconds.
 """
 
 
@@ -39,16 +36,15 @@ class Recipe:
     """A way to integrate a scene: a method, one form of the equations, and equal steps or step-size control.
 
     - ``method``: the name of the method, such as ``rkmk(2):rk4``.
-    - ``order``: the order of the method. For recipes from :func:`named`, the order is computed from the order
-      conditions. For all other recipes, it is taken from the file of the tableau.
+    - ``order``: the order of the method, from the file of the tableau or (in :func:`named`) from the order
+      conditions.
     - ``stages``: the number of stages or factors of the tableau.
     - ``tableau``: the name of the tableau.
     - ``adaptive``: True for step-size control, and False for equal steps.
     - ``form``: the form of the equations, for example ``quaternion``, as in the option ``--form``.
     - ``explicit``: True if the tableau is explicit (:func:`is_explicit`).
 
-    Some families, such as ``taylor``, need no tableau. A method of such a family has a degree, and ``order``
-    and ``stages`` are both equal to the degree.
+    For a family without tableaux, such as ``taylor``, ``order`` and ``stages`` are equal to the degree.
     """
 
     method: str
@@ -85,9 +81,8 @@ class Recipe:
 def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for a scene.
 
-    ``tableaux`` contains the names of the tableaux to use. If it is empty, all tableaux of the library are
-    used. If a method treats the state as a vector in R^n, the method has a recipe for each form of the
-    equations.
+    If ``tableaux`` is empty, all tableaux of the library are used. A method that treats the state as a vector
+    in R^n has a recipe for each form of the equations.
     """
     forms = [form.key for form in classical_forms(problem)]
     for recipe in in_printed_form(problem, tableaux):
@@ -98,9 +93,8 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for the equations that the scene states.
 
-    On an abelian group, several families give the same methods. Of these families, only the one that comes
-    first in the result of :func:`families_for` is used. The function does not check whether a recipe can be
-    compiled for the scene.
+    If several families give the same methods on an abelian group, only the first family is used. The function
+    does not check whether a recipe can be compiled for the scene.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
     if not tableaux:
@@ -124,8 +118,8 @@ def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[
 def readable(tableau: Tableau, kind: type[Family]) -> bool:
     """Return True if the given tableau defines a method of a family.
 
-    The family must be able to read the format of the tableau. If the formulas of the family divide by the
-    weights b_i of a Runge-Kutta tableau, all weights must be provably nonzero.
+    If the formulas of the family divide by the weights b_i of a Runge-Kutta tableau, all weights must be
+    provably nonzero.
     """
     if tableau.family not in kind.formats and tableau.read_as(kind.formats) is None:
         return False
@@ -138,13 +132,9 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, with equal steps and with step-size control.
 
-    In some families, the name of a method contains a cut-off, such as the 2 in ``rkmk(2)``. A series in the
-    method is truncated after this number of commutators. The order of the method depends on the cut-off. For
-    each order, only the smallest cut-off that gives this order is used. Orders below half the classical order
-    of the tableau have no recipe.
-
-    An explicit tableau with exact coefficients can have one more recipe. The name of this recipe contains no
-    cut-off (:data:`SEARCHED`).
+    The cut-off of a method is its number of commutators, such as the 2 in ``rkmk(2)``. For each order, only
+    the smallest cut-off that gives this order is used. Orders below half the classical order of the tableau
+    have no recipe. A tableau can have one more recipe, whose name contains no cut-off (:data:`SEARCHED`).
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -152,12 +142,11 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     own = {c.cutoff: c.order for c in tableau.claims.orders if c.family.partition("(")[0] == family}
     least = max((2 * stated.get("rk", 0) + 3) // 4, 1)
     if not kind.takes_cutoff:
-        # The order depends on the group. On R^n, for example, all commutators are zero, and the order can be
-        # higher than on a general group.
+        # The order depends on the group, and on R^n it can be higher than on a general group.
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
         except MethodError:
-            # The family cannot use the tableau on this scene. Therefore there is no recipe.
+            # The family cannot use the tableau on this scene.
             return
         order = stated.get(here) or max(own.values(), default=0) or kind().implied_order(stated)
         if order >= least:
@@ -194,10 +183,9 @@ def is_explicit(tableau: Tableau) -> bool:
 
 
 def degrees(family: str) -> Iterator[Recipe]:
-    """Yield the recipes of a family without tableaux, such as Taylor's method (``taylor``).
+    """Yield the recipes of a family without tableaux (such as ``taylor``) for all :data:`DEGREES`.
 
-    Each degree in :data:`DEGREES` has a recipe with equal steps. If the family has an error estimate, each
-    degree also has a recipe with step-size control.
+    If the family has an error estimate, each degree also has a recipe with step-size control.
     """
     for degree in DEGREES:
         yield from _both(f"{family}({degree})", degree, degree, "", family_class(family).controls_steps)
@@ -224,9 +212,8 @@ def method_of(recipe: Recipe, problem: Problem) -> Method:
 def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Recipe]:
     """Yield the recipes of the given methods.
 
-    Each pair in ``methods`` contains the name of a method, and True for step-size control or False for equal
-    steps. The attribute ``order`` of a recipe is computed from the order conditions for the scene. If a
-    method treats the state as a vector in R^n, the method has a recipe for each form of the equations.
+    Each pair in ``methods`` contains the name of a method, and True for step-size control. A method that
+    treats the state as a vector in R^n has a recipe for each form of the equations.
     """
     forms = [form.key for form in classical_forms(problem)]
     for label, adaptive in methods:
