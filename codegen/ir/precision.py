@@ -26,8 +26,7 @@ class Precision:
     """A binary floating-point format of IEEE 754.
 
     ``bits`` is the number of bits of the significand. ``suffix`` is appended to constants and to names of
-    mathematical functions in C: for ``float``, ``sin`` becomes ``sinf``. ``largest`` is the largest finite
-    number.
+    mathematical functions in C: for ``float``, ``sin`` becomes ``sinf``.
     """
 
     name: str
@@ -55,14 +54,13 @@ class Precision:
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True
         """
-        # ``UNIT`` is the unit roundoff of doubles. Unit roundoffs are powers of two, so the quotient is
-        # exact.
+        # Unit roundoffs are powers of two, so the quotient is exact.
         return tolerance * (self.unit / UNIT)
 
     def round(self, value: Number | Fraction | float) -> float:
         """Return the nearest number of the format. InputError is raised if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # Every comparison with a NaN is False. With ``not <=`` in place of ``>``, a NaN is an error, too.
+        # With ``not <=`` in place of ``>``, a NaN is an error, too.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -78,7 +76,7 @@ class Precision:
             return repr(x)
         # For single precision, the loop tries texts with 1 digit, 2 digits, and so on.
         for digits in range(1, self.digits + 1):
-            # ``struct.pack`` rounds its argument to single precision. The rounded numbers are compared.
+            # ``struct.pack`` rounds its argument to single precision.
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
                 return shorter
@@ -89,7 +87,7 @@ def _double(value: Number | Fraction | float) -> float:
     try:
         return float(value)
     except OverflowError:
-        # The value is too large. The caller :meth:`Precision.round` raises InputError for an infinity.
+        # The caller :meth:`Precision.round` raises InputError for an infinity.
         return math.inf
 
 
@@ -102,8 +100,8 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         exact = Fraction(value)
     if exact == 0:
         return 0.0
-    # The exact value is rounded directly to ``bits`` bits. Rounding to a double first could give a wrong
-    # result: the double may lie exactly between two numbers of the format.
+    # Rounding to a double first could give a wrong result: the double may lie exactly between two numbers of
+    # the format.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
     # The bit lengths give an exponent that is correct or too small by one.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
@@ -112,7 +110,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     try:
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)
     except OverflowError:
-        # The value is too large. The caller :meth:`Precision.round` raises InputError for an infinity.
+        # The caller :meth:`Precision.round` raises InputError for an infinity.
         return math.copysign(math.inf, exact)
 
 

@@ -1,14 +1,7 @@
 """Step programs: a step program describes one step of an integrator by a list of operations.
 
-Examples of operations are exp, Ad and the group product. The operations do not depend on the coordinates of
-the group. Each variable is assigned only once.
-
-Equations that depend on one another form a :class:`Solve` block u = g(u). The statements of the block compute
-g(u) from the unknowns u. A method with stages is translated to a program that has one block for all stages.
-Compiler passes split this block if the stages can be computed in sequence.
-
-The statements of a program contain no branches. The only loops in the statements are the iterations that
-solve blocks. All group elements belong to one group.
+Each variable is assigned only once. Equations that depend on one another form a :class:`Solve` block
+u = g(u). The statements of a program contain no branches.
 """
 
 from __future__ import annotations
@@ -76,11 +69,10 @@ class Solve:
     - ``starts`` are the variables with the initial values of the unknowns.
     - ``body`` contains the statements that compute g(u).
     - ``images`` are the variables with the values g(u), one for each unknown.
-    - ``residuals`` is empty, or contains one residual for each unknown. At the solution, the residuals are
-      zero. Away from the solution, each residual is about as large as the error of its unknown.
+    - ``residuals`` is empty, or contains one residual for each unknown. Each residual is about as large as
+      the error of its unknown.
 
-    After the block, the variables of the body have their values at the solution. Later statements may use
-    these values.
+    After the block, the variables of the body have their values at the solution.
     """
 
     label: str
@@ -98,8 +90,7 @@ Statement = Assign | Solve
 EMBEDDED = "embedded"
 """The name of the output for the embedded solution.
 
-A program with step-size control computes two approximations of the new state: the result of the step, and the
-embedded solution. The embedded solution is used only to estimate the error of the step.
+The embedded solution is used only to estimate the error of the step.
 """
 
 
@@ -107,8 +98,8 @@ POWERS = "power"
 """The prefix of the output names ``power1``, ``power2``, ... of a continuous extension (dense output).
 
 These outputs are the coefficients of theta, theta^2, ... in a polynomial sigma(theta) with values in the Lie
-algebra. For a step of size h from the state y at the time t, the group element exp(sigma(theta)) acts on y.
-The result approximates the solution at the time t + theta h.
+algebra. For a step of size h from the state y at the time t, exp(sigma(theta)) y approximates the solution at
+the time t + theta h.
 """
 
 
@@ -118,10 +109,9 @@ SPACE, BODY = "space", "body"
 
 @dataclass(frozen=True)
 class Substep:
-    """One substep of a composition method.
+    """One substep of a composition method for a step from the time t to t + h.
 
-    The method makes a step from the time t to t + h. The length of the substep is ``fraction`` * h. The
-    substep begins at the time t + ``offset`` * h.
+    The length of the substep is ``fraction`` * h. The substep begins at the time t + ``offset`` * h.
     """
 
     fraction: Number
@@ -133,12 +123,11 @@ class Program:
     """One step of an integrator: its inputs, its statements, and its outputs.
 
     An output with the name of an input is the new value of this input. If ``substeps`` is not empty, the
-    statements are executed once for each substep, in the order of ``substeps``.
+    statements are executed once for each substep.
 
-    If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. The
-    statements compute the new values q' and m'. The new value of mu is mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m.
-    In exact arithmetic, this sum is Ad*_{q'^-1} m'. In rounded arithmetic, the sum is more accurate, because
-    rounding errors in q affect only the change of the momentum.
+    If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. With the
+    new values q' and m', the new value of mu is mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m. This sum has smaller
+    rounding errors than Ad*_{q'^-1} m'.
     """
 
     name: str
@@ -261,10 +250,7 @@ class Builder:
         return self.add(Field(bool(time)), target, y, *time)
 
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
-        """Append target = sum of coefficient * variable over ``terms``. An empty sum is the zero vector.
-
-        ``kind`` is the kind of the target.
-        """
+        """Append target = sum of coefficient * variable over ``terms``. An empty sum is the zero vector."""
         var = self.fresh(target, kind)
         # Terms with the coefficient zero are omitted, because compiler passes assume that a sum depends on
         # each of its variables.
@@ -280,7 +266,7 @@ class Builder:
     def hamilton(self, xi: str, n: str, q: Var, mu: Var, *time: Var) -> tuple[Var, Var]:
         """Append the assignment of the two derivatives of the Hamiltonian at (q, mu), or at (q, mu, t).
 
-        ``xi`` and ``n`` are the names of the new variables. See :class:`HamiltonianDerivatives`.
+        See :class:`HamiltonianDerivatives`.
         """
         # :meth:`add` is not used here, because this operation has two results.
         targets = (self.fresh(xi, Kind.ALG), self.fresh(n, Kind.DUAL))
@@ -290,8 +276,8 @@ class Builder:
     def flow(self, part: str, q: Var, mu: Var, duration: Coefficient, *time: Var) -> tuple[Var, Var]:
         """Append the exact flow of a term of the Hamiltonian, and return q and mu after the flow.
 
-        ``part`` is the name of the term. The flow starts at (q, mu). If the term depends on time, ``time`` is
-        the time t at which the term is evaluated. During the flow, t is constant.
+        ``part`` is the name of the term. If the term depends on time, ``time`` is the time t at which the
+        term is evaluated.
         """
         # The variable names contain the position of this assignment in ``body``, for example q3 and mu3.
         number = 1 + len(self.body)

@@ -50,8 +50,8 @@ class Field(OfScene):
 class HamiltonianDerivatives(OfScene):
     """The derivatives xi and n of the Hamiltonian H(q, mu), or H(q, mu, t).
 
-    The vector xi is the derivative with respect to mu. Let e_a be the basis elements of the Lie algebra. The
-    components of the covector n are n_a = -d/deps H(exp(eps e_a) q, mu) at eps = 0.
+    The vector xi is the derivative with respect to mu. With the basis e_a of the Lie algebra, the components
+    of the covector n are n_a = -d/deps H(exp(eps e_a) q, mu) at eps = 0.
     """
 
     name = "hamilton"
@@ -67,8 +67,7 @@ class HamiltonianDerivatives(OfScene):
 class BodyVelocity(OfScene):
     """The velocity W(q, P), for a momentum P in the body frame (:mod:`codegen.scene.body_frame`)."""
 
-    # The velocity and the force are separate operations. Compiler passes can remove either operation if its
-    # result is not used.
+    # The velocity and the force are separate operations, so compiler passes can remove either of them.
     name = "velocity"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -130,12 +129,11 @@ class Secant(OfGroup):
     """A discrete differential of the energy, for the arguments g, x, H0 and H1.
 
     The group element exp(x) moves a point with the energy H0 to a point with the energy H1. The covector g
-    approximates the differential of the energy between the two points. Among the covectors c with the pairing
-    <c, x> = H1 - H0, the result is the one closest to g in the Euclidean norm. For x = 0 the result is g.
+    approximates the differential of the energy between the two points. The result is the covector c with
+    <c, x> = H1 - H0 that is closest to g in the Euclidean norm.
     """
 
-    # The result is g + r x with the number r = (H1 - H0 - <g, x>)/<x, x>. For x = 0 this fraction is 0/0.
-    # The formula is one operation, because a program has no branches for the case x = 0.
+    # The result g + x (H1 - H0 - <g, x>)/<x, x> is one operation, because a program has no branch for x = 0.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -149,8 +147,7 @@ class Bivector(OfGroup):
     the differential of the energy at y to the vector field f(y) of the problem.
     """
 
-    # The operation is linear in alpha. For alpha = c beta with a number c, compiler passes may compute the
-    # result for beta and multiply it by c.
+    # For alpha = c beta with a number c, compiler passes may compute c times the result for beta.
     name = "bivector"
     linear_in_last = True
     takes, gives = P + D, A
@@ -161,8 +158,8 @@ class Bivector(OfGroup):
 class TaylorStep(Operation):
     """The Taylor polynomial of the solution about the time t, evaluated at t + h.
 
-    The argument is the state y at the time t. If ``timed`` is true, the arguments are y and t. The result
-    has the coordinates of :mod:`codegen.scene.evolution`.
+    The arguments are the state y at the time t and, if ``timed`` is true, t. The result has the coordinates
+    of :mod:`codegen.scene.evolution`.
     """
 
     degree: int
@@ -181,7 +178,7 @@ class TaylorStep(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the value of the Taylor polynomial at t + h."""
-        # The third argument of ``apply`` is called ``order``. For a Taylor polynomial, it is the degree.
+        # The argument ``order`` of ``apply`` is the degree of the Taylor polynomial.
         return problem.apply(domain, self.name, self.degree, args)
 
 
@@ -228,7 +225,7 @@ class FlowOf(Operation):
     """The state after the exact flow of one term of the Hamiltonian, for a fixed duration.
 
     ``part`` is the name of the term. If ``timed`` is true, the term depends on time, and the last argument is
-    the time t at which the term is evaluated. During the flow, t is constant.
+    the time t at which the term is evaluated.
     """
 
     part: str
@@ -287,10 +284,10 @@ class SiteFlowOf(Operation):
         raise ArithmeticError("the flow of a lattice changes all sites and is not defined for a single site")
 
 
-# In :class:`FlowOf` the duration is a fixed multiple of h. In ``FlowFor`` the step computes the duration.
+# In :class:`FlowOf` the duration is a fixed multiple of h, not an argument.
 @dataclass(frozen=True)
 class FlowFor(Operation):
-    """The state after the exact flow of one term of the Hamiltonian. The duration is an argument.
+    """The state after the exact flow of one term of the Hamiltonian.
 
     ``part`` is the name of the term. The last argument is the duration. If ``timed`` is true, the argument
     before the duration is the time.

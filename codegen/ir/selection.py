@@ -1,13 +1,11 @@
 """Functions that select one of several formulas by a comparison.
 
-- ``choose(x, a, b)`` is ``a`` for x > 0, and ``b`` for x <= 0. If x is a NaN, the value is a NaN. Conditions
-  in formulas are translated to calls of ``choose``.
+- ``choose(x, a, b)`` is ``a`` for x > 0, and ``b`` for x <= 0. If x is a NaN, the value is a NaN.
 - ``fabs(x)`` is the absolute value of x.
 - A :class:`codegen.ir.table.PiecewisePolynomial` at x selects the polynomial of the interval that contains x.
 
-The selected formula changes at certain values of x, for example at x = 0 in ``choose``. The argument x may be
-a power series in the step size. If the formula changes at a value of x that is, or may be, equal to the
-constant term of the series, :class:`Kink` is raised.
+The argument x may be a power series in the step size. :class:`Kink` is raised if the selected formula
+changes, or may change, at the constant term of the series.
 """
 
 from __future__ import annotations
@@ -35,9 +33,8 @@ def selects(function: str) -> bool:
 
 
 def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign) -> Scalar:
-    """Return the value of ``function`` for the arguments ``args``.
+    """Return the value of ``choose``, ``fabs`` or a piecewise polynomial for the arguments ``args``.
 
-    ``function`` is ``choose``, ``fabs`` or a piecewise polynomial. ``args`` are scalars of ``domain``.
     ``sign`` returns the sign of a scalar: -1, 0, 1, or None for a NaN. If the sign of the first argument is
     None, the result is the first argument.
     """

@@ -1,7 +1,7 @@
 """Operations on sums over all sites of a lattice.
 
-Inner products and energies of a lattice are sums over its sites. One operation computes the term of each
-site, and :class:`Total` adds the terms of all sites. A system without a lattice is treated as a single site.
+One operation computes the term of each site, and :class:`Total` adds the terms of all sites. A system without
+a lattice is treated as a single site.
 """
 
 from __future__ import annotations

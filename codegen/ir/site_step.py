@@ -1,8 +1,7 @@
 """A step of a lattice system as a sequence of sweeps over all sites.
 
 A sweep is a loop that computes the same formulas at each site. The formulas read numbers of the site and of
-its neighbours. Arrays store the results of a sweep for later sweeps. The number of sites is an argument of
-the emitted code.
+its neighbours.
 """
 
 from __future__ import annotations
@@ -24,7 +23,6 @@ for each quantity and one column for each site.
 
 EXISTS = "exists"
 """The name of an array of flags. The flag in row k is 1 if neighbour k of the site exists, and 0 otherwise.
-The flags are not stored in memory, but computed from the position of the site.
 """
 
 OWN = -1
@@ -38,7 +36,7 @@ BYTES = 8
 
 @dataclass(frozen=True)
 class Row:
-    """A row of an array. The row contains one number for each site.
+    """A row of an array, with one number for each site.
 
     ``array`` is the name of the array: :data:`STATE`, :data:`WORK`, :data:`RESULT` or :data:`EXISTS`. The
     index of the row is ``number``.
@@ -52,9 +50,8 @@ class Row:
 class Load:
     """A number that a sweep reads at each site. ``symbol`` denotes the number in the formulas.
 
-    A row contains one number for each site. If ``neighbour`` is :data:`OWN`, the sweep reads the number of
-    the site itself from ``row``. Otherwise, ``neighbour`` is an index in :attr:`SiteStep.offsets`, and the
-    sweep reads the number of the neighbour with this index.
+    If ``neighbour`` is :data:`OWN`, the sweep reads the number of the site itself from ``row``. Otherwise,
+    ``neighbour`` is the index of a neighbour in :attr:`SiteStep.offsets`.
     """
 
     symbol: str
@@ -64,8 +61,7 @@ class Load:
 
 @dataclass(frozen=True)
 class Sweep:
-    """One loop over all sites. ``kernel`` contains the formulas. Output k of ``kernel`` is stored in the row
-    ``stores[k]``.
+    """One loop over all sites. Output k of ``kernel`` is stored in the row ``stores[k]``.
 
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
@@ -75,12 +71,10 @@ class Sweep:
       single sites, ``axis`` is :data:`OWN`. The second site of a pair is neighbour 0 of the first site. The
       second half of ``stores`` contains the rows for the second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
-      values g(u). Fixed-point iteration stores g(u), and Newton's method stores g(u) - u.
+      values g(u). Newton's method stores g(u) - u.
     - ``measured`` is empty, or contains two rows for the stopping test of fixed-point iteration. For each
-      site, the first row contains the largest change of an unknown. The second row contains the largest
-      absolute value of an unknown.
+      site, these rows contain the largest change and the largest absolute value of an unknown.
     - ``sums`` contains a pair (name, row) for each sum over all sites. The row contains the terms of the sum.
-      Later sweeps can read the sum.
     """
 
     about: str
@@ -122,18 +116,16 @@ class SiteNewton:
 
     The matrix is the derivative of u - g(u) with respect to u, to first order in the step size h. Each site
     has ``size`` unknowns. For each site, ``kernel`` computes three square blocks: the derivatives with
-    respect to the unknowns of the left neighbour, of the site, and of the right neighbour. Hence the matrix
-    of an open chain is block-tridiagonal.
+    respect to the unknowns of the left neighbour, of the site, and of the right neighbour.
 
-    ``loads`` are the numbers that ``kernel`` reads. In an open chain, the symbol with the name ``exists[k]``
-    is 1 if neighbour k exists, and 0 otherwise. In a periodic chain, ``exists`` is empty.
+    In an open chain, the symbol with the name ``exists[k]`` is 1 if neighbour k exists, and 0 otherwise.
 
     ``matrix``, ``residual`` and ``border`` are indices of rows in the workspace:
 
     - The matrix occupies 3 ``size``^2 rows from row ``matrix`` on. The blocks of one site are contiguous.
     - The residuals occupy ``size`` rows from row ``residual`` on.
-    - In a periodic chain, the columns for the unknowns of the last site are stored separately. These columns
-      are called the border. The border occupies ``size``^2 rows from row ``border`` on.
+    - In a periodic chain, the border (the columns for the unknowns of the last site) occupies ``size``^2 rows
+      from row ``border`` on.
     """
 
     kernel: Kernel
@@ -150,8 +142,8 @@ class SiteNewton:
         The result is the pair (numbers read, numbers written) for each site.
         """
         n = self.size
-        # For each site, ``kernel`` writes 3 n^2 matrix entries. The factorisation reads these entries and
-        # overwrites them with the factors.
+        # For each site, ``kernel`` writes 3 n^2 matrix entries, and the factorisation reads and overwrites
+        # these entries.
         read, written = len({load.row for load in self.loads}) + 3 * n * n, 6 * n * n
         # The matrix of a periodic chain is not block-tridiagonal, because the last site is a neighbour of the
         # first site.
@@ -179,8 +171,7 @@ class SiteNewton:
         The result is the pair (numbers read, numbers written) for each site.
         """
         n = self.size
-        # The three matrix blocks are read once. Each of the two substitutions reads and writes the n numbers
-        # of the right-hand side.
+        # Each of the two substitutions reads and writes the n numbers of the right-hand side.
         return 3 * n * n + 2 * n, 2 * n
 
 
@@ -189,11 +180,9 @@ class SiteBlock:
     """Implicit equations u = g(u) for the unknowns u of all sites, solved by iteration.
 
     In each iteration, the sweeps with the indices ``first`` to ``last`` compute g(u). If ``newton`` is None,
-    g(u) replaces u. If ``newton`` is given, the sweeps store the residuals g(u) - u, and Newton's method
-    corrects u. The iteration ends when the unknowns of all sites have converged.
+    g(u) replaces u. If ``newton`` is given, the sweeps store the residuals g(u) - u.
 
-    The sweeps before ``first`` store the initial guess for u. ``label`` is the name of the equations in
-    messages.
+    The sweeps before ``first`` store the initial guess for u.
     """
 
     label: str
@@ -211,7 +200,7 @@ class SiteFlow:
     - ``duration`` is the duration of the flow, divided by h.
     - A flow that depends on time is evaluated at the time t + ``elapsed`` * h.
     - In a sweep over pairs of sites, ``colour`` is 0 if the first site of each pair has an even index, and 1
-      if this index is odd. In a sweep over single sites, ``colour`` is 0.
+      if this index is odd.
     """
 
     sweep: int
@@ -226,13 +215,11 @@ class SiteStep:
 
     - ``dimension`` is the dimension of the lattice. ``offsets[k]`` is the position of neighbour k relative to
       a site.
-    - ``periodic`` is true if the lattice has periodic boundary conditions.
     - ``sweeps`` are the loops over all sites. If ``flows`` is empty, ``sweeps`` has the order of execution.
     - ``size`` is the number of rows of the state.
     - ``rows`` is the number of rows of the workspace for intermediate results.
-    - ``flows`` are the exact flows of a splitting method, in the order of execution. For other methods,
-      ``flows`` is empty. Each flow is computed by the sweep with the index :attr:`SiteFlow.sweep`. The first
-      flow reads the old state, and all other flows change the new state in place.
+    - ``flows`` are the exact flows of a splitting method, in the order of execution. The first flow reads the
+      old state, and all other flows change the new state in place.
     - ``blocks`` are the implicit equations of the step, in the order in which they are solved.
     """
 
@@ -349,7 +336,7 @@ def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     If a sweep reads a number several times, the number counts once, because it remains in the cache.
     """
     listed = list(sweeps)
-    # After a sweep, the stopping test reads the rows ``measured``. Each sum over all sites reads one row.
+    # The stopping test reads the rows ``measured``, and each sum over all sites reads one row.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 

@@ -1,10 +1,8 @@
 """Selections in the formulas of a vector field.
 
-A selection is a call of a function that selects one of several formulas: ``choose``, ``fabs`` or a piecewise
-polynomial (:mod:`codegen.ir.selection`). A field with selections may be non-smooth. The *side* of a selection
-is the index of the selected formula. For ``choose`` and ``fabs`` the side is 1 if the first argument is
-positive, and 0 otherwise. For a piecewise polynomial the side is the index of the interval that contains the
-argument.
+A selection is a call of ``choose``, ``fabs`` or a piecewise polynomial (:mod:`codegen.ir.selection`). The
+*side* of a selection is the index of the selected formula. For ``choose`` and ``fabs`` the side is 1 if the
+first argument is positive, and 0 otherwise.
 """
 
 from __future__ import annotations
@@ -19,7 +17,7 @@ from codegen.ir.selection import ABSOLUTE, CHOOSE, selects
 from codegen.ir.table import PiecewisePolynomial
 
 Sides = tuple[int, ...]
-"""The sides of the selections, in the order of :func:`selections`. A side is the index of a formula."""
+"""The indices of the selected formulas, in the order of :func:`selections`."""
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
@@ -34,9 +32,9 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
     """Replace each selection in ``roots`` by one of its formulas.
 
-    ``nodes`` are the selections. ``sides[k]`` is the index of the formula that replaces ``nodes[k]``. The
-    result is a pair of lists: the new expressions and the margins. A margin is an expression. If all margins
-    are positive, the new expressions have the same values as ``roots``.
+    ``sides[k]`` is the index of the formula that replaces the selection ``nodes[k]``. The result is a pair of
+    lists: the new expressions and the margins. If all margins are positive, the new expressions have the same
+    values as ``roots``.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -46,12 +44,11 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
-            # ``args`` contains no selections. Hence ``value`` and ``more`` contain no selections.
+            # ``args`` contains no selections, so ``value`` and ``more`` contain none.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:
-            # ``evaluate`` simplifies the node with the new arguments. The copy of the node has symbols as
-            # arguments, because ``evaluate`` can only replace symbols.
+            # The copy of the node has symbols as arguments, because ``evaluate`` can only replace symbols.
             names = [f"argument {k}" for k in range(len(args))]
             copy = space._make(node.op, tuple(map(space.sym, names)), node.payload)
             (value,) = evaluate([copy], domain, dict(zip(names, args, strict=True)))
@@ -64,7 +61,7 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
     """Return formula ``side`` of the selection ``function(*args)``, and a list of margins.
 
-    A margin is an expression. If all margins are positive, the selection selects this formula.
+    If all margins are positive, the selection selects this formula.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
@@ -73,13 +70,11 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         def constant(k: int) -> Expr:
             return domain.number(Number.rational(*knots[k].as_integer_ratio()))
 
-        # The margins are the distances of x from the two ends of the interval. The first interval has no
-        # lower end, and the last interval has no upper end.
+        # The first interval has no lower end, and the last interval has no upper end.
         margins = [x - constant(side - 1)] if side else []
         margins += [constant(side) - x] if side < len(knots) else []
         return function.on_interval(domain, x, side), margins
-    # A tuple contains the formulas for x <= 0 and for x > 0. ``choose(x, a, b)`` is ``a`` for x > 0, so its
-    # tuple is (b, a).
+    # Each tuple contains the formulas for x <= 0 and for x > 0, in this order.
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
     return value, [x if side else -x]
 
@@ -87,7 +82,7 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
 def features(roots: Sequence[Expr]) -> str:
     """Return a text that lists the selections and the calls of ``atan2`` in the expressions ``roots``.
 
-    The value of ``atan2`` jumps from pi to -pi. If nothing is found, the text is empty.
+    If nothing is found, the text is empty.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space()
@@ -116,18 +111,14 @@ SHOWN = 3
 
 
 def _argument(node: Expr) -> str:
-    """Return the text of the first argument of a selection, without a minus sign.
-
-    The text describes where the argument is zero, so its sign does not matter.
-    """
+    """Return the text of the first argument of a selection, without a minus sign."""
     x = node.args[0]
     if x.op == "neg":
         (x,) = x.args
     if x.op == "sub":
-        # The differences a - b and b - a have the same zeros, so they get the same text. A constant is put
-        # last.
+        # The differences a - b and b - a have the same zeros, so they get the same text.
         first, second = sorted(x.args, key=lambda e: (e.op == "const", e.id))
         return f"{first} - {second}"
-    # ``str`` encloses sums, products and quotients in parentheses. The outer parentheses are removed.
+    # ``str`` encloses sums, products and quotients in parentheses.
     text = str(x)
     return text[1:-1] if x.op in ("add", "mul", "div") else text

@@ -25,9 +25,8 @@ class PiecewisePolynomial(str):
     """A piecewise polynomial in x. The object is a string: the name of the polynomial in expressions.
 
     The increasing numbers ``knots`` divide the real line into intervals. Interval k begins at
-    ``knots[k - 1]`` and ends before ``knots[k]``. The first interval is unbounded to the left, and the last
-    interval is unbounded to the right. On interval k, the polynomial is the sum over j of ``rows[k][j]``
-    (x - ``bases[k]``)^j.
+    ``knots[k - 1]`` and ends before ``knots[k]``. On interval k, the polynomial is the sum over j of
+    ``rows[k][j]`` (x - ``bases[k]``)^j.
 
     >>> zero, one = Fraction(0), Fraction(1)
     >>> ramp = PiecewisePolynomial((zero,), (zero, zero), ((zero,), (zero, one)))
@@ -50,13 +49,11 @@ class PiecewisePolynomial(str):
         """Return the piecewise polynomial. Zeros are appended to the rows of coefficients until all rows
         have the same length and at least two entries.
         """
-        # A polynomial with one coefficient would have a finite value at x = NaN. With two coefficients, the
-        # value is a NaN.
+        # A polynomial with one coefficient would have a finite value at x = NaN.
         width = max(2, *map(len, rows))
         rows = tuple((*row, *(Fraction(0),) * (width - len(row))) for row in rows)
         content = ";".join(",".join(map(str, row)) for row in (knots, bases, *rows))
-        # Piecewise polynomials are compared by their names. A name contains a digest of ``content``, so
-        # different polynomials have different names.
+        # A name contains a digest of ``content``, so different polynomials have different names.
         table = super().__new__(cls, PREFIX + sha256(content.encode()).hexdigest()[:8])
         table.knots, table.bases, table.rows = knots, bases, rows
         return table
@@ -79,10 +76,9 @@ class PiecewisePolynomial(str):
     def value(self, domain: Domain, x: Scalar, sign: Sign) -> Scalar:
         """Return the value at x, where x is a scalar of ``domain``.
 
-        ``sign`` returns the sign of a scalar: -1, 0, 1, or None for a NaN. If x is a NaN, the result is x.
+        ``sign`` returns the sign of a scalar: -1, 0, 1, or None for a NaN.
         """
-        # Bisection counts the knots that are less than or equal to x. The number of these knots is the index
-        # of the interval that contains x.
+        # The index of the interval is the number of knots that are less than or equal to x.
         first, last = 0, len(self.knots)
         while first < last:
             middle = (first + last) // 2

@@ -28,7 +28,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
     # For each call of a vector function, ``together`` contains the tangents of all results.
     together: dict[tuple[str, tuple[int, ...]], tuple[Expr, ...]] = {}
     for node in walk(roots):
-        # ``known`` contains the tangents that are not zero. A symbol that is not in ``seeds`` is constant.
+        # ``known`` contains the tangents that are not zero.
         if node.op == "sym":
             if node.payload in seeds:
                 known[node.id] = seeds[node.payload]
@@ -46,8 +46,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 together[key] = function.tangent(node.args, rates)
             known[node.id] = together[key][index]
             continue
-        # ``partials`` raises an error for a function without a derivative. Calls with constant arguments do
-        # not reach this line.
+        # ``partials`` is not called for constant arguments, because a function may have no derivative.
         slopes = partials(node)
         total = node.space.zero
         # By the chain rule, the tangent is the sum of partial derivatives times tangents of the arguments.

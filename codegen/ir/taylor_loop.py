@@ -1,5 +1,4 @@
-"""The recurrence of Taylor coefficients as a loop over the order n. For a large vector field, the loop is
-much shorter than separate code for each order.
+"""The recurrence of Taylor coefficients as a loop over the order n.
 
 Coefficient n of the product of two series a and b is a_0 b_n + a_n b_0 plus the inner sum. The inner sum is
 the sum of a_j b_{n-j} over 0 < j < n, and contains only coefficients of lower orders. For each order n, the
@@ -36,8 +35,8 @@ from codegen.ir.taylor_series import (
 )
 
 ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
-"""The names of four symbols in the loop over the order n. The values of the symbols are n, 1/n, 1/(n + 1),
-and coefficient n of the time. Coefficient n of the time is 1 for n = 1, and 0 for n > 1.
+"""The names of the symbols for n, 1/n, 1/(n + 1) and coefficient n of the time in the loop over n.
+Coefficient n of the time is 1 for n = 1, and 0 for n > 1.
 """
 
 PROBED = 3
@@ -51,8 +50,7 @@ class OrderLoop:
     - ``first`` are expressions that are computed before the loop.
     - ``names`` are the names of the symbols that represent the values of ``first`` in the loop.
     - ``coordinates`` are the names of the symbols for coefficient n of each coordinate.
-    - ``sums`` are the names of the symbols for the inner sums. An inner sum is the sum of a_j b_{n-j} over
-      0 < j < n for two series a and b.
+    - ``sums`` are the names of the symbols for the inner sums, the sums of a_j b_{n-j} over 0 < j < n.
     - ``left[k]`` and ``right[k]`` are the expressions for a_n and b_n, where a and b are the series in inner
       sum k.
     - ``start`` are the expressions for coefficient 1 of each coordinate.
@@ -82,10 +80,10 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
     following = []
     for number, slope in recurrence.slopes:
         x = work.of(slope)
-        # If the derivative is constant in time, ``x`` is None. Coefficient n + 1 is then zero.
+        # ``x`` is None if the derivative is constant in time.
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
-    # ``work.of`` may append pairs to ``work.pairs`` during this loop. The loop includes the new pairs.
+    # ``work.of`` may append pairs to ``work.pairs`` during this loop.
     for a, b in work.pairs:
         left.append(_known(work.of(a)))
         right.append(_known(work.of(b)))
@@ -118,8 +116,7 @@ class _Loop:
 
     - ``pairs`` contains the two series of each inner sum.
     - ``first`` are expressions that are computed before the loop over n.
-    - ``known`` maps the id of a series to the expression of its coefficient n. If the series is constant in
-      time, the entry is None.
+    - ``known`` maps the id of a series to its coefficient n, or to None for a series constant in time.
     - ``places`` maps the ids of a pair of series to the index of the pair in ``pairs``.
     - ``positions`` maps the id of an expression to the index of the expression in ``first``.
     """
@@ -133,8 +130,7 @@ class _Loop:
     positions: dict[int, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # Pass n of the emitted loop computes coefficient n + 1 of each coordinate. Coefficient n is known and
-        # is represented by a symbol.
+        # Pass n of the emitted loop computes coefficient n + 1 of each coordinate, so coefficient n is known.
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
@@ -176,7 +172,7 @@ class _Loop:
 
     def inner(self, a: Series, b: Series) -> Expr:
         """Return the symbol for the inner sum of a and b, the sum of a_j b_{n-j} over 0 < j < n."""
-        # The inner sum is symmetric in a and b. The key is therefore the same for (a, b) and (b, a).
+        # The inner sum is symmetric in a and b.
         key = min(id(a), id(b)), max(id(a), id(b))
         if key not in self.places:
             self.places[key] = len(self.pairs)
@@ -195,7 +191,7 @@ class _Loop:
 
     def beyond(self, a: Series, b: Series) -> Expr:
         """Return the sum of a_j b_{n-j} over 0 < j <= n."""
-        # The term for j = n is a_n b_0. The terms for 0 < j < n are the inner sum of a and b.
+        # The term for j = n is a_n b_0.
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
     def built(self, series: Series) -> Expr:
@@ -222,8 +218,8 @@ class _Loop:
                 x = self.known[id(a)]
                 if self.known[id(b)] is None:
                     return self.value(series.inverse) * _known(x)
-                # For the divisor b, ``series.inverse`` is 1/b_0. This quotient is computed before the loop,
-                # because a division in the loop would be slow.
+                # The quotient ``series.inverse`` = 1/b_0 is computed before the loop, because a division in
+                # the loop would be slow.
                 rest = self.beyond(b, series)
                 return self.value(series.inverse) * (-rest if x is None else x - rest)
             case _:
@@ -234,12 +230,11 @@ class _Loop:
         space = self.space
         match series:
             case Root(a=a):
-                # The root s satisfies s^2 = a. Hence 2 s_0 s_n is a_n minus the sum of s_j s_{n-j} over
-                # 0 < j < n. ``inverse`` is 1/(2 s_0).
+                # For the root s with s^2 = a, 2 s_0 s_n is a_n minus the sum of s_j s_{n-j} over 0 < j < n.
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
                 # For p = a^e, a_0 p_n is (e + 1)/n times the sum of j a_j p_{n-j}, minus the sum of
-                # a_j p_{n-j}, both over 0 < j <= n. Coefficient j of ``slope`` is j a_j.
+                # a_j p_{n-j}, both over 0 < j <= n.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -251,14 +246,12 @@ class _Loop:
                 mean = space.sym(INVERSE) * self.beyond(slope, other)
                 return -mean if minus else mean
             case Chosen(test=test, a=a, b=b):
-                # The sign of ``test`` at the beginning of the step selects a or b. The choice is the same
-                # for all orders.
+                # The sign of ``test`` at the beginning of the step selects a or b for all orders.
                 pair = (space.zero if x is None else x for x in (self.known[id(a)], self.known[id(b)]))
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
                 pairs = zip(slopes, rates, strict=True)
-                # The derivative of the angle is p y' - q x', where p and q are the two ``rates``. If y is
-                # constant in time, p y' is zero. If x is constant in time, q x' is zero.
+                # The derivative of the angle is p y' - q x', where p and q are the two ``rates``.
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
@@ -267,8 +260,8 @@ class _Loop:
             case Antiderivative(slope=slope, rate=rate):
                 return space.sym(INVERSE) * self.beyond(slope, rate)
             case Logarithm(a=a, slope=slope):
-                # The logarithm l satisfies a l' = a'. Hence l_n = (a_n - z/n)/a_0, where z is the sum of
-                # j l_j a_{n-j} over 0 < j < n. ``inverse`` is 1/a_0.
+                # For the logarithm l of a, l_n = (a_n - z/n)/a_0, where z is the sum of j l_j a_{n-j} over
+                # 0 < j < n.
                 rest = space.sym(INVERSE) * self.inner(slope, a)
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - rest)
         raise AssertionError(type(series))
@@ -282,16 +275,14 @@ def _operands(series: Series) -> Sequence[Series]:
         case Power(a=a, slope=slope):
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
-            # Coefficient n of the sine depends only on lower coefficients of the cosine. The cosine is
-            # therefore not listed here.
+            # Coefficient n of the sine depends only on lower coefficients of the cosine.
             return (slope,)
         case Chosen(a=a, b=b):
             return a, b
         case Angle(slopes=slopes):
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
-            # The formula for a logarithm l also contains the coefficients j l_j of the series ``slope``, but
-            # only for j < n. Therefore ``slope`` is not listed here.
+            # The formula for a logarithm contains coefficient j of the series ``slope`` only for j < n.
             return (a,)
         case Given() | Start():
             return ()
