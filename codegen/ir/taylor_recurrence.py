@@ -1,9 +1,8 @@
 """Taylor coefficients in time of the solution of y' = F(y, t).
 
-Every subexpression of F becomes a power series in time (:mod:`codegen.ir.taylor_series`). Coefficient
-n + 1 of y follows from coefficient n of F. Each product of two series is an expensive convolution. To avoid
-convolutions, a product or quotient of powers of the same expression is rewritten as one power. For example,
-x sqrt(x) and sqrt(x)^3 become x^(3/2).
+Every subexpression of F becomes a power series in time (:mod:`codegen.ir.taylor_series`). Coefficient n + 1
+of y follows from coefficient n of F. To avoid convolutions of series, a product or quotient of powers of the
+same expression is rewritten as one power.
 """
 
 from __future__ import annotations
@@ -49,8 +48,8 @@ TIME = "t"
 class _Builder:
     """Builds the power series of expressions.
 
-    ``series`` contains the series of the coordinates and of the time. All other symbols are constant, and
-    ``values`` contains their values. ``known`` contains the series that are already built, by node number.
+    ``series`` contains the series of the coordinates and of the time. ``values`` contains the values of all
+    other symbols.
     """
 
     domain: Domain
@@ -116,8 +115,7 @@ class _Builder:
                 return constants[0] / c, x, -e
             case "pow":
                 ((c, x, e),) = parts
-                # The node is an integer power of c x^e. For e = 1 it is computed by repeated squaring. For
-                # e = 1/2, for example, sqrt(x)^3 becomes x^(3/2).
+                # For e = 1, an integer power of c x^e is computed by repeated squaring.
                 if e == 1:
                     return plain
                 for _ in range(node.payload - 1):
@@ -125,8 +123,7 @@ class _Builder:
                 result = c, x, e * node.payload
             case "mul" | "div":
                 (c, x, e), (d, y, f) = parts
-                # The node is the product or quotient of c x^e and d y^f. If x and y differ, or if e = f = 1,
-                # the node is not rewritten.
+                # The node is the product or quotient of c x^e and d y^f.
                 if x is not y or e == f == 1:
                     return plain
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
@@ -149,7 +146,7 @@ class _Builder:
             case "const":
                 return Given(domain, domain.number(node.payload))
             case "sym":
-                # ``self.series`` contains the coordinates and the time. All other symbols are constant.
+                # All symbols except the coordinates and the time are constant.
                 known = self.series.get(node.payload)
                 return known if known is not None else Given(domain, self.values[node.payload])
             case "add" | "sub":
@@ -211,8 +208,7 @@ class _Builder:
     def integer_power(self, a: Series, n: int) -> Series:
         """Return the series a^n for n >= 1, computed by repeated squaring."""
         result = a
-        # ``bin(n)`` begins with "0b" and the leading bit 1. The first value of ``result`` is a, the power for
-        # the leading bit. The loop runs over the other bits.
+        # ``bin(n)`` begins with "0b" and the leading bit 1.
         for bit in bin(n)[3:]:
             result = Square(self.domain, result)
             if bit == "1":
@@ -236,7 +232,7 @@ class _Builder:
                 self.shared[key] = Logarithm(domain, a)
             case "sin" | "cos":
                 # The recurrence of the sine contains the cosine, and the recurrence of the cosine contains
-                # the sine. Therefore both series are created together.
+                # the sine.
                 sine, cosine = (
                     Circular(domain, "sin", a, slope, False),
                     Circular(domain, "cos", a, slope, True),
@@ -245,8 +241,7 @@ class _Builder:
                 self.shared["sin", argument.id, Fraction(1)] = sine
                 self.shared["cos", argument.id, Fraction(1)] = cosine
             case "sinh" | "cosh":
-                # sinh' = cosh and cosh' = sinh. The attribute ``rate`` of a function f(a) is the series
-                # f'(a).
+                # sinh' = cosh and cosh' = sinh.
                 pair = [Antiderivative(domain, n, a, slope) for n in ("sinh", "cosh")]
                 pair[0].rate, pair[1].rate = pair[1], pair[0]
                 for series in pair:
@@ -283,8 +278,8 @@ class Recurrence:
 
     - ``symbols`` are the names of the coordinates y, and ``state`` contains their values at the time t.
     - ``roots`` are the expressions of the derivatives of the coordinates. If there are only m derivatives,
-      they are the derivatives of the first m coordinates. The caller must then compute the coefficients of
-      the other coordinates, and must use :meth:`append` in place of :meth:`extend`.
+      they are the derivatives of the first m coordinates. The caller must then use :meth:`append` in place of
+      :meth:`extend`.
     - ``values`` are the values of all other symbols, including the time ``t``.
     """
 
@@ -300,12 +295,11 @@ class Recurrence:
         self.domain, self.scale = domain, scale
         # ``closed=False`` means that :meth:`append` adds coefficients to the series.
         self.coordinates = [Given(domain, x, closed=False) for x in state]
-        # The time is t + s * ``scale``. As a power series in s, it has two coefficients.
+        # As a power series in s, the time is t + s * ``scale``.
         self.time = Given(domain, values[TIME], scale)
         series: dict[str, Series] = dict(zip(symbols, self.coordinates, strict=True))
         self.builder = _Builder(domain, series | {TIME: self.time}, values)
-        # ``slopes`` contains each derivative as a number times a series. :meth:`following` combines the
-        # number and 1/(n + 1) into one factor.
+        # ``slopes`` contains each derivative as a number times a series.
         self.slopes = [_apart(self.builder.of(root)) for root in roots]
 
     def extend(self, degree: int) -> list[list[Coefficient]]:
@@ -313,7 +307,7 @@ class Recurrence:
 
         A coefficient that is identically zero is represented by None.
         """
-        # The number of known coefficients is the same for all coordinates. The loop reads it from the first.
+        # The number of known coefficients is the same for all coordinates.
         for n in range(len(self.coordinates[0].terms) - 1, degree):
             self.append(self.following(n))
         return [coordinate.terms for coordinate in self.coordinates]

@@ -1,14 +1,11 @@
-"""Taylor series in time, with one class for each operation or function. Each class contains the recurrence
-that computes the coefficients of the series.
+"""Taylor series in time, with one class for each operation or function.
 
-The sum of two series is computed term by term. A product is computed by Cauchy's convolution. The recurrence
-of each other function follows from an algebraic or differential equation for the result (R. E. Moore,
-*Interval Analysis*, 1966, chapter 11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 2).
-The coefficients are scalars of a domain (:mod:`codegen.ir.domain`). For a domain of expressions, the
-recurrences become straight-line code.
+The recurrence for the coefficients of a series follows from an algebraic or differential equation
+(R. E. Moore, *Interval Analysis*, 1966, chapter 11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005)
+99, section 2). The coefficients are scalars of a domain (:mod:`codegen.ir.domain`).
 
 In all formulas a_n is coefficient n of the series a, and a prime denotes the derivative with respect to time.
-The value None represents a coefficient that is identically zero. Products with None are not computed.
+The value None represents a coefficient that is identically zero.
 """
 
 from __future__ import annotations
@@ -62,8 +59,7 @@ class Given(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return None. All nonzero coefficients of a ``closed`` series are already in ``terms``."""
-        # For a coordinate, ``closed`` is false. The coefficients of a coordinate follow from the differential
-        # equation, and are appended one by one.
+        # For a coordinate, ``closed`` is false, because the coefficients are appended one by one.
         assert self.closed, f"coefficient {n} is unknown"
         return None
 
@@ -139,7 +135,7 @@ class Root(Series):
             root = self.domain.call("sqrt", self.a.term(0))
             self.inverse = self.domain.rational(1, 2) / root
             return root
-        # ``rest`` is the sum over 0 < j < n. This sum does not contain the unknown coefficient s_n.
+        # The sum ``rest`` does not contain the unknown coefficient s_n.
         rest = _square(self.domain, self, n, first=1)
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)
 
@@ -229,8 +225,7 @@ class Logarithm(Series):
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
         self.a = a
-        # The recurrence follows from a l' = a', where l is the logarithm. The coefficients of ``slope`` are
-        # j l_j.
+        # The recurrence follows from a l' = a', where l is the logarithm.
         self.slope = Slope(domain, self)
         self.inverse: Scalar = None
 
@@ -251,7 +246,7 @@ class Antiderivative(Series):
     """The series f(a), where f is tan, atan or another function with a simple derivative.
 
     Let r = f'(a) be the series ``rate``. The coefficients of b = f(a) follow from the differential equation
-    b' = r a'. ``slope`` is the :class:`Slope` of a.
+    b' = r a'.
     """
 
     rate: Series
@@ -263,21 +258,18 @@ class Antiderivative(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of f(a).
 
-        Let r = f'(a) be the series ``rate``. For n > 0, coefficient n is the sum of j a_j r_{n-j}/n over
-        0 < j <= n.
+        For n > 0, coefficient n is the sum of j a_j r_{n-j}/n over 0 < j <= n.
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # The sum contains only the coefficients 0, ..., n - 1 of ``rate``. Hence ``rate`` may depend on f(a).
-        # For example, the derivative of the tangent is 1 + tan(a)^2.
+        # The sum contains only the coefficients 0, ..., n - 1 of ``rate``, so ``rate`` may depend on f(a).
         return _mean(self.domain, self.slope, self.rate, n)
 
 
 class Circular(Series):
-    """The sine or the cosine of a series a. ``name`` is "sin" or "cos".
+    """The sine or the cosine of a series a.
 
-    For the sine, ``other`` is the cosine of a. For the cosine, ``other`` is the sine of a, and ``minus`` is
-    true, because cos' = -sin.
+    ``other`` is the other of the two functions. For the cosine, ``minus`` is true, because cos' = -sin.
     """
 
     other: Circular
@@ -289,8 +281,8 @@ class Circular(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of the sine or the cosine.
 
-        Let o be the other of the two functions. Let z be the sum of j a_j o_{n-j}/n over 0 < j <= n. For
-        n > 0, the result is z for the sine, and -z for the cosine.
+        Let z be the sum of j a_j o_{n-j}/n over 0 < j <= n, where o is ``other``. For n > 0, the result is z
+        for the sine, and -z for the cosine.
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
@@ -305,7 +297,6 @@ class Angle(Series):
     def __init__(self, domain: Domain, y: Series, x: Series) -> None:
         super().__init__(domain)
         self.y, self.x = y, x
-        # ``size`` is x^2 + y^2. ``rates`` are the quotients x/``size`` and y/``size``.
         size = Sum(domain, Square(domain, x), Square(domain, y), False)
         self.slopes = Slope(domain, y), Slope(domain, x)
         self.rates = Quotient(domain, x, size), Quotient(domain, y, size)
@@ -360,15 +351,12 @@ class Start(Series):
 def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
     """Return the series of f(a), where f is the piecewise polynomial ``table``.
 
-    Let a_0 be the value of a at the beginning of the step. All coefficients are computed with the polynomial
-    of the interval that contains a_0.
+    All coefficients are computed with the polynomial of the interval that contains the first coefficient a_0.
     """
-    # The polynomial of one interval has a finite Taylor series at a_0. The term of order k is
-    # (a - a_0)^k/k! times the derivative of order k at a_0.
+    # The term of order k of the Taylor series at a_0 is (a - a_0)^k/k! times the derivative of order k.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
-    # ``derivatives[k]`` is the derivative of order k, and ``factors[k]`` is 1/k!. The last derivative is
-    # piecewise constant.
+    # ``derivatives[k]`` is the derivative of order k, and ``factors[k]`` is 1/k!.
     while derivatives[-1].degree:
         factors.append(factors[-1] / len(derivatives))
         derivatives.append(derivatives[-1].derivative())
@@ -393,13 +381,11 @@ def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
 
 
 def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
-    """Return the sum of a_j a_{n-j} over ``first`` <= j <= n - ``first``. Equal products are computed only
-    once.
-    """
+    """Return the sum of a_j a_{n-j} over ``first`` <= j <= n - ``first``."""
     # The products are sorted by n - j, the larger of the two indices (see :func:`_late_last`).
     pairs = _total(multiplied(a.term(j), a.term(n - j)) for j in range((n - 1) // 2, first - 1, -1))
     twice = _scaled(domain, Number.rational(2), pairs)
-    # For even n, the sum also contains the square of a_{n/2}. This term is not doubled.
+    # For even n, the sum also contains the square of a_{n/2}.
     middle = a.term(n // 2) if n % 2 == 0 and n // 2 >= first else None
     return _add(twice, multiplied(middle, middle))
 
@@ -413,12 +399,11 @@ def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
 def _late_last(n: int, indices: range) -> list[int]:
     """Sort the ``indices`` j of a sum of products a_j b_{n-j} by max(j, n - j)."""
     # Coefficients with high indices are computed last, so products with these coefficients are added last.
-    # The processor can compute the other products earlier.
     return sorted(indices, key=lambda j: max(j, n - j))
 
 
 def _total(terms: Iterable[Coefficient]) -> Coefficient:
-    """Return the sum of ``terms``. The terms are added in the given order. An empty sum is None."""
+    """Return the sum of ``terms``, added in the given order. An empty sum is None."""
     total: Coefficient = None
     for x in terms:
         total = _add(total, x)

@@ -25,9 +25,7 @@ class TimeMomentum(Operation):
     Let Q and P be the positions and the momenta in Y. The new value of u is u + (Q.P' - P.Q')/2. The prime
     denotes the derivative with respect to t for fixed y and fixed step size h.
 
-    The arguments are (y, u), (Y, u) and t. The result is Y with the new value of u. The program ``step``
-    computes (Y, u) from (y, u) and t. If the scalars are not expressions, Q' and P' are computed from
-    ``step``.
+    The arguments are (y, u), (Y, u) and t. The program ``step`` computes (Y, u) from (y, u) and t.
     """
 
     step: Program
@@ -38,8 +36,7 @@ class TimeMomentum(Operation):
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
         """Return Y with the new value of u."""
         start, end, t = args
-        # Only expressions can be differentiated. For other domains, ``_evaluated`` computes the step once
-        # more, with expressions.
+        # Only expressions can be differentiated.
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
         increment = self._evaluated(cast("Problem", problem), domain, start, t)
@@ -47,13 +44,12 @@ class TimeMomentum(Operation):
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
         """Return the increase of the momentum u as a scalar of ``domain``."""
-        # First the step is computed with symbols for y and t, and Y is differentiated with respect to t. Then
-        # the values ``start`` and ``t`` replace the symbols.
+        # The step is computed with symbols for y and t, because Y is differentiated with respect to t.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")
         inputs = {"y": point, "t": time}
-        # The derivative is taken for fixed y. Therefore the symbols in ``point`` do not depend on t.
+        # The derivative is taken for fixed y.
         end = interpret(self.step, problem, formal, inputs)["y"]
         values = problem.values(domain, start, t) | {"h": domain.h}
         return evaluate([_increment(end[:-1], time)], domain, values)[0]
@@ -66,7 +62,7 @@ def _increment(end: tuple[Expr, ...], t: Expr) -> Expr:
     """
     # The first half of ``end`` is Q, and the second half is P.
     space, n = t.space, len(end) // 2
-    # ``t.payload`` is the name of the symbol t. ``rates`` contains the derivatives of the entries of ``end``.
+    # ``t.payload`` is the name of the symbol t.
     rates = tangents(end, {str(t.payload): space.one})
     total = space.zero
     for k in range(n):

@@ -1,18 +1,16 @@
 """The exponential of a matrix of su(3) by the Cayley-Hamilton theorem.
 
 Let X = i H with a Hermitian 3 x 3 matrix H of trace zero, and let I be the unit matrix. Then H^3 = p H + q I,
-where p = tr(H^2)/2 and q = det H. Hence exp X is a linear combination of I, H and H^2. The coefficients of I,
-H and H^2 depend only on p and q. Horner's rule computes them from the Taylor polynomial of exp X. Each
-step of Horner's rule multiplies by H, and replaces H^3 by p H + q I. No step divides by differences of
-eigenvalues, so equal eigenvalues need no special case (M. Luescher, SU(3) matrix functions, notes of
-openQCD).
+where p = tr(H^2)/2 and q = det H. Hence exp X is a linear combination of I, H and H^2. Horner's rule computes
+the three coefficients from the Taylor polynomial of exp X. No step divides by differences of eigenvalues
+(M. Luescher, SU(3) matrix functions, notes of openQCD).
 
 All eigenvalues of H are bounded by 2 (p/3)^(1/2) in absolute value. If this bound is large, the Taylor
 polynomial is evaluated for X/2^s instead of X. The matrix exp(X/2^s) is then squared s times.
 
-The matrix X has eight real coordinates. Let E_jk be the matrix with the entry 1 at (j, k) and zeros
-elsewhere. The first six coordinates are the coefficients of E_jk - E_kj and of i (E_jk + E_kj) for each pair
-j < k, row by row. The last two coordinates are the coefficients of i (E_11 - E_22) and i (E_22 - E_33).
+Let E_jk be the matrix with the entry 1 at (j, k) and zeros elsewhere. The first six coordinates of X are the
+coefficients of E_jk - E_kj and of i (E_jk + E_kj) for each pair j < k, row by row. The last two coordinates
+are the coefficients of i (E_11 - E_22) and i (E_22 - E_33).
 """
 
 from __future__ import annotations
@@ -42,16 +40,14 @@ PLACES = ((0, 1), (0, 2), (1, 2))
 """The indices (j, k) of the entries above the diagonal, in the order of the coordinates of X."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real 6 x 6 matrices. For mpmath numbers and power series, exp X is computed by this
-function.
-"""
+"""The exponential of real 6 x 6 matrices, for mpmath numbers and power series."""
 
 
 def most_squarings(bits: int) -> int:
     """Return the largest allowed number s of squarings of the matrix exp(X/2^s).
 
-    Let 2^-``bits`` be the unit roundoff. The relative error after s squarings is at most
-    2^(s - ``bits`` + 6). This bound must not exceed 2^-10, about three correct decimal digits.
+    Let 2^-``bits`` be the unit roundoff. The bound 2^(s - ``bits`` + 6) of the relative error must not exceed
+    2^-10, about three correct decimal digits.
 
     >>> most_squarings(53)
     37
@@ -95,7 +91,7 @@ class SpecialUnitaryExponential(VectorFunction):
         ``args`` are the coordinates of X, and ``rates`` are their derivatives.
         """
         zero = args[0].space.zero
-        # ``embedded`` is linear. The derivative of the real matrix is therefore ``embedded(rates, zero)``.
+        # ``embedded`` is linear.
         both = (*embedded(args, zero), *embedded(rates, zero))
         # ``MatrixExponential(n, 1)`` returns the entries of the exponential, then the entries of its first
         # derivative.
@@ -139,7 +135,7 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
         result[width * i + ROWS + j] = -imaginary  # type: ignore[operator]
 
     for (j, k), a, b in zip(PLACES, x[0:6:2], x[1:6:2], strict=True):
-        # X is skew-Hermitian. Hence the entry (k, j) of X is minus the complex conjugate of the entry (j, k).
+        # The entry (k, j) of X is minus the complex conjugate of the entry (j, k).
         put(j, k, a, b)
         put(k, j, -a, b)  # type: ignore[operator]
     # The diagonal entries of X are imaginary, because X is skew-Hermitian.
@@ -158,8 +154,7 @@ def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
 def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
     """Return the exponential of the matrix with the coordinates ``x``.
 
-    If the norm of the matrix is too large, rounding errors could leave fewer than three correct digits. All
-    results are then NaN.
+    If the norm of the matrix is too large for three correct digits, all results are NaN.
     """
     scale, squarings, norm = _halvings(_bound(x))
     total = _polynomial([a * scale for a in x], norm)
@@ -174,17 +169,16 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
 def _bound(x: Sequence[float]) -> float:
     """Return an upper bound of the absolute values of the eigenvalues of H.
 
-    ``x`` are the coordinates of the matrix i H. The bound is 2 (p/3)^(1/2), where p = tr(H^2)/2.
+    ``x`` are the coordinates of the matrix i H.
     """
-    # Each eigenvalue z of H is real, and satisfies z^3 = p z + q. By the trigonometric formula for cubic
-    # equations, z is 2 (p/3)^(1/2) times a cosine.
+    # By the trigonometric formula for z^3 = p z + q, each eigenvalue z of H is 2 (p/3)^(1/2) times a cosine.
     return math.sqrt(1.3333333333333333 * half_trace(x))
 
 
 def _halvings(norm: float) -> tuple[float, int, float]:
     """Return the scale 2^-s, the number s of halvings, and the bound of the norm of the scaled matrix.
 
-    ``norm`` is the bound before scaling, so the last result is 2^-s * ``norm``.
+    ``norm`` is the bound before scaling.
     """
     scale, squarings = 1.0, 0
     while norm * scale > largest_norms(53)[-1] and squarings < most_squarings(53):
@@ -195,8 +189,7 @@ def _halvings(norm: float) -> tuple[float, int, float]:
 
 def half_trace(x: Sequence[Any]) -> Any:
     """Return p = tr(H^2)/2 for the matrix i H with the coordinates ``x``."""
-    # The diagonal of H is (x_6, x_7 - x_6, -x_7). Half the sum of the squares of its entries is
-    # x_6^2 + x_7 (x_7 - x_6).
+    # The diagonal of H is (x_6, x_7 - x_6, -x_7).
     total = x[6] * x[6] + x[7] * (x[7] - x[6])
     for a in x[:6]:
         total = total + a * a
@@ -208,11 +201,10 @@ def determinant(x: Sequence[Any]) -> Any:
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
-    # The determinant contains the product H_12 H_23 H_31 and its complex conjugate. The sum of these two
-    # terms is twice their real part ``product``.
+    # The determinant contains the product H_12 H_23 H_31 and its complex conjugate.
     product = (b * f - a * e) * d + (a * f + b * e) * c
-    # All other terms of the determinant contain diagonal entries d_j of H. The sum of these terms is
-    # d_1 d_2 d_3 - d_1 |H_23|^2 - d_2 |H_13|^2 - d_3 |H_12|^2.
+    # The other terms are d_1 d_2 d_3 - d_1 |H_23|^2 - d_2 |H_13|^2 - d_3 |H_12|^2 with the diagonal entries
+    # d_j of H.
     diagonal = first * (middle * last - (e * e + f * f)) - middle * (c * c + d * d)
     return (product + product) + (diagonal - last * (a * a + b * b))
 
@@ -220,16 +212,14 @@ def determinant(x: Sequence[Any]) -> Any:
 def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
     """Return the diagonal of H^2, then the real and the imaginary part of each entry above the diagonal.
 
-    ``x`` are the coordinates of the matrix i H. If j < k and the entry (j, k) of i H has the coordinates a
-    and b, the entry (j, k) of H is b - i a.
+    ``x`` are the coordinates of the matrix i H.
     """
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
     # ``ab``, ``cd`` and ``ef`` are |H_12|^2, |H_13|^2 and |H_23|^2.
     ab, cd, ef = a * a + b * b, c * c + d * d, e * e + f * f
-    # The entry (j, k) of H^2 contains the term (H_jj + H_kk) H_jk. The trace of H is zero, so H_jj + H_kk is
-    # minus the third diagonal entry.
+    # The trace of H is zero, so H_jj + H_kk is minus the third diagonal entry.
     return (
         *(first * first + (ab + cd), middle * middle + (ab + ef), last * last + (cd + ef)),
         *((d * f + c * e) - last * b, last * a + (d * e - c * f)),
@@ -242,7 +232,7 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
     """Return the matrix (u_0 I + u_1 H + u_2 H^2) + i (v_0 I + v_1 H + v_2 H^2), where I is the unit matrix.
 
     The result contains the real parts of all entries, then the imaginary parts. ``x`` are the coordinates of
-    the matrix i H, and ``square`` is the result of :func:`square_of_hermitian`. All u_k and v_k are real.
+    the matrix i H, and ``square`` is the result of :func:`square_of_hermitian`.
     """
     real, imaginary = [None] * SIZE, [None] * SIZE
     for j, h in enumerate((x[6], x[7] - x[6], -x[7])):
@@ -250,8 +240,7 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         imaginary[(ROWS + 1) * j] = (v[2] * square[j] + v[1] * h) + v[0]
     for m, (j, k) in enumerate(PLACES):
         a, b, re, im = x[2 * m], x[2 * m + 1], square[ROWS + 2 * m], square[ROWS + 2 * m + 1]
-        # Let p + i q be the entry (j, k) of u_0 I + u_1 H + u_2 H^2. Let r + i s be the entry (j, k) of
-        # v_0 I + v_1 H + v_2 H^2.
+        # The entries (j, k) of the two linear combinations are p + i q and r + i s.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
         # Both linear combinations are Hermitian, so their entries (k, j) are p - i q and r - i s.
@@ -263,18 +252,16 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
 def _polynomial(y: list[float], norm: float) -> list[float]:
     """Return a Taylor polynomial of exp X for the matrix X with the coordinates ``y``.
 
-    ``norm`` is an upper bound of the norm of X. The degree is the smallest number in :data:`DEGREES` with a
-    negligible truncation error.
+    ``norm`` is an upper bound of the norm of X.
     """
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     p, q = half_trace(y), determinant(y)
-    # ``parts`` contains the real parts, then the imaginary parts, of the coefficients of I, H and H^2. The
-    # degree n is a multiple of 4, so the leading coefficient i^n/n! equals 1/n!.
+    # The degree n is a multiple of 4, so the leading coefficient i^n/n! equals 1/n!.
     parts = [c[4 * groups], 0.0, 0.0], [0.0, 0.0, 0.0]
     for group in reversed(range(groups)):
         for k in (3, 2, 1, 0):
-            # The term of degree n = 4 * ``group`` + k is i^n H^n/n!. The factor i^n equals i^k.
+            # In the term i^n H^n/n! of degree n = 4 * ``group`` + k, the factor i^n equals i^k.
             added = (0.0, c[4 * group + k]) if k % 2 else (c[4 * group + k], 0.0)
             for part, term in zip(parts, added, strict=True):
                 signed = -term if k >= 2 else term

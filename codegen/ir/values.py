@@ -11,8 +11,7 @@ from codegen.ir.domain import Domain, Scalar
 from codegen.ir.number import Number
 
 
-# The Lie algebra and its dual are different kinds, because they have different operations. For example, Ad
-# acts on the algebra, and Ad* acts on the dual.
+# The Lie algebra and its dual are different kinds, because they have different operations.
 class Kind(StrEnum):
     """The space that contains a value.
 
@@ -44,8 +43,8 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # Some numbers are known only as intervals. If the interval does not decide the question, ``is_zero`` and
-    # ``is_one`` are False.
+    # If the interval that contains a number does not decide the question, ``is_zero`` and ``is_one`` are
+    # False.
     @property
     def is_zero(self) -> bool:
         """True if the coefficient is provably zero."""
@@ -65,7 +64,7 @@ class Coefficient:
     def evaluate(self, domain: Domain) -> Scalar:
         """Return the coefficient as a scalar of ``domain``, for example as a double or a power series."""
         value = domain.number(self.value)
-        # ``value`` and h are multiplied first. Terms with equal coefficients can share this product.
+        # Terms with equal coefficients can share the product of ``value`` and h.
         for _ in range(self.power):
             value = domain.h * value
         return value

@@ -1,4 +1,4 @@
-"""The names of vector functions. A vector function is a function whose result is an array.
+"""The names of vector functions (functions whose result is an array).
 
 The first number in a name is the number n of rows of the matrix:
 - ``expm3`` is the matrix exponential, and ``expm3_d1`` is the exponential together with its derivative.
@@ -7,7 +7,7 @@ The first number in a name is the number n of rows of the matrix:
 - ``expmv5`` is the matrix exponential applied to a vector.
 - ``expsu3`` is the exponential of a matrix of su(3).
 
-The suffix ``.k`` denotes entry k of the result. For example, ``inverse5.7`` is entry 7 of the inverse.
+The suffix ``.k`` denotes entry k of the result.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
     "commutator": MatrixCommutator,
     "expsu": SpecialUnitaryExponential,
 }
-# In ``expmv5_1f``, 1f is a hexadecimal number. If bit k of this number is 0, entry k of the matrix is zero.
+# If bit k of the hexadecimal number 1f in ``expmv5_1f`` is 0, entry k of the matrix is zero.
 _ACTION = re.compile(r"expmv(\d+)(?:_([0-9a-f]+))?")
 # In ``expm3_d1``, the number after ``_d`` is the level: the highest order of the derivatives in the result.
 _NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
@@ -73,17 +73,16 @@ def component(payload: str) -> tuple[VectorFunction, int] | None:
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)
     """
-    # A dot separates the function from the index. Names of other functions contain no dot.
+    # Names of other functions contain no dot.
     name, dot, index = payload.partition(".")
     function = vector_function(name) if dot else None
     return None if function is None else (function, int(index))
 
 
 def partial(node: Expr, function: VectorFunction, index: int, argument: int) -> Expr:
-    """Return the derivative of one result of a vector function with respect to one argument.
+    """Return the derivative of result ``index`` of a vector function with respect to argument ``argument``.
 
-    ``node`` is the call of ``function``. ``index`` is the index of the result, and ``argument`` is the index
-    of the argument.
+    ``node`` is the call of ``function``.
     """
     # The derivatives of all results with respect to one argument are computed together and stored.
     key = function.name, tuple(a.id for a in node.args), argument

@@ -1,8 +1,7 @@
 """Vector functions: functions of arrays whose result is an array, for example the matrix exponential.
 
 In an expression, ``NAME.k`` denotes entry k of the result of the vector function ``NAME``
-(:mod:`codegen.ir.vector_calls`). The arguments are the entries of all argument arrays. In emitted code, one
-call computes all entries of the result.
+(:mod:`codegen.ir.vector_calls`). The arguments are the entries of all argument arrays.
 """
 
 from __future__ import annotations
@@ -49,7 +48,7 @@ class VectorFunction(ABC):
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the derivatives of the results in the direction ``rates``.
 
-        ``args`` are the arguments. ``rates`` contains one component of the direction for each argument.
+        ``rates`` contains one component of the direction for each argument.
         """
 
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:

@@ -35,8 +35,7 @@ class _Verifier:
 
     def run(self) -> None:
         """Check the whole program. :class:`IllFormed` is raised for the first broken rule."""
-        # The statements are checked in the order of execution. Before each statement, ``self.defined``
-        # contains exactly the variables that already have values.
+        # Before each statement, ``self.defined`` contains exactly the variables that already have values.
         for var in self.program.inputs:
             self.define(var, "the inputs")
         for statement in self.program.body:
@@ -47,8 +46,7 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
-            # An output is the new value of the input with the same name, so both must have the same kind. The
-            # coefficients of a continuous extension (dense output) correspond to no input.
+            # The coefficients of a continuous extension (dense output) correspond to no input.
             if name.startswith(POWERS) and var.kind is Kind.ALG:
                 continue
             # The embedded solution is another approximation of the new value of the input ``y``.
@@ -80,8 +78,7 @@ class _Verifier:
         """
         for arg in assign.args:
             self.use(arg, assign)
-        # An assignment must not read its own target. Therefore the arguments are checked before the targets
-        # are defined.
+        # An assignment must not read its own target.
         _types(self.program.name, assign)
         for target in assign.targets:
             self.define(target, assign)
@@ -92,8 +89,7 @@ class _Verifier:
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # The initial values must be known before the block is solved. Therefore they are checked before the
-        # unknowns are defined.
+        # The initial values must be known before the block is solved.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
@@ -106,7 +102,7 @@ class _Verifier:
 
 
 def _place(at: str | Assign) -> str:
-    """Return the text that describes ``at`` in a message. If ``at`` is a text, it is returned unchanged."""
+    """Return the text that describes ``at`` in a message."""
     return at.text() if isinstance(at, Assign) else at
 
 

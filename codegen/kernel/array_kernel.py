@@ -43,8 +43,7 @@ from codegen.scene.problem import TIME, Problem
 STATE, NEW, BASIS, GRAM, ERROR = "state", "new state", "basis", "gram", "error"
 """The names of the arrays in a step.
 
-``STATE`` is the old state, ``NEW`` is the new state, and ``ERROR`` is the error estimate. ``BASIS`` is the
-basis B (:class:`_Builder`), and ``GRAM`` is its Gram matrix B^T B.
+``BASIS`` is the basis B (:class:`_Builder`), and ``GRAM`` is its Gram matrix B^T B.
 """
 
 
@@ -74,9 +73,8 @@ class ArrayMethod:
 def array_method(scene: Problem, method: Method) -> ArrayMethod:
     """Compile ``method`` for ``scene``.
 
-    Each compiler pass is verified on a small problem on the sphere. One small problem is sufficient, because
-    the passes do not depend on the field or on the size of the matrices. MethodError is raised if the method
-    has implicit stages, or if one of its operations is not available for large matrices.
+    MethodError is raised if the method has implicit stages, or if one of its operations is not available for
+    large matrices.
     """
     return compiled(scene, method, _model(not scene.autonomous), array_kernel, refused)
 
@@ -90,12 +88,10 @@ def compiled(
 ) -> ArrayMethod:
     """Compile ``method`` for ``scene``. The small problem ``model`` is used to verify each compiler pass.
 
-    The function ``kernel`` translates the program of a step to a kernel for ``scene``. The function
-    ``refusal`` returns the error that is raised for a method with implicit stages.
+    The function ``refusal`` returns the error that is raised for a method with implicit stages.
     """
     lowered = lower(model, method)
-    # At first, each stage is a block of equations. ``blocks.run`` replaces the blocks of explicit stages by
-    # assignments. The remaining blocks are implicit stages.
+    # ``blocks.run`` replaces the blocks of explicit stages by assignments.
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
         expected = "an explicit method for a scene with large matrices"
         raise refusal(scene, f"{method.label} has implicit stages", expected)
@@ -140,8 +136,8 @@ class _Builder:
     """Collects the statements of one step.
 
     The matrix B is called the basis of the step (:mod:`codegen.ir.array_step`). An element of the algebra has
-    the form B S B^T, where the matrix S is called its core. A point has the form X_0 + B D, where X_0 is the
-    old state. The matrix D is called the displacement of the point.
+    the form B S B^T, where the matrix S is called its core. A point has the form X_0 + B D with the old state
+    X_0 and the displacement D.
     """
 
     program: Program
@@ -157,8 +153,7 @@ class _Builder:
     def __post_init__(self) -> None:
         count = sum(isinstance(a.operation, Field) for a in self.program.assigns())
         n, k = self.matrices.rows, self.matrices.columns
-        # The state has k columns. The basis has k columns for the old state, and k columns for each
-        # evaluation of the field.
+        # The basis has k columns for the old state, and k columns for each evaluation of the field.
         self.k, width = k, k * (1 + count)
         self.argument = Matrix(STATE, n, k)
         self.basis, self.gram = Matrix(BASIS, n, width), Matrix(GRAM, width, width)
@@ -175,7 +170,7 @@ class _Builder:
             if var.kind is Kind.REAL:
                 self.times[var] = self.domain.space.sym(var.name)
             else:
-                # The displacement of the old state X_0 is zero. A zero displacement is stored as None.
+                # The displacement of the old state X_0 is zero, which is stored as None.
                 self.points[var] = None
         for statement in self.program.body:
             if not isinstance(statement, Assign):
@@ -195,8 +190,8 @@ class _Builder:
         # Without an embedded solution, the step has no error estimate.
         if new is None or lower is None:
             return ArrayStep(self.argument, body, result)
-        # The estimate is the new state X_0 + B D_1 minus the embedded solution X_0 + B D_2. The formula
-        # B (D_1 - D_2) has smaller rounding errors than the difference of the two states.
+        # The formula B (D_1 - D_2) has smaller rounding errors than the difference of X_0 + B D_1 and
+        # X_0 + B D_2.
         rows = max(new.rows, lower.rows)
         difference, error = Matrix("difference", rows, self.k), Matrix(ERROR, n, self.k)
         terms = (Term(self.one, new), Term(-self.one, lower))
@@ -243,8 +238,7 @@ class _Builder:
     def displaced(self, target: Matrix, displacement: Matrix | None) -> None:
         """Append the assignment of X_0 + B D to ``target``.
 
-        X_0 is the old state, B is the basis, and D is the ``displacement``. If D is zero, ``displacement`` is
-        None.
+        If D is zero, ``displacement`` is None.
         """
         self.sum(target, (self.one, self.argument))
         if displacement is not None:
@@ -258,22 +252,19 @@ class _Builder:
         if displacement is not None:
             x = Matrix(f"{name} point", n, k)
             self.displaced(x, displacement)
-        # The matrix ``w`` consists of the next k free columns of the basis. The statements of
-        # ``matrices.program`` write the value of the field to ``w``.
+        # The statements of ``matrices.program`` write the value of the field to ``w``.
         first = k * self.blocks
         w = self.basis.part(0, first, n, k)
         # If the field does not depend on time, the program has no time variable, and t is set to 0.
         t = self.times[time[0]] if time else self.domain.rational(0)
         self.body += [self.at_time(s, t, name) for s in self.matrices.program.moved(x, w, name)]
-        # The matrix ``w`` now contains the field V at the point X. The next statements replace V by
-        # W = V - X (X^T V)/2.
+        # The next statements replace the field V at the point X by W = V - X (X^T V)/2.
         products, halved = Matrix(f"{name} gram", k, k), Matrix(f"{name} correction", k, k)
         self.body.append(Multiplication(products, x, w, True))
         self.sum(halved, (self.domain.rational(-1, 2), products))
         self.body.append(Multiplication(w, x, halved, added=True))
         self.blocks += 1
-        # W is a new block of k columns of the basis B. The next statement computes the new block column B^T W
-        # of the Gram matrix B^T B.
+        # The next statement computes the new block column B^T W of the Gram matrix B^T B.
         known = self.basis.part(0, 0, n, first + k)
         self.body.append(Multiplication(self.gram.part(0, first, first + k, k), known, w, True))
         # The Gram matrix is symmetric, so the new block row is the transpose of the new block column.
@@ -284,21 +275,21 @@ class _Builder:
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
         """Append the computation of the core S of the field at a point X, and return S.
 
-        The point is X = X_0 + B D, where X_0 is the old state, B is the basis, and D is the ``displacement``.
-        If D is zero, ``displacement`` is None. The matrix W consists of the k columns of B that begin at the
-        index ``first``. The field at X is the element W X^T - X W^T of the algebra.
+        The point is X = X_0 + B D with the ``displacement`` D. If D is zero, ``displacement`` is None. The
+        matrix W consists of the k columns of B that begin at the index ``first``. The field at X is the
+        element W X^T - X W^T of the algebra.
 
-        The matrices J and E select columns of the basis: X_0 = B J and W = B E. With C = J + D, the point is
-        X = B C. The core of the field is S = E C^T - C E^T.
+        The matrices J and E select columns of the basis: X_0 = B J and W = B E. With C = J + D, the core of
+        the field is S = E C^T - C E^T.
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
-        # With the matrices above, the core is S = (E J^T - J E^T) + (E D^T - D E^T). The matrix
-        # E J^T - J E^T has two nonzero blocks: the unit matrix at ``below``, and its negative at ``right``.
+        # The matrix E J^T - J E^T has two nonzero blocks: the unit matrix at ``below``, and its negative at
+        # ``right``.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
-            # In S, the term E D^T adds D^T to the last k rows. The term -D E^T adds -D to the last k columns.
+            # The matrix E D^T - D E^T consists of D^T in the last k rows and -D in the last k columns.
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
@@ -308,8 +299,7 @@ class _Builder:
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
         """Return ``statement`` with the values of the time ``t`` and of the fixed parameters inserted."""
         values = {**self.scene.scalars(self.domain, t)}
-        # The symbols ROW and COLUMN are the indices of a matrix entry. They are not replaced, because ROW and
-        # COLUMN are loop variables in the emitted code.
+        # The symbols ROW and COLUMN are not replaced, because they are loop variables in the emitted code.
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
 
         def now(root: Expr) -> Expr:
@@ -337,18 +327,17 @@ class _Builder:
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
         """Append the computation of a linear combination of cores, and return the result.
 
-        Each pair in ``terms`` contains a coefficient and a core. The result has the size of the largest core.
+        The result has the size of the largest core.
         """
-        # If a core is smaller than the result, it is extended by zero rows and columns. The element B S B^T
-        # of the algebra is the same for the extended core and for the original core S.
+        # A smaller core S is extended by zero rows and columns, which do not change the element B S B^T.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
-        """Append the computation of the bracket of two elements of the algebra, and return its core.
+        """Append the computation of the bracket of the elements with the cores ``x`` and ``y``, and return
+        its core.
 
-        The elements are B x B^T and B y B^T with the basis B and the cores ``x`` and ``y``. With the Gram
-        matrix G = B^T B and N = x G y, the core of the bracket is S = N - N^T.
+        With the Gram matrix G = B^T B and N = x G y, the core of the bracket is S = N - N^T.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
         # The sizes of x, G and y do not depend on the number of rows of the state, so x G y is cheap.
@@ -363,12 +352,10 @@ class _Builder:
     def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
         """Append the computation of dexp^{-1}_x y by its series, and return the core of the result.
 
-        ``x`` and ``y`` are the cores of two elements of the algebra. The series is truncated after the term
-        with ``order`` nested brackets.
+        The series is truncated after the term with ``order`` nested brackets.
         """
         terms, power = [(self.one, y)], y
         # With the Bernoulli numbers B_k, dexp^{-1}_x y is y + B_1/1! [x, y] + B_2/2! [x, [x, y]] + ....
-        # In the term with B_k, ``power`` is the expression with k nested brackets.
         for k in range(1, last_term(order) + 1):
             power = self.bracket(f"{name} bracket {k}", x, power)
             b = bernoulli_over_factorial(k)
@@ -380,8 +367,7 @@ class _Builder:
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
         """Append the computation of the point exp(B S B^T) X, and return the displacement of this new point.
 
-        B is the basis, S is the ``core``, and ``start`` is the displacement of X. If the displacement of X is
-        zero, ``start`` is None.
+        ``start`` is the displacement of X, or None if the displacement is zero.
         """
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)

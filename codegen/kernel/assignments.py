@@ -1,10 +1,7 @@
 """Converts expressions to ordered statements: assignments and loops.
 
 Shared and long expressions become assignments, and blocks of implicit equations become loops. A sweep is one
-execution of the body of a loop. A loop contains the expressions that depend on its unknowns. All other
-expressions are assigned before the loop. Statements after a loop use values of the last sweep, or compute
-these values again. If the loops can start from the solutions of earlier steps, one statement before all loops
-sets the first values of the unknowns.
+execution of the body of a loop. A loop contains the expressions that depend on its unknowns.
 """
 
 from __future__ import annotations
@@ -20,8 +17,8 @@ from codegen.kernel.equations import WEIGHT, Block
 INLINE = 10
 """An expression with at least this number of operations gets a name.
 
-A smaller number gives more and shorter assignments, but does not change the operations. For the method
-vcg:triple_jump on the scene heavy_top, the values 5, 10 and 20 give 265, 199 and 187 assignments.
+For the method vcg:triple_jump on the scene heavy_top, the values 5, 10 and 20 give 265, 199 and 187
+assignments.
 """
 
 
@@ -58,8 +55,7 @@ class Assignments:
 
     def run(self) -> tuple[Let | Start | Loop, ...]:
         """Return the body of the kernel. The output expressions are stored in ``outputs``."""
-        # ``_prepare`` counts how often each value occurs in all loops. So a value that occurs in two loops
-        # gets a name.
+        # ``_prepare`` counts how often each value occurs in all loops.
         self._prepare()
         if self.blocks and self.remembers:
             self.body.append(self._start())
@@ -70,12 +66,10 @@ class Assignments:
             # If ``remembers`` is true, the start statement has already set the first values.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # If ``block.leading`` is true, Newton's matrix is computed before the first sweep. The matrix
-            # must not use names from the loop body, so it is processed before the body.
+            # If ``block.leading`` is true, Newton's matrix must not use names from the loop body.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
-            # ``block.kept`` lists values for statements after the loop. If no later expression reads a value,
-            # the value is skipped.
+            # Values in ``block.kept`` that no later expression reads are skipped.
             read = {n.payload for n in walk([*self.roots, *self._later(k)]) if n.op == "sym"}
             for name, x in block.kept:
                 if name in read:
@@ -83,10 +77,8 @@ class Assignments:
                     inside.append(Let(name, value))
             # If ``block.leading`` is false, Newton's matrix can use names from the loop body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # In the last sweep, Newton's method changes the unknowns after the loop body. The values of the
-            # body then belong to slightly different unknowns. If the equations have the form r(u) = 0, later
-            # statements correct the values in ``block.kept``, and compute all other values again. If the
-            # equations have the form u = g(u), the values are computed again only if the cost is low.
+            # In the last sweep, Newton's method changes the unknowns after the loop body. For equations of
+            # the form u = g(u), the values of the body are computed again only if the cost is low.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -111,8 +103,7 @@ class Assignments:
         """
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         entries = [x for b in self.blocks for row in b.matrix for x in row]
-        # A node with two uses gets a name. Each operation that reads a node is one use, and each entry of
-        # ``roots`` is one use.
+        # Each operation that reads a node is one use, and each entry of ``roots`` is one use.
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
         self.level: dict[int, int] = {}
@@ -128,14 +119,11 @@ class Assignments:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
-            # The level of an unknown is the index of its loop. The level of an operation is the largest level
-            # of its arguments.
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:
         """Return the statement that sets the first values of all unknowns."""
-        # If solutions of earlier steps are stored, a step skips the assignments in the start statement. So
-        # other statements must not read the names that the start statement assigns.
+        # If solutions of earlier steps are stored, a step skips the assignments in the start statement.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
         # All first values are set before the first loop, so no first value may depend on an unknown.
@@ -153,7 +141,7 @@ class Assignments:
 
     def _newton(self, block: Block) -> Newton:
         """Return the matrix of Newton's method for ``block``, and the assignments that compute it."""
-        # Not every sweep computes the matrix. So other statements must not use the names in ``own``.
+        # Not every sweep computes the matrix, so other statements must not use the names in ``own``.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
@@ -164,9 +152,8 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if statements after loop k can compute the values of the loop again at low cost.
-
-        The cost must be less than half of the cost of one sweep.
+        """Return True if the values of loop k can be computed again at less than half of the cost of one
+        sweep.
         """
         rest = [*self._later(k), *self.roots]
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
@@ -178,7 +165,7 @@ class Assignments:
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
     def _forget(self, k: int) -> None:
-        """Delete the values of loop k from ``done``. Later calls of ``_place`` compute these values again."""
+        """Delete the values of loop k from ``done``."""
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
             if self.level[node.id] == k and node.args:
@@ -187,8 +174,8 @@ class Assignments:
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
         """Return ``root`` with names in place of its shared and long subexpressions.
 
-        The names are defined by new assignments. Assignments that depend on the unknowns of the loop with the
-        index ``loop`` are appended to ``inner``. All other assignments are appended to ``outer``.
+        New assignments that depend on the unknowns of loop ``loop`` are appended to ``inner``, all others to
+        ``outer``.
         """
         # The traversal is not recursive, because expressions may be nested deeply.
         for node in walk([root], stop=lambda n: n.id in self.done):
@@ -200,8 +187,7 @@ class Assignments:
             # ``_make`` does not simplify, because a simplified formula could have different rounding errors.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
-            # A value that is computed before the loop and read inside gets a name. Without a name, every
-            # sweep would compute the value again.
+            # A value that is computed before the loop and read inside gets a name.
             crosses = loop >= 0 and target is outer
             shared = self.uses[node.id] > 1 or size >= INLINE or crosses
             # The negative of a symbol costs nothing in all target languages, so it gets no name.
