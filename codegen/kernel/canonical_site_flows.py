@@ -1,9 +1,7 @@
 """Translates splitting steps of a Hamiltonian lattice to sweeps. A sweep is a loop over all sites.
 
-One sweep computes either successive kicks or successive flows of other kinds. A kick is a flow that changes
-only the momenta. A kick reads the group elements q of neighbouring sites, but not their momenta. Therefore
-the sweep of a kick can overwrite the momenta. All other flows change each site independently of its
-neighbours.
+A kick changes only the momenta, and reads the group elements q of neighbouring sites. All other flows change
+each site independently of its neighbours.
 """
 
 from __future__ import annotations
@@ -33,33 +31,30 @@ Word = Sequence[tuple[Summand, Number]]
 COPY = "the state is copied"
 """The description of a sweep that copies the state.
 
-The first sweep of a step reads the old state, and the last sweep tests whether the new state is finite. So
-both sweeps must visit all sites and must not read neighbours. If the first sweep is a kick or visits pairs of
-sites, a copy is added before it. If the last sweep is a kick or visits pairs of sites, a copy is added after
-it.
+A copy is added before the first or after the last sweep of a step, if this sweep reads neighbours or visits
+pairs of sites.
 """
 
 
 def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | None) -> Kernel:
     """Return the kernel of a splitting method on a Hamiltonian lattice.
 
-    ``word`` lists the flows of a step with their durations. ``carrier`` is the summand of the Hamiltonian
-    whose flows advance the time t. If ``carrier`` is None, t is constant.
+    ``carrier`` is the summand of the Hamiltonian whose flows advance the time t. If ``carrier`` is None, t is
+    constant.
     """
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
         # The time advances after the last flow of a summand, so all flows of the summand start at one time.
         elapsed = elapsed + duration if summand is carrier else elapsed
-    # Only kicks can depend on time. No exact flow is known for other time-dependent summands.
+    # Except for kicks, no exact flow of a time-dependent summand is known.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
     sweeps: list[Sweep] = []
     index: dict[tuple[object, ...], int] = {}
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # One sweep computes the successive flows in ``run``. A later run with the same flows and the same
-        # ratios of durations uses this sweep again.
+        # Runs with the same flows and the same ratios of durations share one sweep.
         first, moment = run[0][2:]
         ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
@@ -73,8 +68,7 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
 def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteFlow]) -> Kernel:
     """Return the kernel of a step that executes ``flows`` in the given order.
 
-    Each flow contains the index of its sweep in ``sweeps``. If necessary, a copy of the state is added before
-    or after the flows (:data:`COPY`).
+    If necessary, a copy of the state is added before or after the flows (:data:`COPY`).
     """
     assert scene.sites is not None
     ends = [k for k in (0, -1) if not flows or not _over_sites(sweeps[flows[k].sweep])]
@@ -92,10 +86,7 @@ def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteF
 
 
 def _over_sites(sweep: Sweep) -> bool:
-    """Return True if a sweep visits every site, and reads no coordinates of neighbours.
-
-    Other sweeps cannot be first or last in a step (:data:`COPY`).
-    """
+    """Return True if a sweep visits every site, and reads no coordinates of neighbours."""
     return sweep.axis == OWN and not sweep.neighbours
 
 
@@ -140,8 +131,7 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
         ghosts = [evaluate([sites.outside[k][row]], domain, values)[0] for _, k, row in around]
         outside = _scheduled(scene, label, ghosts)
         read |= {str(n.payload) for n in walk(ghosts) if n.op == "sym"}
-    # The sweep writes only momenta, and reads only the group elements q of the neighbours. So the sweep can
-    # read and overwrite one array.
+    # A kick does not read the momenta of neighbours, so the sweep can read and overwrite one array.
     own = [Load(s, Row(RESULT, k)) for k, s in enumerate(scene.symbols) if s in read]
     near = [Load(s, Row(RESULT, row), k) for s, k, row in around]
     stores = tuple(Row(RESULT, len(q) + k) for k in range(len(mu)))

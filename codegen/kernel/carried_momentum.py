@@ -1,9 +1,9 @@
 """Conversion of the momentum between the space frame and the body frame.
 
-The program of a step and the emitted code may use different frames. If only the emitted code uses the body
-frame, each step converts the momentum. If only the program uses the body frame, a run of several steps
-converts the momentum at its beginning and at its end (:class:`codegen.ir.kernel.Carried`). In this case, the
-option ``whole`` makes each step convert the momentum instead.
+If only the emitted code uses the body frame, each step converts the momentum. If only the program of a step
+uses the body frame, a run of several steps converts the momentum at its beginning and at its end
+(:class:`codegen.ir.kernel.Carried`). In this case, the option ``whole`` makes each step convert the momentum
+instead.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Frames:
     """The frames of the momentum in a program and in emitted code.
 
     ``whole`` is used if only the program uses the body frame. If ``whole`` is true, each step converts the
-    momentum. If ``whole`` is false, a run of several steps converts the momentum at its beginning and end.
+    momentum.
     """
 
     scene: Problem
@@ -41,7 +41,7 @@ class Frames:
 
     @property
     def _size(self) -> int:
-        """The number of coordinates of the group element q. In the state, q precedes the momentum."""
+        """The number of coordinates of the group element q."""
         group = self.scene.body_group or self.scene.group
         return int(group.size)
 
@@ -51,7 +51,7 @@ class Frames:
             return state
         q, mu = state[: self._size], state[self._size :]
         if self.scene.body_group is not None:
-            # The state contains the body momentum mu. The program uses the space momentum Ad*_{q^-1} mu.
+            # The body momentum mu is converted to the space momentum Ad*_{q^-1} mu.
             return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
         # If ``whole`` is false, the momentum was converted before the first step of the run.
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
@@ -60,10 +60,9 @@ class Frames:
         """Convert the new state from the frame of the program to the frame of the emitted code.
 
         ``state`` is the old state in the frame of the emitted code. ``start`` is the old state in the frame
-        of the program, that is, the result of ``begin``.
+        of the program.
         """
-        # ``new`` is the new state or an embedded solution. If the method has no embedded solution, this
-        # argument is empty.
+        # For a method without an embedded solution, ``new`` can be empty.
         if self._alike or not new:
             return new
         # The group element q does not depend on the frame, so only the momentum is converted.
@@ -72,8 +71,8 @@ class Frames:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
         if not self.whole:
             return new
-        # The new momentum is the old momentum plus the difference of two converted momenta. Rounding errors
-        # make q slightly non-orthogonal, but the errors of the two conversions nearly cancel.
+        # ``outward`` adds the difference of two converted momenta, in which the rounding errors of q nearly
+        # cancel.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 
@@ -99,7 +98,6 @@ class Frames:
         q, mu = state[: self._size], state[self._size :]
         fields = self.fields()
         # ``Adt`` maps the momentum mu in the space frame to the momentum Ad*_q mu in the body frame.
-        # ``Adtinv`` is the inverse map.
         turned = (self.scene.apply(domain, name, None, (q, mu))[0] for name in ("Adt", "Adtinv"))
         first, second = (Kernel(self.program.name, fields, (), (), tuple(new)) for new in turned)
         return Carried(first, second, self._size)

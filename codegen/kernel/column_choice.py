@@ -1,8 +1,7 @@
 """The choice among variants of a group. The variants update a rotation matrix in different ways.
 
-One variant rotates all three columns. Each other variant rotates two columns. The third column is the cross
-product of these two columns. The fastest variant depends on the columns that the scene uses. Therefore all
-variants are compiled, and the kernel with the shortest step is used. Times are estimated, not measured.
+One variant rotates all three columns. Each other variant rotates two columns and computes the third by a
+cross product. All variants are compiled, and the kernel with the shortest estimated step is used.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from codegen.kernel.translate import AS_WRITTEN, COMBINED, ORDERED, SHORTENED, t
 from codegen.scene.problem import Problem
 
 CALL = 10
-"""The cost of a function call. The cost of an arithmetic operation is 1.
+"""The cost of a function call, relative to an arithmetic operation.
 
 The number was chosen with ``benchmarks/emitted.py``. The value 20 changes no emitted file, and the value 5
 changes the code of five explicit methods (``orderconds regenerate --check``).
@@ -43,17 +42,16 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # Without flows and without a cotangent bundle, all variants of the group give the same kernel. Then only
-    # two orders of the factors in products are compared: the given order, and constant factors first.
+    # Without flows and without a cotangent bundle, all variants of the group give the same kernel.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # Deferred flows are applied once in a run of many steps, so the variants are compared without these
-    # flows. If the scene has run-time inputs, no flow is deferred, because each step samples the inputs.
+    # If the scene has run-time inputs, no flow is deferred, because each step samples the inputs.
     parted = None if scene.inputs else part(program, scene)
-    # ``core`` excludes the deferred flows. Deferred flows are compiled only for the fastest variant.
+    # Deferred flows are applied once in a run of many steps, so the variants are compared without these
+    # flows.
     core = program if parted is None else parted.core
     # The formulas of the group and of the scene can share subexpressions, so the cost of a step is not the
-    # sum of their costs. Therefore the time of each variant is estimated from its compiled kernel.
+    # sum of their costs.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice, with and without shortening of the critical path.
     for group in scene.group.variants():
@@ -71,19 +69,18 @@ def _shortest(kernels: Sequence[Kernel]) -> Kernel:
 
     If some kernels contain outlined functions, only these kernels are compared.
     """
-    # Only kernels of long steps contain outlined functions. The instruction cache limits the speed of a long
-    # step, so the shorter code with outlined functions is preferred.
+    # The instruction cache limits the speed of a long step, so the shorter code with outlined functions is
+    # preferred.
     return min([kernel for kernel in kernels if kernel.outlined] or kernels, key=time)
 
 
 def time(kernel: Kernel) -> tuple[float, int]:
     """Return the estimated time of a step and its number of operations. The unit of time is one addition.
 
-    A function call counts as :data:`CALL` operations. If two kernels have equal times, the kernel with fewer
-    operations is preferred.
+    A function call counts as :data:`CALL` operations.
     """
     nodes = walk(kernel.expressions())
-    # Symbols and constants cost nothing. A change of sign is usually combined with an addition.
+    # A change of sign is usually combined with an addition.
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
     # The estimate is the length of the critical path, plus the number of operations divided by the
     # throughput.

@@ -1,12 +1,10 @@
 """Compensated steps: the state together with the rounding error of each coordinate (Kahan summation).
 
-In a step y1 = y0 + d, the rounding error of the sum is as large as the last bit of y0, even if d is small.
-Compensation stores this error, called the carry, and adds it to the next increment d. A step computes s = d +
-carry, y1 = y0 + s and carry' = s - (y1 - y0). The remaining rounding errors are only as large as the last bit
-of d.
+Compensation stores the rounding error of each sum y0 + d, called the carry. A step with the increment d
+computes s = d + carry, y1 = y0 + s and the new carry s - (y1 - y0).
 
 The increment of a step exp(x) y0 of a group action is (exp(x) - 1) y0, and exp(x) - 1 is computed without
-cancellation. The formulas of the increments are derived from the compiled step.
+cancellation.
 """
 
 from __future__ import annotations
@@ -71,8 +69,7 @@ def with_carries(kernel: Kernel) -> Kernel:
             Let(f"added_{name}", added + space.sym(CARRY + name)),
             Let(f"sum_{name}", old + space.sym(f"added_{name}")),
         ]
-        # The symbol ``total`` has the value of the rounded sum. If ``total`` were the formula of the sum,
-        # ``total - old`` would be simplified to the increment, and the carry would be zero.
+        # If ``total`` were the formula of the sum, ``total - old`` would be simplified to the increment.
         total = space.sym(f"sum_{name}")
         sums.append(total)
         carries.append(space.sym(f"added_{name}") - (total - old))
@@ -96,8 +93,7 @@ def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement
     """Return ``body`` without the assignments that ``outputs`` do not need."""
     needed = {n.payload for n in walk(outputs) if n.op == "sym"}
     kept: list[Statement] = []
-    # The loop visits the last statement first. At each statement, ``needed`` contains all names that later
-    # statements and ``outputs`` read.
+    # At each statement, ``needed`` contains all names that later statements and ``outputs`` read.
     for statement in reversed(body):
         if isinstance(statement, Let) and statement.name not in needed:
             continue
@@ -132,23 +128,20 @@ class Increments:
 
     def _of(self, e: Expr, name: str) -> Expr | None:
         if e.op == "sym":
-            # If e is the symbol ``name`` itself, the difference is zero. A different symbol is replaced by
-            # the expression that the step assigns to this symbol.
+            # A symbol other than ``name`` is replaced by the expression that the step assigns to this symbol.
             if e.payload == name:
                 return self.space.zero
             return self.of(self.values[e.payload], name) if e.payload in self.values else None
         if e.op in ("add", "sub"):
             a, b = e.args
-            # If a = x + d, then (a + b) - x = d + b. The right-hand side does not contain x, so no leading
-            # digits cancel.
+            # If a = x + d, then (a + b) - x = d + b.
             if (rest := self.of(a, name)) is not None:
                 return rest + b if e.op == "add" else rest - b
             if e.op == "add" and (rest := self.of(b, name)) is not None:
                 return a + rest
         if e.op == "mul":
             for factor, base in (e.args, e.args[::-1]):
-                # For a factor f and a base b: f b - x = (f - 1) b + (b - x). Both differences on the
-                # right-hand side are computed without cancellation.
+                # For a factor f and a base b: f b - x = (f - 1) b + (b - x).
                 rest, more = self.of(base, name), self.less_one(factor)
                 if rest is not None and more is not None:
                     return more * base + rest
@@ -176,8 +169,7 @@ class Increments:
             if first is not None and second is not None:
                 # For a product of two factors f and g: f g - 1 = (f - 1) + (g - 1) + (f - 1)(g - 1).
                 return first + second + first * second
-        # The Stumpff functions c_0(z) = cos(sqrt(z)) and c_2 satisfy c_0(z) - 1 = -z c_2(z). This formula
-        # avoids the cancellation in cos - 1.
+        # The Stumpff functions c_0(z) = cos(sqrt(z)) and c_2 satisfy c_0(z) - 1 = -z c_2(z).
         if f.op == "call" and f.payload == "stumpff0":
             return -(f.args[0] * self.space.call("stumpff2", f.args[0]))
         return None

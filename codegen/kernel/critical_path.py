@@ -1,17 +1,12 @@
 """Shorten the critical path of a step, the longest chain of dependent operations.
 
-A processor can execute several products at the same time, but in a chain, each operation must wait for the
-previous operation. For example, a splitting step of a rigid body is one long chain: an angle, two
-trigonometric functions c_1 and c_2 of the angle, the rotated attitude, the new momentum, and the next angle.
-
-The functions c_1 and c_2 take long to compute. This module rewrites expressions to reduce the number of
-operations that wait for c_1 and c_2. For example, let k, m, g, d, v and w be values that are known before c_1
-and c_2. Then
+For example, let c_1 and c_2 be slow trigonometric functions, and let k, m, g, d, v and w be known earlier.
+Then
 
     k (m - g (d + c_1 v + c_2 w)) becomes k (m - g d) - c_1 (k g v) - c_2 (k g w).
 
-The terms in parentheses can be computed before c_1 and c_2 are known. In real arithmetic, both expressions
-are equal. The new expression has more products, so only the longest chains are rewritten.
+The terms in parentheses can be computed before c_1 and c_2 are known. The new expression has more products,
+so only the longest chains are rewritten.
 """
 
 from __future__ import annotations
@@ -26,12 +21,10 @@ TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1,
 """Latencies of operations, in multiples of the latency of an addition.
 
 On x86 processors an addition or a product of doubles takes about four cycles, and a division takes about 14
-cycles. The latency of a call is that of a polynomial which approximates the function.
-``benchmarks/emitted.py`` measures the run times of emitted steps.
+cycles. ``benchmarks/emitted.py`` measures the run times of emitted steps.
 
-The exact values matter little. If the latency of a division is set to 2 or 8, the code of five explicit
-methods does not change. If the latency of a call is set to 3 or 12, only the code of
-splitting:blanes_moan_rkn4 on fast_heavy_top changes.
+If the latency of a division is set to 2 or 8, the code of five explicit methods does not change. If the
+latency of a call is set to 3 or 12, only the code of splitting:blanes_moan_rkn4 on fast_heavy_top changes.
 """
 
 ATOMS = frozenset({"call", "div"})
@@ -40,21 +33,21 @@ ATOMS = frozenset({"call", "div"})
 SLACK = 1
 """The largest difference between the longest chain and a rewritten chain, in latencies of an addition.
 
-If only the longest chain were rewritten, a slightly shorter chain could become the critical path. The limits
-0, 2 and 4 give the same emitted files. Without a limit, the emitted splittings for fast_heavy_top differ.
+The limits 0, 2 and 4 give the same emitted files. Without a limit, the emitted splittings for fast_heavy_top
+differ.
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products. A product has at most one late factor, a factor that depends on a slow operation.
+"""A sum of products, each with at most one late factor (a factor that depends on a slow operation).
 
-The keys are the late factors. The product without a late factor has the key None. A value contains a sign,
-the product of the factors that are constant in a run, and the product of the other factors.
+The keys are the late factors, or None for the product without a late factor. A value contains a sign, the
+product of the factors that are constant in a run, and the product of the other factors.
 """
 
 
 def chain(kernel: Kernel) -> int:
     """Return the length of the critical path in latencies of an addition."""
-    # A symbol is ready when its assigned value is ready. Inputs are ready at time 0.
+    # A symbol is ready when its assigned value is ready.
     ready: dict[int, int] = {}
     for let in kernel.lets():
         ready[let.value.space.sym(let.name).id] = _measured(let.value, ready)
@@ -64,24 +57,22 @@ def chain(kernel: Kernel) -> int:
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     """Return assignments sorted by the time at which their values are ready.
 
-    A processor looks only a few hundred instructions ahead. To be executed in parallel, two operations must
-    be near each other in the code. A sort by exact times would separate operations that read the same
-    values. Therefore the times are rounded down to multiples of the latency of a call.
+    The times are rounded down to multiples of the latency of a call. A sort by exact times would separate
+    operations that read the same values.
     """
     ready: dict[int, int] = {}
     times = []
     for let in lets:
         times.append(_measured(let.value, ready))
         ready[let.value.space.sym(let.name).id] = times[-1]
-    # No value is ready before its arguments, and assignments with equal times keep their order. So each name
-    # is assigned before it is read.
+    # Assignments with equal times keep their order, so each name is assigned before it is read.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 
 def _measured(root: Expr, ready: dict[int, int]) -> int:
     if root.id in ready:
         return ready[root.id]
-    # ``walk`` stops at nodes with known times. ``walk`` also yields these nodes, but the loop skips them.
+    # ``walk`` also yields the nodes with known times at which the walk stops.
     for node in walk([root], lambda n: n.id in ready):
         if node.id not in ready:
             ready[node.id] = max((ready[a.id] for a in node.args), default=0) + TIMES[node.op]
@@ -91,9 +82,8 @@ def _measured(root: Expr, ready: dict[int, int]) -> int:
 def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -> tuple[Expr, ...]:
     """Shorten the longest chains of operations in ``roots``, and return the new expressions.
 
-    ``invariant`` names the symbols that are constant in a run. Products of these symbols are formed first. A
-    compiler then moves such products out of the loop over the steps. If ``spread`` is false, no other
-    operations are rewritten.
+    ``invariant`` names the symbols that are constant in a run. Products of these symbols are formed first. If
+    ``spread`` is false, no other operations are rewritten.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 
@@ -141,40 +131,35 @@ class _Chains:
 
     def rewritten(self) -> tuple[Expr, ...]:
         """Return the expressions ``roots`` with shortened chains."""
-        # If ``spread`` is false, no node is expanded. Only constant factors are combined.
+        # If ``spread`` is false, only constant factors are combined.
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # ``_make`` does not simplify. A simplification would change the rounding errors.
+            # A simplification would change the rounding errors, so ``_make`` is called.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
             # Only sums, differences and products can be expanded to sums of products.
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
-                # The expanded sum ``short`` has more products. So ``short`` is used only if it is ready
-                # before ``plain``.
+                # The expanded sum ``short`` has more products than ``plain``.
                 if self.ready[short.id] < self.ready[plain.id]:
                     self.new[node.id] = short
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return the ids of the nodes that are expanded to sums of products.
-
-        Each expanded node is on a long chain of operations, and depends on a slow operation. At least one
-        operation that reads the node cannot be expanded together with the node.
-        """
+        """Return the ids of the nodes that are expanded to sums of products."""
         ends = set()
         for node in self.nodes:
             for arg in node.args:
                 # The chains through ``arg`` and ``node`` are too short to be rewritten.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
-                # For a square ``arg * arg``, ``others`` is empty. A square is not linear in ``arg``.
+                # For a square ``arg * arg``, ``others`` is empty.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # The late factors of ``arg`` have the level ``late``. If the other factor of a product has a
-                # lower level, the product is linear in these late factors.
+                # If the other factor of a product has a lower level, the product is linear in the late
+                # factors of ``arg``.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
@@ -184,12 +169,9 @@ class _Chains:
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a sum of products (:data:`Sum`).
-
-        The late factors are the factors of the given ``level`` (:meth:`_measure`).
-        """
-        # The sum can depend on ``self.new[node.id]``. This entry changes when ``node`` is expanded, so the
-        # key contains the id of the entry.
+        """Return an expression as a :data:`Sum` whose late factors have the given ``level``."""
+        # The key contains the id of ``self.new[node.id]``, because this entry changes when ``node`` is
+        # expanded.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -207,7 +189,7 @@ class _Chains:
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
-                # For a late factor c, c x + c y = c (x + y). The sum x + y can be computed before c is known.
+                # For a late factor c, c x + c y = c (x + y).
                 total[atom] = self._joined(total[atom], term) if atom in total else term
             return total
         if node.op == "mul":
@@ -242,18 +224,17 @@ class _Chains:
             # As in Huffman coding, the two terms that are ready first are added first.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
-            # Terms with equal signs are added, and the sum has their sign. Otherwise the negative term is
-            # subtracted from the positive term, and the sign is 1.
+            # If the signs differ, the negative term is subtracted from the positive term.
             both = x + y if p == q else x - y if p > 0 else y - x
             terms = [(p if p == q else 1, self._known(both)), *others]
         sign, value = terms[0]
         return value if sign > 0 else self._known(-value)
 
     def _combined(self, node: Expr) -> Expr:
-        """Return ``node``. In a product, the factors that are constant in a run are multiplied first."""
+        """Return ``node`` with the factors that are constant in a run multiplied first."""
         if node.op != "mul":
             return node
-        # For fixed c1 and c2, c1 (c2 x) becomes (c1 c2) x. Both orders of the factors are tried.
+        # For fixed c1 and c2, c1 (c2 x) becomes (c1 c2) x.
         for a, b in (node.args, node.args[::-1]):
             if self.fixed[a.id] and b.op == "mul":
                 for c, d in (b.args, b.args[::-1]):

@@ -1,10 +1,8 @@
 """Flows of a splitting method that are joined across steps (:class:`codegen.ir.kernel.Deferred`).
 
-A splitting method composes flows of parts of the vector field. If the last flow of a step and the first flow
-of the next step belong to the same part, these two flows are joined into one. The leading flow of the first
-step is applied separately, at the beginning of a run. A flow that commutes with all other flows is removed
-from the steps. After the last step, one flow of the total duration replaces the removed flows. Apart from
-rounding errors, joined and removed flows do not change the result of a run.
+If the last flow of a step and the first flow of the next step belong to the same part of the vector field,
+these two flows are joined into one. A flow that commutes with all other flows is removed from the steps.
+After the last step, one flow of the total duration replaces the removed flows.
 """
 
 from __future__ import annotations
@@ -28,12 +26,12 @@ from codegen.scene.problem import Problem
 class Parted:
     """The three programs for the beginning, the steps and the end of a run.
 
-    - ``begin`` is executed before the first step. If no flows are joined, ``begin`` is None.
-    - ``core`` is executed in each step. A joined flow in ``core`` includes the leading flow of the next step.
-      The duration of a joined flow is the variable :data:`LEAD`. In the last step of a run, LEAD is
-      ``last`` * h, the duration without a next step. In all other steps, LEAD is ``later`` * h.
-    - ``finish`` is executed after the last step. If no flow is deferred to the end of the run, ``finish`` is
-      None. The flows in ``finish`` have the duration :data:`ELAPSED`, the sum of the durations of all steps.
+    - ``begin`` is executed before the first step, and is None if no flows are joined.
+    - ``core`` is executed in each step. The duration of a joined flow in ``core`` is the variable
+      :data:`LEAD`.
+    - ``last`` * h is the value of LEAD in the last step of a run, and ``later`` * h in all other steps.
+    - ``finish`` is executed after the last step, and is None if no flow is deferred to the end of the run.
+      The flows in ``finish`` have the duration :data:`ELAPSED`, the sum of the durations of all steps.
     """
 
     begin: Program | None
@@ -52,8 +50,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     letters = word(program)
     if letters is None:
         return None
-    # ``commute`` applies two flows in both orders at sample points. The symbolic Lie bracket of commuting
-    # flows does not always simplify to zero.
+    # ``commute`` uses sample points, because the symbolic Lie bracket of commuting flows does not always
+    # simplify to zero.
     commute = commuting(scene)
     # If a flow reads a stage time or has a duration other than h, all flows of its part remain in the steps.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
@@ -61,19 +59,16 @@ def part(program: Program, scene: Problem) -> Parted | None:
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # If ``kept`` is empty, the steps would have no flows. If ``joined`` and ``spun`` are empty, no flow can
-    # be deferred.
+    # If ``kept`` is empty, the steps would have no flows.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
     # The two durations are equal in all entries of ``joined``.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
-    # The leading flows in ``heads`` belong to different parts. Each flow in ``tails`` follows a leading flow
-    # of its own part, so no flow is in both sets.
+    # Each flow in ``tails`` follows a leading flow of its own part, so no flow is in both sets.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     # The core omits the flows in ``heads``, because the flows in ``tails`` of the previous step include them.
-    # The duration of a flow in ``tails`` is the variable ``lead``.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
     # For the vector field X of a part in ``free``, one flow replaces the flows of n steps: exp(h X)^n =
     # exp(n h X).
@@ -101,29 +96,25 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 def _is_h(letter: Letter) -> bool:
     """Return True if the duration of a flow is h."""
-    # The coefficient of h may be a ball (a number with an error bound). A ball does not compare equal to 1,
-    # so the coefficient is rounded to a double.
+    # The coefficient of h may be a ball (a number with an error bound), which does not compare equal to 1.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow with the variable that replaces its duration. None means that the duration is not replaced."""
+"""A flow with the variable that replaces its duration, or with None."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""A leading flow of a step and a final flow of the previous step. The two flows are joined into one.
+"""A leading flow of a step and a final flow of the previous step, which are joined into one.
 
-The first two entries are the indices of the leading flow and of the final flow. The third entry is the
-duration of the final flow. The fourth entry is the sum of the durations of both flows.
+The entries are the indices of the leading and of the final flow, the duration of the final flow, and the sum
+of both durations.
 """
 
 
 def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
-    """Return the pairs of flows that are joined into one flow.
-
-    A pair consists of a leading flow of a step and a final flow of the previous step.
-    """
+    """Return the pairs of flows that are joined into one flow (:data:`JoinedFlows`)."""
     # The time t + h of a step is the time t of the next step, so flows at these times can be joined.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
@@ -157,15 +148,15 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
-    """Return the program that applies the flows ``letters``. ``more`` are additional input variables."""
-    # ``body`` begins with the assignments of all stage times. The compiler removes unused assignments.
+    """Return the program that applies the flows ``letters`` and has the additional inputs ``more``."""
+    # ``body`` begins with the assignments of all stage times.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
-    # The inputs t and h have the kind REAL. All other inputs form the state.
+    # All inputs except t and h, which have the kind REAL, form the state.
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)
     for number, (letter, duration) in enumerate(letters):
         targets = tuple(Var(f"{v.name}{number + 1}", v.kind) for v in first)
-        # The duration of FlowOf is c h with a number c. FlowFor reads its duration from a variable.
+        # The duration of FlowOf is c h with a number c, so a variable duration needs FlowFor.
         operation: Operation = FlowOf(letter.part, letter.duration, bool(letter.time))
         args = (*state, *letter.time)
         if duration is not None:

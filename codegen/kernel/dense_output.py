@@ -1,9 +1,7 @@
 """Kernels of a continuous extension. The extension gives the state at any time inside a step.
 
-Let y be the state at the beginning of a step from t to t + h. For 0 <= theta <= 1, the solution at the time
-t + theta h is exp(sigma(theta)).y, where sigma is a polynomial with values in the Lie algebra. One kernel
-computes the coefficients of sigma from y. A second kernel computes exp(x).y for an element x of the Lie
-algebra.
+Let y be the state at the beginning of a step from t to t + h. For 0 <= theta <= 1, the solution at the time t
++ theta h is exp(sigma(theta)).y, where sigma is a polynomial with values in the Lie algebra.
 """
 
 from __future__ import annotations
@@ -28,7 +26,6 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
 
     The outputs of ``program`` are the coefficients of the polynomial sigma(theta) with values in the Lie
     algebra. One kernel computes these coefficients. The other kernel computes exp(x).y for x = sigma(theta).
-    ``order`` is the order of accuracy of the extension.
     """
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))

@@ -1,8 +1,7 @@
 """Implicit equations u = g(u) of a step, and the matrix of Newton's method.
 
-The values g(u) are called images, and Newton's matrix is 1 - g'(u). The equations can also have the form
-r(u) = 0. Then r is called the residual, and Newton's matrix is -r'(u). One iteration of a solver is called a
-sweep.
+The values g(u) are called images, and Newton's matrix is 1 - g'(u). For equations r(u) = 0, r is called the
+residual, and Newton's matrix is -r'(u). One iteration of a solver is called a sweep.
 """
 
 from __future__ import annotations
@@ -22,29 +21,21 @@ from codegen.kernel import newton
 from codegen.passes.rewrite import uses
 
 MANY = 12
-"""The largest number of unknowns for which all products of sums in Newton's matrix are expanded. With more
-unknowns, sums that do not change during the iteration are not expanded.
+"""The largest number of unknowns for which all products of sums in Newton's matrix are expanded.
 
-For few unknowns, the values of unexpanded sums would occupy registers that the sweeps need. For many
-unknowns, an expanded matrix would make the code longer. Near the limit, both forms have similar lengths. For
-example, the kernel of vcf:cf4 on dipole has 12 unknowns. This kernel has 472 assignments with the expanded
-matrix, and 439 without the expansion.
+For few unknowns, the values of unexpanded sums would occupy registers that the sweeps need. The kernel of
+vcf:cf4 on dipole (12 unknowns) has 472 assignments with the expanded matrix, and 439 without the expansion.
 """
 
 LONGEST_MATRIX = 1500
 """The largest number of operations for the exact matrix of Newton's method. A matrix with more operations is
 replaced by its expansion to first order in h.
 
-Most matrices are far below this limit: the matrix of vcg:triple_jump on heavy_top has 555 operations. A limit
-of 6000 gives the same emitted kernels.
+A limit of 6000 gives the same emitted kernels.
 """
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
-"""Costs of operations. Additions, products and all other operations that are not listed have the cost 1.
-
-The costs are rough latencies. The costs decide whether a value is corrected after a loop or computed again
-(:func:`compared`).
-"""
+"""Costs of operations, as rough latencies. Operations that are not listed have the cost 1."""
 
 
 @dataclass(frozen=True)
@@ -56,8 +47,7 @@ class Block:
     - ``matrix`` is Newton's matrix, or its inverse if ``inverted`` is true.
     - ``leading`` is true for the simplified Newton method, which computes the matrix before the first sweep.
     - ``changes`` has one name for each unknown: the variable for the change of the unknown in the last sweep.
-    - ``kept`` contains names and expressions. Each sweep computes these expressions, because statements after
-      the loop read them.
+    - ``kept`` contains names, and expressions that each sweep computes for the statements after the loop.
     """
 
     label: str
@@ -83,10 +73,9 @@ def compared(
     The matrix is -r'(u), expanded to first order in h. The result is None if ``block`` has no residuals, or
     if the residuals cannot be expanded in h.
 
-    ``env`` contains the value of each variable of ``program``. Statements after the loop read values that the
-    loop body computes. The last sweep computes these values before it changes the unknowns. Therefore a
-    first-order correction is added to each of these values in ``env``. If a correction costs at least half as
-    much as a new computation, the value is computed again after the loop.
+    The last sweep computes values in ``env`` before it changes the unknowns. Therefore a first-order
+    correction is added to each of these values in ``env``. If a correction costs at least half as much as a
+    new computation, the value is computed again after the loop.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
