@@ -1,9 +1,8 @@
 """Shared angles: arguments that are equal as polynomials become one expression.
 
 Variational methods need the exponentials of h xi/2 and -h xi/2 in one stage. Here h is the step size, and xi
-is an element of the Lie algebra. Each exponential contains Stumpff functions of the squared norm of its
-argument. The squared norms of h xi/2 and -h xi/2 are equal, but the expressions for these norms differ. This
-module expands both expressions. The resulting polynomials are equal. Equal arguments need only one call.
+is an element of the Lie algebra. Both exponentials contain Stumpff functions of the same squared norm, but
+the expressions for this norm differ.
 """
 
 from __future__ import annotations
@@ -17,11 +16,9 @@ from codegen.ir.normal_form import NormalForms, Polynomial, TooLong
 LONGEST = 64
 """Arguments of Stumpff functions with more than LONGEST nodes are not compared.
 
-Equal arguments occur in implicit stages. In the methods of the gallery, these arguments have 12 to 42 nodes.
-Arguments in explicit stages have hundreds or thousands of nodes.
-
-For nine methods of the gallery, the limits 64, 128 and 256 give the same kernels. With the limit 32, only one
-of the nine kernels differs: the step of vcf:cf4 on dipole has 286 operations, and 301 with the limit 64.
+In the methods of the gallery, equal arguments have 12 to 42 nodes. For nine methods of the gallery, the
+limits 64, 128 and 256 give the same kernels. With the limit 32, only one of the nine kernels differs: the
+step of vcf:cf4 on dipole has 286 operations, and 301 with the limit 64.
 """
 
 
@@ -48,25 +45,24 @@ class SharedArguments(ExprDomain):
         return super().call(function, *args)
 
     def _first(self, argument: Expr) -> Expr:
-        """Return the first known argument that equals ``argument``. If there is none, return ``argument``."""
+        """Return the first known argument that equals ``argument``, or ``argument`` if there is none."""
         # The expansion as a polynomial is slow, so the result for each node is stored.
         if argument.id not in self.shared:
             self.shared[argument.id] = self._compared(argument)
         return self.shared[argument.id]
 
     def _compared(self, argument: Expr) -> Expr:
-        # In explicit stages, arguments of Stumpff functions may have thousands of nodes. The walk stops as
-        # soon as it exceeds the limit.
+        # The walk stops at the limit, because arguments in explicit stages may have thousands of nodes.
         if len(list(islice(walk([argument]), LONGEST + 1))) > LONGEST:
             return argument
         try:
             polynomial = self.normal.polynomial(argument)
         except TooLong:
             return argument
-        # A polynomial is a dict, and a dict cannot be a key. Therefore polynomials are compared one by one.
+        # A polynomial is a dict and cannot be a key, so polynomials are compared one by one.
         for known, first in self.arguments:
             if known == polynomial:
                 return first
-        # The polynomial is new. ``argument`` will replace later arguments with an equal polynomial.
+        # ``argument`` will replace later arguments with an equal polynomial.
         self.arguments.append((polynomial, argument))
         return argument

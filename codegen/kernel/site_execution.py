@@ -23,12 +23,13 @@ from codegen.scene.sites import Sites, offset_text
 from codegen.scene.values import Bindings
 
 RECOMPUTED = (Linear, Zero, Advance)
-"""Cheap operations. Each sweep that needs their results computes the results again. The exceptions are the
-linear combinations that :mod:`codegen.kernel.site_plan` selects for storage.
+"""Cheap operations: each sweep that needs their results computes the results again.
+
+The exceptions are the linear combinations that :mod:`codegen.kernel.site_plan` selects for storage.
 """
 
 EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
-"""Operations that evaluate formulas of the scene. The formulas may read the states of neighbours."""
+"""Operations that evaluate formulas of the scene, possibly with the states of neighbours."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +40,8 @@ class Content:
     - ``stored`` contains pairs (rows, variable). The sweep stores the variable in these rows.
     - ``unknowns`` are the unknowns u of equations u = g(u). In fixed-point iteration, the sweep replaces u by
       g(u).
-    - ``measured`` is empty or contains two rows. For each site, the first row stores the largest change
-      of an unknown at the site. The second row stores the largest absolute value of an unknown at the site.
+    - ``measured`` is empty or contains two rows: the largest change and the largest absolute value of an
+      unknown at each site.
     """
 
     about: str
@@ -56,7 +57,7 @@ def blocks_of(problem: Problem) -> tuple[slice, ...]:
 
 
 class Execution:
-    """Executes the assignments of one sweep on symbols. The results are the formulas of the sweep.
+    """Executes the assignments of one sweep symbolically.
 
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
     - ``given`` contains the variables of the state at the beginning of the step.
@@ -122,10 +123,7 @@ class Execution:
     def _evaluated(
         self, operation: Operation, variables: tuple[Var, ...], args: tuple[Value, ...]
     ) -> tuple[Value, ...]:
-        """Return the results of an operation that evaluates formulas of the scene.
-
-        The values at neighbours are read from the arrays of the lattice.
-        """
+        """Return the results of an operation that evaluates formulas of the scene."""
         roots, dim = self._roots(operation), self.problem.group.dim
         values = evaluate(roots, self.domain, self._around(variables, args))
         if isinstance(operation, Energy):
@@ -159,10 +157,7 @@ class Execution:
         return space.sym(name)
 
     def _around(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> Bindings:
-        """Return a value for each symbol in the formulas of the scene.
-
-        Some symbols denote values at the site, and the other symbols denote values at its neighbours.
-        """
+        """Return a value for each symbol in the formulas of the scene, at the site and at its neighbours."""
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
@@ -184,12 +179,11 @@ class Execution:
     def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
         """Return symbols for a variable at a neighbour, and record a load for each symbol.
 
-        If the neighbour lies outside the lattice, the values ``ghosts`` replace the variable.
+        Outside the lattice, the values ``ghosts`` replace the variable.
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # Each symbol has one ghost. Ghosts that depend on time differ between stages. In this case, the old
-        # state gets new symbols for each stage. Other variables always get new symbols.
+        # Each symbol has one ghost, so a ghost that differs between stages needs a new symbol.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
@@ -201,8 +195,7 @@ class Execution:
     def sweep(self, content: Content, sums: tuple[tuple[str, Row], ...]) -> Sweep:
         """Return the sweep that stores the variables in ``content``.
 
-        ``sums`` contains a pair (name, row) for each sum over all sites. The row contains the term of each
-        site.
+        For each sum over all sites, ``sums`` contains the name of the sum and the row of its terms.
         """
         # The outputs of the kernel and the rows in ``stores`` have the same order.
         ends = [x for _, var in content.stored for x in flatten(var.kind, self.env[var])]
@@ -215,8 +208,7 @@ class Execution:
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
-            # Output k of ``outside`` belongs to load k in ``Sweep.read_outside``. Therefore the ghosts
-            # need the order of ``self.loads``.
+            # The ghosts need the order of ``self.loads``: output k of ``outside`` belongs to load k.
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
             # The ghosts may depend on further values at the site, so these values are loaded, too.
@@ -243,9 +235,9 @@ def kernel_of_sweep(
 ) -> Kernel:
     """Return the kernel that computes the expressions ``ends`` at one site.
 
-    ``symbols`` are the names of the numbers that the sweep reads. ``totals`` are the names of sums over all
-    sites. ``hints`` maps the ids of expressions to preferred names. ``taken`` contains all names in use. This
-    function adds the names of new variables to ``taken``.
+    ``symbols`` and ``totals`` name the numbers and the sums over all sites that the sweep reads. ``hints``
+    maps the ids of expressions to preferred names. This function adds the names of new variables to
+    ``taken``.
     """
     schedule = Assignments((), ends, hints, lambda base: unique_name(base, taken))
     body = tuple(_lets(schedule.run()))

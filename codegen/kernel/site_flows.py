@@ -39,7 +39,7 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
         )
     reading = lowering.read(scene, method)
     word = reading.word
-    # The program only lists the flows for reports. The kernel is built from ``word``.
+    # The program only lists the flows for reports, and the kernel is built from ``word``.
     y = Var("y", Kind.POINT)
     body, last = [], y
     named = [(name, duration) for summand, duration in word for name, _ in summand.flows]
@@ -62,8 +62,7 @@ def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]
     flows: list[SiteFlow] = []
     for flow, duration in listed:
         assert isinstance(flow, FlowOfPart)
-        # All flows of one part use the same sweep. The flows differ only in duration and in colour (even or
-        # odd pairs of sites).
+        # All flows of one part use the same sweep.
         if flow.part not in index:
             index[flow.part] = len(sweeps)
             sweeps.append(_sweep(scene, label, scene.sites.parts[flow.part]))
@@ -83,18 +82,16 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     duration = domain.space.sym("h")
     ends: list[Expr] = []
     for k, own in enumerate(names):
-        # For each site, ``roots`` contains the ``dim`` components of an element of the Lie algebra. The
-        # element is constant along the flow.
+        # For each site, ``roots`` contains an element of the Lie algebra that is constant along the flow.
         x = tuple(duration * r for r in roots[k * dim : (k + 1) * dim])
         ends += scene.action.actexp(domain, scene.group, x, tuple(symbols[s] for s in own))
     taken = {*symbols, *scene.runtime, "h", TIME}
 
     schedule = Assignments((), ends, {}, lambda base: unique_name(base, taken))
     body = tuple(statement for statement in schedule.run() if isinstance(statement, Let))
-    # In one sweep each site belongs to only one pair. Therefore a sweep over pairs can work in place.
+    # In one sweep each site belongs to only one pair, so a sweep over pairs can work in place.
     array = RESULT if part.symbols else STATE
-    # Side 0 is the site itself, and side 1 is the other site of the pair. In a Load, the site itself has the
-    # index -1 (OWN), and the other site has the index 0.
+    # In a Load, the site itself (side 0) has the index -1 (OWN), and the other site (side 1) has the index 0.
     loads = [Load(s, Row(array, k), side - 1) for side, own in enumerate(names) for k, s in enumerate(own)]
     stores = [Row(RESULT, k) for _ in names for k in range(size)]
     about = f"flow of {part.name}" + (f", pairs along axis {part.axis}" if part.symbols else "")

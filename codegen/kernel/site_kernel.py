@@ -1,8 +1,7 @@
 """Translates programs to sweeps over the sites of a lattice (:mod:`codegen.ir.site_step`).
 
 The field reads the states of neighbours. Therefore one sweep stores the points at which the field is
-evaluated, and the next sweep evaluates the field. Each sweep that needs a sum of vectors
-computes the sum again. A sum is stored only if one of its terms then needs no storage.
+evaluated, and the next sweep evaluates the field.
 """
 
 from __future__ import annotations
@@ -44,7 +43,7 @@ class SiteMethod:
     ``problem`` describes one site, and the states of its neighbours are parameters. For a splitting method,
     ``problem`` describes the whole lattice. ``lowered`` is the program of a step before the compiler passes,
     and ``program`` is the program after the passes. ``trace`` contains a report of each pass that changed the
-    program. ``kernel`` contains the sweeps of the step.
+    program.
     """
 
     problem: Problem
@@ -60,16 +59,15 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     If ``newton`` is true, Newton's method solves the implicit equations. The lattice must then be
     one-dimensional.
 
-    Splitting methods and Taylor's method are permitted. Other methods may evaluate the field, the energy, and
-    the derivatives of the energy. If a method evaluates other formulas of the scene, MethodError is raised.
+    Methods other than splitting methods and Taylor's method may evaluate only the field, the energy, and the
+    derivatives of the energy. Otherwise MethodError is raised.
     """
     lowering = lowering_of(method.family)
-    # The compiler passes rewrite evaluations of the field. A splitting method evaluates only flows, so no
-    # pass is needed.
+    # A splitting method evaluates only flows, and no compiler pass rewrites flows.
     if isinstance(lowering, FlowLowering):
         program, kernel = flow_program(scene, method, lowering)
         return SiteMethod(scene, program, program, (), kernel)
-    # The compiler passes need the problem of a single site. The states of its neighbours are parameters.
+    # The compiler passes need the problem of a single site, with the states of its neighbours as parameters.
     frozen = with_frozen_neighbours(scene)
     problem, lowered = problem_for(frozen, method), lower(frozen, method)
     program, trace = optimise(lowered, problem)

@@ -1,8 +1,8 @@
 """The matrix of Newton's method for implicit equations u = g(u) on a chain, a one-dimensional lattice.
 
-The matrix is the derivative of u - g(u) with respect to u, to first order in the step size h. The field reads
-the stages of neighbours. Therefore g(u) at a site depends on the unknowns of the site and of its two
-neighbours. The value g(u) is called the image of the unknown u.
+The matrix is the derivative of u - g(u) with respect to u, to first order in the step size h. At a site, g(u)
+depends on the unknowns of the site and of its two neighbours. The value g(u) is called the image of the
+unknown u.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ LEFT, RIGHT = (-1,), (1,)
 
 @dataclass
 class Linearisation:
-    """Differentiates g for one system of equations u = g(u). The derivatives are taken with respect to the
-    unknowns of a site and of its left and right neighbours.
+    """Differentiates g in u = g(u) with respect to the unknowns of a site and of its left and right
+    neighbours.
 
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
     - ``given`` contains the variables of the state at the beginning of the step.
@@ -80,14 +80,13 @@ class Linearisation:
         size, *first = places
         blocks: list[list[Expr]] = [[], [], []]
         for i, row in enumerate(rows):
-            # If the field does not read a neighbour, ``row`` contains no derivatives for this neighbour. The
-            # matrix block of the neighbour is zero.
+            # ``row`` contains no derivatives for a neighbour that the field does not read.
             parts = iter(row)
             for block, there in zip(blocks, self._columns(), strict=True):
                 for j in range(size):
                     slope = space.zero if there is None else next(parts)
-                    # The derivative of u is the unit matrix. The unit matrix occurs only in the block of the
-                    # site itself.
+                    # The derivative of u is the unit matrix, and it occurs only in the block of the site
+                    # itself.
                     block.append((space.one if there == OWN and i == j else space.zero) - slope)
         exists = () if self.sites.periodic else tuple(map(self._exists, range(len(self.sites.offsets))))
         kernel = self._kernel(label, [x for block in blocks for x in block])
@@ -127,8 +126,8 @@ class Linearisation:
         key = (site, var)
         if key not in self.values:
             maker = self.makers.get(var)
-            # Values that are computed before the iteration stay constant. Expensive values are read from
-            # memory, and cheap values are computed again.
+            # Expensive values from before the iteration are read from memory, and cheap values are computed
+            # again.
             if maker is None or (var not in self.inside and not isinstance(maker.operation, RECOMPUTED)):
                 self.values[key] = self._stored(var, site)
                 return self.values[key]
@@ -156,7 +155,7 @@ class Linearisation:
         return tuple(map(self.domain.space.sym, names))
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
-        """Return the field at a site. The field reads the stage values of the site and of its neighbours."""
+        """Return the field at a site, computed from the stage values of the site and of its neighbours."""
         # The field at a neighbour reads sites at distance 2, so the matrix would not be block-tridiagonal.
         if site != OWN:
             raise MethodError(
@@ -178,8 +177,8 @@ class Linearisation:
                 there = self.value(maker.args[index], k)
                 if outside:
                     exists = domain.space.sym(self._exists(k))
-                    # If the neighbour exists (``exists`` is 1), the result is the value x of the neighbour.
-                    # Outside the lattice (``exists`` is 0), the result is the ghost g.
+                    # The result is the value x of the neighbour (``exists`` is 1) or the ghost g (``exists``
+                    # is 0).
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
                 # In the formulas of the field, the symbols for the coordinates of neighbour k get the
                 # values of the stage at neighbour k.

@@ -1,11 +1,8 @@
 """Distributes the assignments of a program among sweeps over the sites of a lattice.
 
-If the field reads a value at neighbours, one sweep stores the value at all sites. A later sweep evaluates the
-field. For a sum over all sites, one sweep stores the term of each site, and later sweeps read the sum.
-
-An implicit method solves equations u = g(u) by iteration. Every iteration executes the same sweeps. The
-value g(u) is called the image of the unknown u. In fixed-point iteration, the last sweep of an iteration
-replaces u by g(u).
+If the field reads a value at neighbours, an earlier sweep stores the value at all sites. An implicit method
+solves equations u = g(u) by iteration, and every iteration executes the same sweeps. The value g(u) is called
+the image of the unknown u.
 """
 
 from __future__ import annotations
@@ -33,8 +30,7 @@ from codegen.scene.sites import Sites
 MEASURED = 2
 """The number of rows of the workspace that the stopping rule uses.
 
-For each site, one row contains the largest change of an unknown, and the other row contains the largest
-absolute value of an unknown.
+The rows contain the largest change and the largest absolute value of an unknown at each site.
 """
 
 
@@ -60,8 +56,7 @@ class _Block:
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
         """Return pairs (unknown, new value) for the sweep with the index ``number``.
 
-        The sweep before the first iteration computes the starting values of the unknowns u. The last sweep of
-        an iteration computes the values g(u). All other sweeps have no pairs.
+        Only the sweep before the first iteration and the last sweep of an iteration have pairs.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -105,8 +100,7 @@ class Planner:
             # it also reads the old values.
             need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
         count = self._store(needs)
-        # The stopping rule of fixed-point iteration uses rows of the workspace. The solver of Newton's method
-        # measures its corrections without such rows.
+        # Only the stopping rule of fixed-point iteration uses rows of the workspace.
         measured = MEASURED if self.blocks and not self.newton else 0
         sweeps = tuple(
             self._sweep(k, need, outputs if k == last else (), needs[k + 1 :], count)
@@ -124,14 +118,13 @@ class Planner:
     def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
         """Return the step with a Newton matrix for each system of implicit equations.
 
-        ``count`` is the number of rows of the workspace that store variables.
-
-        MethodError is raised if the equations contain sums over all sites.
+        In the workspace, the matrix follows the ``count`` rows of the variables. MethodError is raised if the
+        equations contain sums over all sites.
         """
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
-        # The workspace contains the variables, the residuals, the border and the matrix, in this order. Only
-        # periodic chains have a border (:class:`codegen.ir.site_step.SiteNewton`).
+        # The workspace contains variables, residuals, border (:class:`codegen.ir.site_step.SiteNewton`) and
+        # matrix, in this order.
         border = count + most
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
@@ -149,8 +142,8 @@ class Planner:
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
-        # The Newton matrix has three square blocks for each site. The systems of equations are solved one
-        # after the other, so the matrices of all systems use the same rows.
+        # The systems are solved one after the other, so their matrices of three square blocks use the same
+        # rows.
         return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
@@ -189,8 +182,8 @@ class Planner:
             last = max(first, *(self.sweep_of[v] for v in solve.images))
             points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
-                # Sites read the unknowns of their neighbours. A further sweep changes the unknowns after all
-                # sites have read the old values.
+                # A further sweep changes the unknowns after all sites have read the old values of their
+                # neighbours.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
             # The solution satisfies u = g(u), so the rest of the program reads u in place of g(u).
@@ -209,13 +202,11 @@ class Planner:
         assign = self._rename(statement)
         self.order.append(assign)
         places = [self.sweep_of[arg] for arg in assign.args]
-        # If the field reads a variable at neighbours, an earlier sweep must store the variable. Unknowns and
-        # the old state are always stored.
+        # If the field reads a variable at neighbours, an earlier sweep must store the variable.
         points = [v for v in self._points(assign) if v in self.makers]
         places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
         if isinstance(assign.operation, Total):
-            # One sweep stores the terms of all sites. The sum is known after this sweep. Therefore only later
-            # sweeps can read the sum.
+            # The sum is known only after the sweep that stores the terms of all sites.
             ((target,), (term,)) = assign.targets, assign.args
             self.sweep_of[target] = max(least, self.sweep_of[term]) + 1
             self.totals[target] = assign
@@ -238,9 +229,8 @@ class Planner:
     def _choose_sums(self) -> None:
         """Find the linear combinations of vectors that are stored in place of one of their terms.
 
-        The sweep that computes the linear combination must also compute the term. Only the linear combination
-        may read the term. Therefore a 2N scheme (a low-storage Runge-Kutta method) stores only one element of
-        the Lie algebra for each site. In programs with implicit equations, no linear combinations are stored.
+        A 2N scheme (a low-storage Runge-Kutta method) then stores only one element of the Lie algebra for
+        each site.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -278,20 +268,19 @@ class Planner:
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
         for number in range(len(needs)):
             for var in self._terms(number):
-                # The terms of a sum over all sites are added after the sweep that stores them. Until then no
-                # sweep may overwrite the rows of the terms.
+                # The terms of a sum over all sites are added only after the sweep that stores them.
                 used[var] = max(used.get(var, 0), number + 1)
         for block in self.blocks:
             repeated = needs[block.first : block.last + 1]
             defined = {v for need in repeated for v in need.computed}
             for var in {v for need in repeated for v in (need.loaded | need.around)} - defined:
-                # Iterations read ``var`` but do not compute it. Therefore the rows of ``var`` must not be
-                # overwritten before the last iteration ends.
+                # Each iteration reads ``var``, so its rows must not be overwritten before the last iteration
+                # ends.
                 used[var] = max(used[var], block.last + 1)
         return used
 
     def _store(self, needs: list[_Needs]) -> int:
-        """Assign rows of the workspace to all stored variables. Return the number of workspace rows."""
+        """Assign rows of the workspace to all stored variables, and return the number of rows."""
         for var in self._given():
             self.rows[var] = tuple(Row(STATE, k) for k in self._numbers(var.name))
         used = self._last_uses(needs)
@@ -299,12 +288,11 @@ class Planner:
         free: list[int] = []
         count = 0
         for number, need in enumerate(needs):
-            # If each site reads only its own value, the last sweep that reads the value may overwrite the
-            # value. If neighbours also read the value, only the next sweep may overwrite the value.
+            # If neighbours also read a value, only the next sweep may overwrite the value.
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
-            # A set has no fixed order. Sorting the rows gives the same workspace layout in every compilation.
+            # A set has no fixed order, but the workspace layout must be the same in every compilation.
             free = sorted({*free, *ended})
             # The sweep before the first iteration stores the starting values, so it reserves the rows of the
             # unknowns.
@@ -374,7 +362,7 @@ class Planner:
             stored = [(tuple(islice(free, len(rows))), value) for rows, value in stored]
         stored += [(self.rows[v], v) for v in kept]
         named = zip((name for name, _ in self.program.outputs), outputs, strict=False)
-        # The last sweep stores the new state. For all other sweeps ``outputs`` is empty.
+        # For all sweeps except the last, ``outputs`` is empty.
         stored += [(tuple(Row(RESULT, k) for k in self._numbers(name)), v) for name, v in named]
         shown = [a.text() for a in executed if not isinstance(a.operation, RECOMPUTED)]
         shown += [f"{unknown.name} = {value.name}" for unknown, value in copies]

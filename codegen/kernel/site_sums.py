@@ -2,13 +2,11 @@
 
 The discrete differential of the whole lattice is D = g + (e/|eta|^2) eta with e = H1 - H0 - <g, eta>. The
 covector g approximates the differential of the energy, and eta is the displacement of a step. The energies
-before and after the step are H0 and H1. The numbers e and |eta|^2 are sums over all sites. The difference of
-the total energies would have a large rounding error. Therefore e is computed as a sum of the small terms of
-the sites.
+before and after the step are H0 and H1. To reduce the rounding error, e is computed as a sum of the small
+terms of the sites.
 
-If the equations are not Hamilton's equations, the field f is expressed by the bivector
-(gamma wedge f)/|gamma|^2, where gamma is the differential of the energy. Three further sums over all sites
-are needed to apply this bivector to a covector (:mod:`codegen.scene.energy`).
+If the equations are not Hamilton's equations, the field f is expressed by the bivector (gamma wedge
+f)/|gamma|^2, where gamma is the differential of the energy (:mod:`codegen.scene.energy`).
 """
 
 from __future__ import annotations
@@ -26,11 +24,7 @@ from codegen.scene.problem import Problem
 
 
 def with_sums(program: Program, problem: Problem) -> Program:
-    """Return the program with a separate assignment for each sum over all sites.
-
-    An operation that contains such sums is replaced by several assignments. The first assignments compute the
-    sums, and the last assignment computes the result of the operation.
-    """
+    """Return the program with a separate assignment for each sum over all sites."""
     unknowns = {u.name for s in program.body if isinstance(s, Solve) for u in s.unknowns}
     targets = {v.name for assign in program.assigns() for v in assign.targets}
     # The names of new variables must not occur in the program.
@@ -49,7 +43,7 @@ def with_sums(program: Program, problem: Problem) -> Program:
 
 
 def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign, ...]:
-    """Return the assignments that replace ``assign``. The last assignment sets the targets of ``assign``."""
+    """Return the assignments that replace ``assign``."""
 
     # An inner product needs two operations: one at each site, and one that adds the results of all sites.
     def total(name: str, x: Var, y: Var) -> Var:
@@ -60,7 +54,7 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
     if isinstance(assign.operation, Secant):
         g, x, before, after = assign.args
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
-        # ``paired`` approximates the change of the energy. ``excess`` is the sum of the approximation errors.
+        # ``excess`` is the sum of the errors of ``paired``, an approximation to the change of the energy.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):

@@ -1,12 +1,9 @@
 """Taylor's method on a lattice: one sweep over all sites for each degree of the polynomial.
 
 Coefficient n + 1 of a site depends on the coefficients 0, ..., n of the site and of its neighbours
-(:mod:`codegen.ir.taylor_recurrence`). One sweep computes coefficient n + 1 at all sites, and stores this
-coefficient for later sweeps. Coefficient n includes the factor h^n. Outside an open boundary, the state of a
-neighbour is a given function of the time and of the state of the site.
-
-Many expressions occur in the coefficients of several degrees. A sweep stores such an expression if computing
-it again takes more operations than :data:`SHORT`.
+(:mod:`codegen.ir.taylor_recurrence`). Coefficient n includes the factor h^n, where h is the step size.
+Outside an open boundary, the state of a neighbour is a given function of the time and of the state of the
+site.
 """
 
 from __future__ import annotations
@@ -33,8 +30,8 @@ SHORT = 3
 """The largest number of operations in an expression that is computed again and not stored.
 
 With the limits 1 and 3, a step of taylor(8) on 4000 pendulums takes 24 ns for each pendulum. With the limit
-10, several sweeps compute the same sines, and the time is 117 ns. On a chain of spins, the times with the
-limits 1, 3 and 10 differ by at most 3 per cent.
+10, the time is 117 ns. On a chain of spins, the times with the limits 1, 3 and 10 differ by at most 3 per
+cent.
 """
 
 CALL = 10
@@ -43,7 +40,7 @@ CALL = 10
 
 @dataclass
 class _Stored:
-    """The expressions that sweeps store. Each attribute is a dictionary with the ids of expressions as keys.
+    """The expressions that sweeps store, in dictionaries with the ids of the expressions as keys.
 
     - ``writer`` contains the number of the sweep that stores the expression.
     - ``last`` contains the number of the last sweep that reads the expression.
@@ -56,7 +53,7 @@ class _Stored:
 
 
 class TaylorSweeps:
-    """Builds the sweeps of one step of Taylor's method. A sweep is a loop over all sites.
+    """Builds the sweeps of one step of Taylor's method.
 
     ``problem`` describes one site, and the states of its neighbours are parameters. ``problem.evolution``
     contains the time derivatives of the coordinates.
@@ -72,7 +69,7 @@ class TaylorSweeps:
         self.ghosts: dict[str, Expr] = {}
         self.coefficients: list[list[Coefficient]] = []
         self.rows = 0
-        # The coordinates of the site come first. Then the coordinates of each neighbour follow.
+        # The coordinates of the site come first, followed by the coordinates of each neighbour.
         names = [self.symbols, *sites.symbols]
         self.recurrence = self._recurrence([s for own in names for s in own])
         # For neighbour i outside an open boundary, ``outside[i][k]`` is the Taylor series of coordinate k.
@@ -114,10 +111,7 @@ class TaylorSweeps:
     def _load(
         self, rows: Sequence[Row], own: Sequence[str], around: Sequence[Sequence[str]], degree: int
     ) -> None:
-        """Record the loads of one Taylor coefficient of a site and of its neighbours.
-
-        Also record the formulas that replace the coefficient of a neighbour outside the lattice.
-        """
+        """Record the loads of one Taylor coefficient, and the formulas for neighbours outside the lattice."""
         self.loads |= {s: Load(s, row) for s, row in zip(own, rows, strict=True) if s}
         for number, column in enumerate(around):
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
@@ -128,10 +122,9 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return ``terms``, if necessary with the number zero in place of None.
+        """Return ``terms``, with zero in place of None if a term may differ from zero outside the lattice.
 
-        None represents a coefficient that is zero at all sites and that no sweep loads. If the coefficient
-        may differ from zero outside the lattice, sweeps must load it. In this case, zero replaces None.
+        None represents a coefficient that is zero at all sites and that no sweep loads.
         """
         if degree == self.degree:
             return terms
@@ -142,8 +135,7 @@ class TaylorSweeps:
     def _follows(self, ghost: Expr, k: int) -> bool:
         """Return True if a Taylor coefficient that is zero at all sites is also zero outside the lattice.
 
-        ``ghost`` is the formula for coordinate k of a neighbour outside the lattice. The result is True if
-        the formula is a constant, or coordinate k of the site. For all other formulas, the result is False.
+        ``ghost`` is the formula for coordinate k of a neighbour outside the lattice.
         """
         return ghost.op == "const" or (ghost.op == "sym" and ghost.payload == self.symbols[k])
 
@@ -191,8 +183,7 @@ class TaylorSweeps:
     def _polynomial(self) -> tuple[Expr, ...]:
         """Return the value of the Taylor polynomial of each coordinate at the end of the step.
 
-        Coefficient n includes the factor h^n, so the value is the sum of all coefficients. The old state is
-        the largest term. To reduce the rounding error, the old state is added last.
+        To reduce the rounding error, the old state, the largest term, is added last.
         """
         moved = []
         for first, *further in zip(*self.coefficients, strict=True):
@@ -209,8 +200,7 @@ class TaylorSweeps:
             for node in walk(roots):
                 # The first sweep that computes an expression also stores it.
                 first.setdefault(node.id, n)
-        # A row contains one number for each site. If a value does not depend on the site, no row stores
-        # the value.
+        # A row contains one number for each site, so no row stores a value that is equal at all sites.
         local = self._local([x for roots in ends for x in roots])
         stored, work = _Stored(), dict[int, int]()
         for n, roots in enumerate(ends):
@@ -236,7 +226,7 @@ class TaylorSweeps:
         return local
 
     def _work(self, node: Expr, known: dict[int, int]) -> int:
-        """Count the operations in an expression. The count ends when it exceeds SHORT."""
+        """Count the operations in an expression until the count exceeds SHORT."""
         if node.id not in known:
             total = 0
             for x in walk([node]):
@@ -256,12 +246,11 @@ class TaylorSweeps:
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # Sweeps read these rows only at the site itself. Therefore the last sweep that reads a row may
-            # overwrite the row.
+            # Sweeps read these rows only at the site itself, so the last sweep that reads a row may overwrite
+            # it.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
-            # The values in ``names`` were stored by earlier sweeps. The values that this sweep stores are
-            # added below.
+            # The values in ``names`` were stored by earlier sweeps.
             known = {i: self.domain.space.sym(name) for i, name in names.items()}
             outputs = self._replaced([*roots, *kept], known)
             for node in kept:
@@ -284,7 +273,8 @@ class TaylorSweeps:
         for node in walk(roots, lambda x: x.id in known):
             if node.id not in changed:
                 args = tuple(changed[a.id] for a in node.args)
-                # ``_make`` does not simplify the node. Simplification could change the rounding errors.
+                # ``_make`` does not simplify the node, because simplification could change the rounding
+                # errors.
                 changed[node.id] = node.space._make(node.op, args, node.payload) if args else node
         return [changed[root.id] for root in roots]
 

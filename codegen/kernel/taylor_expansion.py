@@ -1,8 +1,6 @@
 """Kernels that compute the coefficients of Taylor polynomials, by unrolled code or by a loop.
 
-For a polynomial of degree P, unrolled code has about P^2 operations for each product in the differential
-equation. If unrolled code fits into the instruction cache, it is faster than a loop. Otherwise a loop is
-used.
+If unrolled code fits into the instruction cache, it is faster than a loop.
 """
 
 from __future__ import annotations
@@ -24,10 +22,9 @@ from codegen.scene.problem import TIME, Problem
 UNROLLED = 5000
 """The largest number of operations of unrolled code. Longer code becomes a loop.
 
-For a polynomial of degree P, P^2 operations are counted for each product in the differential equation. The
-instruction cache of most processors has 32 KB, enough for about 4000 operations. With 18 products
-(heavy_top), a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us with a loop. With 24 products,
-the step takes 1.5 us with unrolled code and 0.82 us with a loop.
+For a polynomial of degree P, P^2 operations are counted for each product in the differential equation. With
+18 products (heavy_top), a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us with a loop. With
+24 products, the step takes 1.5 us with unrolled code and 0.82 us with a loop.
 """
 
 
@@ -71,8 +68,7 @@ def _loop(inner: Evolution) -> OrderLoop:
 def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | None) -> Expansion:
     """Return the kernels that compute the Taylor coefficients of the solution.
 
-    If ``loop`` is given, a loop over the order computes the coefficients. If ``loop`` is None, unrolled code
-    computes them.
+    If ``loop`` is None, unrolled code computes the coefficients.
     """
     work, frame = problem.evolution, problem.body_group
     assert work is not None
@@ -84,7 +80,6 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
     # For each product a b of power series, ``left`` contains a_n and ``right`` contains b_n.
-    # ``loop.following`` contains coefficient n + 1 of each coordinate.
     following = _kernel(kernel, (), (*loop.left, *loop.right, *loop.following), name)
     return Expansion(degree, first, enter, leave, following, len(loop.sums))
 
@@ -93,10 +88,9 @@ def _unrolled(kernel: Kernel, fields: Sequence[Field], work: Evolution, degree: 
     domain = SharedArguments()
     space = domain.space
     state = tuple(map(space.sym, work.inner.symbols))
-    # Step-size control chooses h after the coefficients are known. Therefore coefficient n
-    # contains no factor h^n.
+    # Coefficient n contains no factor h^n, because step-size control chooses h later.
     rows = work.coefficients(domain, degree, state, space.sym(TIME), space.one)
-    # A coefficient that is identically zero is None in ``rows``. The outputs are sorted by degree.
+    # A coefficient that is identically zero is None in ``rows``.
     ends = [space.zero if row[n] is None else row[n] for n in range(1, degree + 1) for row in rows]
     return _kernel(kernel, fields, ends, _names(kernel))
 
@@ -125,7 +119,7 @@ def _leave(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
 
 
 def _names(kernel: Kernel) -> Callable[[str], str]:
-    """Return a function that creates names. The kernel does not use these names."""
+    """Return a function that creates names that the kernel does not use."""
     taken = {s for f in kernel.state for s in f.symbols} | set(kernel.scalars)
 
     def name(base: str) -> str:
@@ -140,10 +134,7 @@ def _names(kernel: Kernel) -> Callable[[str], str]:
 def _kernel(
     kernel: Kernel, state: Sequence[Field], ends: Sequence[Expr], name: Callable[[str], str]
 ) -> Kernel:
-    """Return a kernel that computes the expressions ``ends`` from the fields ``state``.
-
-    The function ``name`` chooses the names of intermediate values.
-    """
+    """Return a kernel that computes the expressions ``ends`` from the fields ``state``."""
     schedule = Assignments((), ends, {}, name)
     body = tuple(x for x in schedule.run() if isinstance(x, Let))
     return Kernel(kernel.name, tuple(state), kernel.scalars, body, schedule.outputs)

@@ -1,4 +1,4 @@
-"""Translates a step program to a kernel. A kernel consists of scalar assignments and loops.
+"""Translates a step program to a kernel.
 
 The program is executed symbolically: the value of each variable becomes a tuple of expressions. A block of
 implicit equations becomes a loop (:mod:`codegen.kernel.equations`). Expressions become assignments
@@ -73,9 +73,9 @@ def to_kernel(
     - ``solvers`` maps labels of blocks of implicit equations to :data:`codegen.ir.kernel.NEWTON` or
       SIMPLIFIED_NEWTON. All other blocks are solved by fixed-point iteration.
     - If ``variations`` is given, the kernel computes the variation of the new state, and not the new state
-      itself. This kernel then becomes the attribute ``vary`` of another kernel.
-    - ``chains`` is AS_WRITTEN, COMBINED, ORDERED or SHORTENED (:data:`AS_WRITTEN`). If the program has
-      implicit equations, ``chains`` must be AS_WRITTEN.
+      itself.
+    - ``chains`` is AS_WRITTEN, COMBINED, ORDERED or SHORTENED. If the program has implicit equations,
+      ``chains`` must be AS_WRITTEN.
     - ``whole`` matters only if the program uses the body momentum and the emitted code uses the space
       momentum. If ``whole`` is true, each step converts the momentum. If ``whole`` is false, a run converts
       the momentum once at its beginning and once at its end (:mod:`codegen.kernel.carried_momentum`).
@@ -120,14 +120,14 @@ class _Translation:
         # ``inside`` is true during the execution of a block of equations.
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
-        # The Jacobian refers to the state of the emitted code. Therefore a kernel with variations converts
-        # the momentum in each step.
+        # The Jacobian refers to the state of the emitted code, so with variations each step converts the
+        # momentum.
         self.frames = Frames(scene, program, whole or variations is not None)
 
     def name(self, base: str) -> str:
         """Return a new name, and add it to ``taken``. The name is ``base`` if possible."""
         candidate = base if base not in self.taken else base + "_"
-        # Underscores make the name new. A number would look like an index: xi1_2 is component 2 of xi1.
+        # A number would look like an index: xi1_2 is component 2 of xi1.
         while candidate in self.taken:
             candidate += "_"
         self.taken.add(candidate)
@@ -157,12 +157,11 @@ class _Translation:
                 "without closed forms no code can be emitted",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # ``gathered`` combines numeric constants in the results. Other expressions also use the
-            # arguments, so ``gathered`` does not rewrite the arguments.
+            # ``gathered`` does not rewrite the arguments, because other expressions also use the arguments.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # An operation with a time argument may read run-time inputs. An outlined function reads only its
-        # arguments, so it must not contain such an operation.
+        # An operation with a time argument may read run-time inputs, but an outlined function reads only its
+        # arguments.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
         # The current block is added to ``blocks`` later, so its index is the length of ``blocks``.
         place = len(self.blocks) if self.inside else -1
@@ -178,7 +177,7 @@ class _Translation:
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
-            # ``given`` starts with the coordinates of ``block``. The coordinates of later blocks follow.
+            # ``given`` starts with the coordinates of ``block``.
             starts[block.name], given = given[: len(block.symbols)], given[len(block.symbols) :]
         for var in self.program.inputs:
             self.env[var] = starts[var.name] if var.name in starts else space.sym(var.name)
@@ -193,8 +192,7 @@ class _Translation:
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # Newton's method can solve r(u) = 0 in place of u = g(u). But :func:`_varied` needs the images
-        # g(u) of the block.
+        # With residuals the block has no images g(u), but :func:`_varied` needs the images.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
         # A block with residuals already contains Newton's matrix, because ``compared`` computes the matrix.
@@ -202,8 +200,7 @@ class _Translation:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
-            # The last sweep of Newton's method computes g(u) and then improves u. Therefore later statements
-            # read u in place of g(u).
+            # The last sweep computes g(u) and then improves u, so later statements read u in place of g(u).
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
@@ -229,15 +226,13 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state, and the new state of the embedded method.
+        """Return the new state, and the new state of the embedded method or ().
 
-        All statements of the program must be executed before this call. If the program computes no embedded
-        solution, the second state is ().
+        All statements of the program must be executed before this call.
         """
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # ``kernel`` subtracts the embedded solution from the new state. Therefore the loop converts the
-        # embedded solution and the new state to the same frame.
+        # ``kernel`` subtracts the embedded solution from the new state, so both need the same frame.
         for embedded in (False, True):
             # If the program has no embedded solution, the second ``values`` is empty.
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
@@ -258,8 +253,8 @@ class _Translation:
         The equations for the variations of all unknowns are added to ``blocks``.
         """
         space, seeds = self.domain.space, variations.seeds(self.domain)
-        # The equations for the variations of a block contain the solution of this block. Therefore
-        # these equations follow the block.
+        # The equations for the variations of a block contain the solution of this block, so they follow the
+        # block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
@@ -282,8 +277,7 @@ class _Translation:
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         # One call orders outputs and error estimates, so outputs and error estimates can share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
-        # In a splitting method, LEAD is the duration of the last flow of a step. ELAPSED is the duration of
-        # a run.
+        # LEAD is the duration of the last flow of a splitting step, and ELAPSED is the duration of a run.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),
@@ -301,16 +295,14 @@ class _Translation:
 
         Computations are outlined only if outlining makes the kernel much shorter.
         """
-        # The names in ``before`` were taken before ``schedule`` was computed. Outlining discards
-        # ``schedule``, so only the names in ``before`` remain taken.
+        # Outlining discards ``schedule``, so only the names in ``before`` remain taken.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
-        # The number of assignments is a measure of the code size. Only long code is outlined.
+        # The number of assignments is a measure of the code size.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # Outlining looks for the results of operations in ``ends``. COMBINED and SHORTENED have rewritten
-        # these expressions, so outlining would find nothing.
+        # COMBINED and SHORTENED have rewritten the expressions ``ends``, so outlining would find nothing.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
@@ -351,18 +343,16 @@ def _outlined(
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # ``kept`` contains values for statements after a loop. If no expression in ``flat`` reads a value, the
-    # value is removed. Otherwise outlining could create a function for it.
+    # Outlining could create a function for a value in ``kept`` that no expression in ``flat`` reads.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
-    # The expressions of all blocks are in one list. Therefore outlining also finds computations that are
-    # repeated in different blocks.
+    # With one list for all blocks, outlining also finds computations that are repeated in different blocks.
     flat += [x for block in blocks for _, x in block.kept]
     owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
     shorter = outline.run(flat, owners)
     if shorter is None:
         return None, ()
-    # ``shorter`` contains the rewritten expressions in the order of ``flat``. ``take(n)`` returns the next n.
+    # ``shorter`` contains the rewritten expressions in the order of ``flat``.
     new = iter(shorter)
 
     def take(n: int) -> tuple[Expr, ...]:
@@ -397,20 +387,18 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
 
     This function adds the symbols of the variations to ``seeds``.
     """
-    # Differentiating u = g(u) gives a linear equation for the variation du. The equation also contains
-    # known variations: those of the old state and of the unknowns of earlier blocks.
+    # Differentiating u = g(u) gives a linear equation for the variation du.
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
-    # The equations are linear, so the convergence does not depend on the starting values. The iteration
-    # starts from zero.
+    # The equations are linear, so the convergence does not depend on the starting values.
     starts = (space.zero,) * len(own)
     return Block(f"{VARIED}{block.label}", tuple(own), starts, tangents(block.images, seeds))
 
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
-    """Add samples of the run-time inputs to the kernel. A sample contains all run-time inputs at one time.
+    """Add the samples of the run-time inputs that the kernel reads.
 
-    Only samples that the kernel reads are added.
+    A sample contains all run-time inputs at one time.
     """
     # Earlier compiler passes may have removed all uses of a sample.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
