@@ -39,7 +39,7 @@ class EmittedCandidate:
     - ``budget``: the limit of the CPU time of a run, in seconds.
     - ``precompiled``: the result of :func:`compile_method`, or None. If ``precompiled`` is given, the
       attribute ``emit_seconds`` does not include the time of :func:`compile_method`.
-    - ``equations``: the form of the equations to integrate. The default is the form that the scene states.
+    - ``equations``: the form of the equations, by default the form that the scene states.
     """
 
     scene: Problem
@@ -104,10 +104,9 @@ class EmittedCandidate:
         return self._row(control, h, steps, error, times, statistics)
 
     def run(self, control: float, spans: int) -> int:
-        """Run over a time interval with equal steps, and return the total number of steps.
+        """Run over ``spans`` time spans of the scene with equal steps, and return the total number of steps.
 
-        The interval is ``spans`` times as long as the time span of the scene. ``control`` is the number of
-        steps for one time span.
+        ``control`` is the number of steps for one time span.
         """
         self.runner.final(int(control), spans=spans)
         return spans * int(control)
@@ -154,8 +153,7 @@ class EmittedCandidate:
         """Return the sum of ``cost`` over all operations that a run executes.
 
         ``iterations`` contains the number of iterations of each system of implicit equations in the whole
-        run. Each iteration of a system executes the operations of this system once. Each substep executes all
-        remaining operations once. A step without substeps counts as one substep.
+        run.
         """
         total, block = 0, 0
         parts = steps * max(1, len(self.compiled.program.substeps))

@@ -21,7 +21,7 @@ class Equations:
     """The equations of a scene in one form, for example with unit quaternions.
 
     ``form`` is None for the equations that the scene states. ``alone`` is True if the scene has only one form
-    of its equations. In this case, tables omit the name of the form.
+    of its equations.
     """
 
     scene: Problem
@@ -56,8 +56,8 @@ class Equations:
 def all_equations(scene: Problem, keys: Sequence[str] = ()) -> tuple[Equations, ...]:
     """Return the equations of a scene, once for each requested form.
 
-    ``keys`` contains the keys of the forms, for example ``quaternion``. If ``keys`` is empty, all forms are
-    used. :class:`SceneError` is raised if a key is unknown.
+    The function uses the forms with the given ``keys``, such as ``quaternion``, or all forms by default.
+    :class:`SceneError` is raised if a key is unknown.
     """
     forms = classical_forms(scene)
     chosen = {find_form(scene, key).key for key in keys}

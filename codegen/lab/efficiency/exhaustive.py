@@ -1,16 +1,11 @@
-"""The exhaustive search considers every recipe of the library, to check the usual search.
-
-The usual search is the search of the command ``orderconds recommend``.
+"""The exhaustive search over all recipes of the library checks the usual search (``orderconds recommend``).
 
 A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 
-1. The interpreter makes runs with each recipe. The errors of these runs give the predicted number of steps
-   for each required error. The operations of a step give the predicted CPU time of the step.
-2. The predicted CPU time of a run is the number of steps times the time of a step. The predicted CPU time
-   divided by the safety factor SAFE is a lower bound of the true CPU time.
+1. The CPU time of each recipe is predicted from a few runs in the interpreter.
+2. The predicted CPU time divided by the safety factor SAFE is a lower bound of the true CPU time.
 3. Each required error has a time limit: WORST times the best CPU time of the usual search. A recipe is
-   excluded if its lower bounds exceed the limits of all required errors. If a prediction is unreliable,
-   the lower bound is computed from the time of a single step (:func:`least_ratio`).
+   excluded if its lower bounds exceed the limits of all required errors.
 4. The remaining recipes are emitted, compiled and timed.
 5. A sample of the excluded recipes is also timed, to test the lower bounds.
 """
@@ -37,10 +32,7 @@ WORST = 1.25
 """A recommended recipe is accepted if its CPU time is at most WORST times the time of the fastest recipe."""
 
 SAFE = 8.0
-"""The safety factor of predicted CPU times.
-
-The search assumes that a predicted time is at most SAFE times the true time.
-"""
+"""A predicted CPU time is assumed to be at most SAFE times the true CPU time."""
 
 T = TypeVar("T")
 
@@ -61,8 +53,8 @@ class Exhausted:
     - ``copies``: the number of recipes that were not timed, because their code equals that of a timed recipe.
     - ``excluded``: the number of recipes that were not timed, because their predicted CPU times were too
       long.
-    - ``nearest``: the smallest ratio of the CPU time of an excluded recipe to the best CPU time. Only a
-      sample of the excluded recipes is timed. If ``nearest`` is below 1, a faster recipe was excluded.
+    - ``nearest``: the smallest ratio of the CPU time of a sampled excluded recipe to the best CPU time. If
+      ``nearest`` is below 1, a faster recipe was excluded.
     - ``complete``: False if the time limit ended the search.
     """
 
@@ -137,10 +129,7 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return the prediction for each pair of a method and a form of the equations.
-
-    Each prediction is for equal steps. The prediction is also used for the method with step-size control.
-    """
+    """Return the prediction with equal steps for each pair of a method and a form of the equations."""
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
     jobs = [(recipe, bars) for recipe in recipes]
@@ -159,17 +148,16 @@ def _key(recipe: Recipe) -> Key:
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
     """Return the smallest ratio of the predicted CPU time of a recipe to the time limit, over all errors.
 
-    A recipe is excluded if this ratio is above 1. ``limits`` maps each required error to its time limit in
-    seconds. The time limits include the safety factor SAFE.
-    ``adaptive`` is True if the recipe has step-size control.
+    ``limits`` maps each required error to its time limit in seconds. The time limits include the safety
+    factor SAFE.
 
     A prediction is unreliable in two cases:
 
     - The runs in the interpreter failed.
     - The runs in the interpreter had large errors, and the recipe is implicit or has step-size control.
 
-    In both cases, the predicted time of a single step is compared with the longest time limit. If the step
-    takes longer, the result is the quotient of the two times. Otherwise the result is 0.
+    In both cases, the result is the predicted time of a single step divided by the longest time limit. A
+    quotient of at most 1 is replaced by 0.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)
@@ -190,8 +178,8 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
 def sampled(excluded: Sequence[T]) -> list[T]:
     """Return a sample of at most :data:`SAMPLE` excluded recipes.
 
-    ``excluded`` must be sorted by :func:`least_ratio`. The first half of the sample consists of the first
-    recipes in ``excluded``. The second half is distributed evenly over the remaining recipes.
+    ``excluded`` must be sorted by :func:`least_ratio`. Half of the sample is the beginning of ``excluded``,
+    and the other half is distributed evenly over the rest.
 
     >>> sampled(range(102))
     [0, 1, 2, 3, 4, 5, 6, 22, 38, 54, 70, 86]
@@ -209,8 +197,8 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
     """Measure the CPU time of a recipe for each required error, and add the results to ``done``.
 
-    Each measured time is divided by the best earlier time for the same error. Return the smallest quotient,
-    or infinity if the recipe reaches none of the errors.
+    Return the smallest ratio of a measured time to the best earlier time for the same error, or infinity if
+    the recipe reaches none of the errors.
     """
     done.codes.add(candidate.code)
     done.raced += 1

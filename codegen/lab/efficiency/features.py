@@ -35,7 +35,7 @@ class Features:
 def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
     """Return the properties of an emitted method.
 
-    ``label`` is a name for the method. If it is empty, the label of the method is used.
+    If ``label`` is not empty, it replaces the label of the method.
     """
     target = known_target(artifact.manifest["target"])
     source = artifact.files[target.step_file(artifact.manifest["module"])]
@@ -54,8 +54,8 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 def is_symplectic(compiled: Compiled) -> bool:
     """Return True if the steps of a method are symplectic maps and all have the same size.
 
-    The result is False for a method with step-size control. With variable step sizes, symplectic methods do
-    not preserve the energy better than other methods over long times.
+    With variable step sizes, symplectic methods do not preserve the energy better than other methods over
+    long times.
     """
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:

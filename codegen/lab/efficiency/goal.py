@@ -1,9 +1,7 @@
 """The goals of a search for the fastest methods.
 
 A goal consists of the largest accepted error at the end of the time span and the requirements on the method.
-
-The search compares recipes. A recipe consists of a method, one form of the equations, and the choice of equal
-steps or step-size control.
+A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 """
 
 from __future__ import annotations
@@ -98,8 +96,7 @@ class Goal:
 def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
     """Return False if a recipe violates one of the requirements ``needs``.
 
-    The function does not compile the recipe. Some violations are found only in the compiled method
-    (:meth:`Goal.met`).
+    Some violations are found only in the compiled method (:meth:`Goal.met`).
     """
     if ("adaptive" in needs and not recipe.adaptive) or ("fixed" in needs and recipe.adaptive):
         return False

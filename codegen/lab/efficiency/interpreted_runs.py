@@ -3,10 +3,8 @@
 Runs with equal steps solve implicit equations by fixed-point iteration. Newton's method needs difference
 quotients, and would therefore be slow in the interpreter.
 
-Runs with step-size control are meant for stiff scenes. These runs use Newton's method, because fixed-point
-iteration does not converge for the long steps of a stiff scene. The step-size control is simpler than in
-emitted code (:mod:`codegen.run.step_control`): each step size depends only on the error estimate of the
-previous step.
+Runs with step-size control use Newton's method, because fixed-point iteration does not converge for the long
+steps of a stiff scene.
 """
 
 from __future__ import annotations
@@ -37,14 +35,14 @@ class CountingDomain(FloatDomain):
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
-        # The interpreter can copy this object. All copies share the counter, because it is a list.
+        # The counter is a list, because copies of this object must share it.
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Count one sweep. Return the pair (converged, change).
 
-        ``old`` and ``new`` are the unknowns before and after this sweep. The change is the largest absolute
-        difference of ``old`` and ``new``. ``previous`` is the change in the previous sweep.
+        The change is the largest absolute difference of the unknowns before (``old``) and after (``new``)
+        this sweep.
         """
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
@@ -61,7 +59,7 @@ class NewtonDomain(CountingDomain):
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Make ``steps`` equal steps over the time span. Return the final state and a mean number of sweeps.
+    """Return the final state after ``steps`` equal steps over the time span, and a mean number of sweeps.
 
     A sweep is one iteration for a system of implicit equations. The mean number predicts how many sweeps
     emitted code needs for one system in one step. ArithmeticError is raised if a state is not finite, or if
@@ -81,17 +79,14 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # Each sweep adds about the same number of correct digits. Because of SETTLED, the interpreter computes
-    # about half of the digits of emitted code. Therefore emitted code needs about twice as many sweeps.
+    # Each sweep adds about the same number of digits. SETTLED requires half of the digits of emitted code.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 
 def controlled_run(
     program: Program, problem: Problem, order: int, tolerance: float, end: float = math.inf
 ) -> tuple[Vector, int, float]:
-    """Make a run with step-size control over the time span.
-
-    Three values are returned:
+    """Make a run with step-size control over the time span, and return three values.
 
     - the final state,
     - the number of accepted and rejected steps,
@@ -117,7 +112,7 @@ def controlled_run(
             new = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
             norm = weighted(state, new, ends[EMBEDDED], tolerance)
         except (ArithmeticError, ValueError):
-            # The step fails. An infinite error norm causes a new attempt with a shorter step.
+            # An infinite error norm causes a new attempt with a shorter step.
             norm = math.inf
         if norm <= 1.0:
             state, now = new, last if length >= last - now else now + length
@@ -136,10 +131,9 @@ def weighted(
     """Return the weighted norm of the error estimate of a step.
 
     ``before`` and ``after`` are the states before and after the step, and ``lower`` is the embedded solution.
-    The error estimate is ``after`` - ``lower``. Each component of the error estimate is divided by (1 + m)
-    times ``tolerance``. Here m is the larger of the absolute values of the component in ``before`` and in
-    ``after``. The norm is the root mean square of the quotients. If ``after`` or ``lower`` is not finite, the
-    norm is infinite.
+    The norm is the root mean square of (``after`` - ``lower``)/(``tolerance`` (1 + m)) over all components.
+    Here m is the larger of the absolute values of the component in ``before`` and in ``after``. If ``after``
+    or ``lower`` is not finite, the norm is infinite.
 
     >>> round(weighted([1.0, 0.0], [1.0, 0.0], [1.0 + 2e-3, 1e-3], 1e-3), 9)
     1.0

@@ -1,8 +1,6 @@
 """Decides in which order the search for the fastest methods predicts the CPU times of recipes.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. The CPU time of a
-recipe is predicted from short runs in the interpreter. The error and the CPU time of a recipe have limits. A
-recipe that is predicted to exceed these limits is not run.
+A recipe is a method with equal steps or step-size control, on one form of the equations.
 """
 
 from __future__ import annotations
@@ -21,24 +19,18 @@ MARGIN = 5.0
 """A recipe is too slow if its predicted CPU time exceeds MARGIN times the least predicted time."""
 
 FRESH = 8
-"""A bar is updated when the number of stored predictions has grown by about the fraction 1/FRESH.
-
-A bar contains limits on the error and the CPU time of a recipe. The limits depend on the predictions.
-"""
+"""A :class:`Bar` is updated when the number of stored predictions has grown by about the fraction 1/FRESH."""
 
 
 EVEN = 4.0
-"""A constant in the formula for the delay of a queue of recipes.
+"""A constant in the delay (n + d)/EVEN + s of a queue of recipes.
 
-There are several queues. The next recipe comes from the queue with the smallest delay. A delay depends on
-three numbers:
+The next recipe comes from the queue with the smallest delay.
 
 - n is the number of recipes that were taken from the queue.
 - d is the distance of the order of the methods in the queue from the usual order (:func:`usual_order`).
 - s = log2(T1/T2) is the slowness of the queue. T1 is the least predicted CPU time of the recipes of its kind
   (:data:`Kind`), and T2 is the least predicted CPU time of all recipes.
-
-The delay is (n + d)/EVEN + s.
 """
 
 FAILED = 4.0
@@ -58,31 +50,28 @@ Kind = tuple[str, str, bool, bool]
 """A kind of recipe: (family, form of the equations, explicit, controlled).
 
 ``explicit`` is True if the tableau is explicit. ``controlled`` is True if step-size control is possible.
-Recipes of one kind have similar costs.
 """
 
 Queue = tuple[Kind, int]
 """The key of a queue of recipes: (kind of recipe, order of convergence).
 
-All recipes in a queue have this kind and this order. The recipes are sorted by the number of stages.
+The recipes in a queue are sorted by the number of stages.
 """
 
 Job = tuple[Recipe, tuple[Bar, ...]]
 
 
 class Jobs(Sequence[Job]):
-    """The sequence of jobs for the worker processes. A job is a recipe to predict, with a bar for each goal.
+    """The sequence of jobs for the worker processes. A job is a recipe with a :class:`Bar` for each goal.
 
-    A bar contains limits on the error and the CPU time of the recipe. The limits depend on the predictions
-    for earlier recipes. Therefore a job is created late: when a worker process is free.
+    The bars depend on the predictions for earlier recipes. Therefore a job is created only when a worker
+    process is free.
 
-    The recipes are in several queues. The next recipe comes from the queue with the smallest delay
-    (:data:`EVEN`). The delay of a queue grows whenever a recipe is taken from this queue. Therefore the
-    queues take turns.
+    The next recipe comes from the queue with the smallest delay (:data:`EVEN`).
 
     - ``goals``: the goals for which a recipe is predicted.
     - ``controlled``: the goals that a recipe can meet with step-size control.
-    - ``early``: names of methods. The recipes of these methods are predicted before all other recipes.
+    - ``early``: names of the methods whose recipes are predicted first.
     """
 
     def __init__(
@@ -115,7 +104,7 @@ class Jobs(Sequence[Job]):
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
         """Return the next job. Successive calls must have the arguments k = 0, 1, 2, and so on.
 
-        Raises IndexError after the last job, and thus ends a ``for`` loop over the jobs.
+        Raises IndexError after the last job.
         """
         if k >= len(self):
             raise IndexError(k)
@@ -138,19 +127,12 @@ class Jobs(Sequence[Job]):
         return recipe
 
     def _place(self, queue: Queue) -> float:
-        """Return the delay of a queue, as defined at :data:`EVEN`.
-
-        The next recipe comes from the queue with the smallest delay.
-        """
+        """Return the delay of a queue, as defined at :data:`EVEN`."""
         distance = min(abs(queue[1] - order) for order in self.usual)
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the slowness of a queue (:data:`EVEN`).
-
-        If there are several goals, the result is the smallest slowness. If there is no prediction, the
-        result is 0.
-        """
+        """Return the least slowness of a queue (:data:`EVEN`) over all goals, or 0 without a prediction."""
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
         ratios = [
@@ -163,11 +145,10 @@ class Jobs(Sequence[Job]):
         return math.log2(min(ratios)) if math.isfinite(min(ratios)) else FAILED
 
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
-        """Store the prediction for a recipe, if it is reliable. Later bars use the stored predictions.
+        """Store the prediction for a recipe, if it is reliable.
 
-        A prediction with a ``failure`` is not stored. If a prediction is ``vague``, its time for equal steps
-        may be too short. A vague prediction is stored only if it also contains a prediction for step-size
-        control.
+        A prediction with a ``failure`` is not stored. A ``vague`` prediction is stored only if it also
+        contains a prediction for step-size control.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -184,8 +165,7 @@ class Jobs(Sequence[Job]):
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
         """Return the bar of a recipe for a goal: the limits on its error and its CPU time.
 
-        To save time, the bar is updated only after several new predictions (:data:`FRESH`). If the recipe can
-        use step-size control, inaccurate (``rough``) predictions for equal steps are not used.
+        To save time, the bar is updated only after several new predictions (:data:`FRESH`).
         """
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)
@@ -207,8 +187,7 @@ def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: f
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # If even the best methods need many steps, runs with few steps are useless. Therefore the first run of a
-    # recipe has the smallest number of steps of all successful predictions.
+    # If even the best methods need many steps, runs with few steps are useless.
     steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:

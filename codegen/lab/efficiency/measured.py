@@ -35,10 +35,9 @@ def bench(
 ) -> Result:
     """Measure the error and the CPU time of methods and of other integrators on a scene.
 
-    The methods in ``methods`` run with equal steps. The methods in ``adaptive`` run with step-size control.
-    ``against`` contains the names of the other integrators. The command ``orderconds bench`` makes the same
-    measurements. A notebook shows the result as a diagram. If a method cannot be emitted for the scene, the
-    result contains the reason. Raises InputError for invalid arguments.
+    The methods in ``adaptive`` run with step-size control, the methods in ``methods`` with equal
+    steps. ``against`` contains the names of the other integrators. If a method cannot be emitted for the
+    scene, the result contains the reason. Raises InputError for invalid arguments.
     """
     if not isinstance(adaptive, Sequence) or isinstance(adaptive, str):
         raise InputError(described(adaptive), where="adaptive", expected="a list of methods")

@@ -1,8 +1,7 @@
 """Replaces the operations in the program of a step by Python functions, to make the interpreter faster.
 
 Each operation, except a linear combination, is evaluated once with symbols. The resulting expressions are
-converted to one Python function of doubles. This function replaces the operation. The interpreter then runs
-about ten times faster.
+converted to one Python function of doubles. The interpreter then runs about ten times faster.
 """
 
 from __future__ import annotations

@@ -27,8 +27,7 @@ class PeerCandidate:
     """A peer (another integrator) that is run on a scene.
 
     ``exact`` is the reference solution of the scene. ``budget`` is the longest CPU time of a run in seconds.
-    The peer integrates ``equations``. If ``equations`` is None, these are the equations of the scene itself.
-    If the peer cannot integrate the scene, :meth:`measure` returns a row that contains the reason.
+    If ``equations`` is None, the peer integrates the equations of the scene itself.
     """
 
     scene: Problem
@@ -71,11 +70,10 @@ class PeerCandidate:
             error = self.equations.error(outcome.state, self.exact)
             if not math.isfinite(error):
                 raise PeerFailed("the final state is not finite")
-            # The overhead of a call does not depend on ``control``. Therefore it is measured only once.
+            # The overhead of a call does not depend on ``control``.
             self.overhead = self.overhead or Overhead(prepared.idle)
             times = span_times(lambda n: prepared.run(n).steps, self.overhead)
-        # A peer may raise any exception. The exception must not prevent the measurement of the remaining
-        # candidates.
+        # No exception of a peer may prevent the measurement of the remaining candidates.
         except Exception as failure:
             self.refused = not isinstance(failure, PeerFailed)
             setup = time.perf_counter() - start

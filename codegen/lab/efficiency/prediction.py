@@ -1,15 +1,12 @@
 """Predicts the CPU time in which a recipe reaches an error, from a few interpreted steps and counted
 operations.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter runs
-the recipe over the time span with a small number of equal steps. The number of steps is doubled until the
-error is small. The number of steps for a required error is predicted from the most accurate run and the order
-of the method. If no run has a small error, the interpreter also tries step-size control for methods that
-support it. The time of a step is predicted as the sum of the times of its operations.
+A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter
+doubles the number of equal steps until the error is small. The number of steps for a required error is
+predicted from the most accurate run and the order of the method. The time of a step is predicted as the sum
+of the times of its operations.
 
-The prediction is not exact. For example, it ignores that the compiler computes common subexpressions only
-once. The recipes with the shortest predicted times are measured first. Recipes that are predicted to be much
-too slow are not compiled.
+The prediction ignores that the compiler computes common subexpressions only once.
 """
 
 from __future__ import annotations
@@ -53,26 +50,22 @@ For a series of runs with step-size control, the limit is PATIENCE/2.
 PARTS = 64
 """The number of equal intervals into which the time span is divided.
 
-The interpreter makes runs over the whole time span. If these runs fail or have large errors, the interpreter
-makes runs over the first interval. The error is assumed to grow linearly in time. Therefore the predicted
-error at the end of the time span is PARTS times the error at the end of the first interval.
+If runs over the whole time span fail or have large errors, the interpreter makes runs over the first
+interval. The predicted error at the end of the time span is PARTS times the error at the end of the first
+interval.
 """
 
 TRIES = 3
 """After TRIES consecutive failures of methods of one kind, the interpreter makes fewer runs for this kind.
 
-A kind is a pair (family, explicit).
-
-With equal steps, a method fails if all its runs over the whole time span fail. After TRIES failures, methods
-of the same kind are run only over the first interval of the time span (:data:`PARTS`).
-
-With step-size control, a method fails if no run has a small error (:data:`SMALL`). After TRIES failures,
-methods of the same kind are not run with step-size control.
+A kind is a pair (family, explicit). After failures with equal steps, equal steps are used only on the first
+interval of the time span (:data:`PARTS`). After failures with step-size control, step-size control is not
+used.
 """
 
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
-"""Assumed numbers of sweeps in a step. A sweep is one iteration for the implicit equations.
+"""Assumed numbers of sweeps (iterations for the implicit equations) in a step.
 
 A prediction assumes at least FEWEST_SWEEPS sweeps. Before the first run of a method, USUAL_SWEEPS sweeps are
 assumed.
@@ -82,24 +75,16 @@ TOLERANCES = (1, 3, 5, 7, 9, 11)
 """The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
-"""A method is excluded if methods of slightly higher order are predicted to be too inaccurate.
+"""A method of order p is excluded if e exceeds FAR times the required error.
 
-Let p be the order of the method. Let e be the least predicted error of methods of the orders p + 1 and p + 2
-within the time limit. The method of order p is assumed to be less accurate. The method is excluded if e
-exceeds FAR times the required error.
+Here e is the least predicted error of methods of the orders p + 1 and p + 2 within the time limit.
 """
 
 CALL = 8.0
-"""The time in nanoseconds that a run needs in each step to read and write the state.
-
-This time is added to the time of the operations of the step.
-"""
+"""The time in nanoseconds that a run needs in each step to read and write the state."""
 
 DIGITS = 16
-"""The number of correct decimal digits when emitted code solves implicit equations.
-
-In the runs for predictions, the interpreter solves the equations to DIGITS/2 correct digits.
-"""
+"""The number of correct decimal digits when emitted code solves implicit equations."""
 
 
 @dataclass(frozen=True)
@@ -151,7 +136,6 @@ class Prediction:
         sweeps = self.sweeps
         if sweeps:
             # Each sweep multiplies the error of the unknowns by a factor proportional to the step size.
-            # Therefore shorter steps need fewer sweeps.
             sweeps = DIGITS / max(DIGITS / sweeps + math.log10(count / self.steps), 0.5)
         return 1e-9 * count * (CALL + self.outside + max(sweeps, FEWEST_SWEEPS) * self.sweep)
 
@@ -172,8 +156,7 @@ class Bar:
     - ``seconds``: the largest accepted CPU time in seconds.
     - ``least``: triples (family, explicit, e) for the rule at :data:`FAR`. Here e is the least predicted
       error of methods of slightly higher order whose runs take the CPU time ``seconds``. If ``family`` is not
-      '', only methods of this family are compared. ``explicit`` is True for explicit and False for implicit
-      methods.
+      '', only methods of this family are compared.
     - ``steps``: the number of steps of the first run in the interpreter.
     - ``explicit``: True if methods that solve equations are excluded.
     """
@@ -201,9 +184,8 @@ class Bar:
     def most(self, step_seconds: float) -> float:
         """Return the largest number of steps that the interpreter may make in a run.
 
-        ``step_seconds`` is the time of a step in compiled code. Compiled code can make a certain number of
-        steps within the time limit of this bar. The result is this number, but at most :data:`MANY_STEPS` and
-        at least the number ``steps`` of the first run.
+        ``step_seconds`` is the time of a step in compiled code. The result is the number of such steps within
+        the time limit, but at most :data:`MANY_STEPS` and at least the number ``steps`` of the first run.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -220,7 +202,7 @@ class Predictor:
     - ``beginning``: a function with two results: the equations on the first interval of the time span
       (:data:`PARTS`), and the reference solution at the end of the first interval.
     - ``failures``: for each kind of method, the number of consecutive failures with equal steps
-      (:data:`TRIES`). A kind is a pair (family, explicit).
+      (:data:`TRIES`).
     - ``uncontrolled``: for each kind of method, the number of consecutive failures with step-size control.
     - ``costs``: for each operation, its predicted time in nanoseconds and the number of components of each
       result.
@@ -237,10 +219,9 @@ class Predictor:
     def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
         """Return the prediction for a method of the given order.
 
-        A bar contains limits on the error and on the CPU time. If all bars exclude the method
-        (:meth:`Bar.too_high`), the method is not run, and the predicted error is infinite. If some bars do
-        not exclude the method, these bars limit the numbers of steps of its runs. ``controlled`` is the same
-        method with step-size control, or None. Raises InputError if the method cannot be used for the scene.
+        If all bars exclude the method (:meth:`Bar.too_high`), the method is not run, and the predicted error
+        is infinite. ``controlled`` is the same method with step-size control, or None. Raises InputError if
+        the method cannot be used for the scene.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
@@ -258,9 +239,8 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # The method is run over the first interval only if all runs over the whole time span failed or have
-        # large errors. If the error is large and ``most`` is below MANY_STEPS, the method is too slow, and
-        # the run over the first interval is omitted.
+        # If the error is large and ``most`` is below MANY_STEPS, the method is too slow, and the run over the
+        # first interval is omitted.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -279,9 +259,9 @@ class Predictor:
     def controlled(self, method: Method, equal: Prediction, target: float) -> Prediction | None:
         """Return the prediction for a method with step-size control, or None.
 
-        The interpreter makes runs with decreasing tolerances. The series ends when a run fails, when an error
-        is at most ``target``, or after PATIENCE/4 seconds of CPU time (:data:`PATIENCE`). ``equal`` is the
-        prediction for equal steps. The result is None in three cases:
+        The tolerance of the interpreted runs decreases until a run fails, until an error is at most
+        ``target``, or for PATIENCE/4 seconds of CPU time (:data:`PATIENCE`). The result is None in three
+        cases:
 
         - No run has a small error (:data:`SMALL`).
         - The method has no embedded solution.
@@ -306,8 +286,7 @@ class Predictor:
                 break
             if error < known.error:
                 known = replace(known, steps=steps, sweeps=sweeps, error=error, rough=False, vague=False)
-            # The next run has a smaller tolerance and takes longer than this run. If half of the allowed time
-            # has passed, the next run would probably exceed the time limit.
+            # The next run takes longer than this run, and would probably exceed the time limit.
             if error <= target or 2 * time.process_time() > start + end:
                 break
         reached = known.error <= SMALL * size_of(self.exact)
@@ -324,11 +303,10 @@ class Predictor:
         return problem, program, widths_of_inputs(program, problem)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
-        """Return two predicted times in nanoseconds for the operations of a step.
+        """Return the predicted times in nanoseconds outside of implicit equations and for one sweep.
 
-        The first time is for the operations outside of implicit equations. The second time is for one sweep
-        (iteration) over all implicit equations. ``widths`` maps each input of the program to its number of
-        components. The function stores the other variables of the program in ``widths``, too.
+        A sweep is one iteration over all implicit equations. ``widths`` maps each input of the program to its
+        number of components. The function stores the other variables of the program in ``widths``, too.
         """
         outside = sweep = 0.0
         for statement in program.body:
@@ -366,14 +344,13 @@ def _reached(
     most: float,
     end: float,
 ) -> tuple[int, float, float]:
-    """Run a program in the interpreter with increasing numbers of equal steps.
+    """Interpret a program with ``steps``, 2 ``steps``, 4 ``steps``, ... (up to ``most``) equal steps.
 
-    The first run has ``steps`` steps. The number of steps is doubled for each further run, up to ``most``.
     The series ends when the error is small (:data:`SMALL`), or when the CPU time of the process
     (``time.process_time``) reaches ``end``.
 
-    Returns three numbers for the most accurate run: the number of steps, the error, and the number of sweeps
-    (iterations for implicit equations) in a step. If all runs failed, the error is infinite.
+    Returns three numbers for the most accurate run: the number of steps, the error (infinite if all runs
+    failed), and the number of sweeps (iterations for implicit equations) in a step.
     """
     size = size_of(exact)
     best = FEW_STEPS, math.inf, 0.0
@@ -427,8 +404,7 @@ def amounts(roots: Sequence[Expr]) -> Amounts:
         divisions += node.op == "div"
         vector = component(node.payload) if node.op == "call" else None
         if vector is not None:
-            # One call computes all results of a vector function. The operations of the call are counted for
-            # the first result (index 0) only.
+            # One call computes all results of a vector function.
             function, index = vector
             arithmetic += sum(function.operations.values()) if index == 0 else 0
         else:
