@@ -1,8 +1,7 @@
 """Conserved quantities of a scene: its invariants, and the equations that define its manifold.
 
 The magnitude of an invariant is the sum of the absolute values of its terms. Rounding errors in the value of
-the invariant are proportional to the magnitude. Deviations of an invariant are usually divided by its
-absolute value. If the terms nearly cancel, the deviations are divided by the magnitude.
+the invariant are proportional to the magnitude.
 """
 
 from __future__ import annotations
@@ -25,10 +24,9 @@ MANIFOLD = "manifold"
 
 
 def functions(scene: Problem) -> dict[str, Evaluate]:
-    """Return a function for each conserved quantity, as a dictionary.
+    """Return a dictionary that maps the name of each conserved quantity to its function.
 
-    The keys are the names of the quantities. Each function evaluates its quantity in double precision from
-    the state and the time.
+    Each function evaluates its quantity in double precision from the state and the time.
     """
     kept = expressions(scene)
     return {
@@ -56,7 +54,7 @@ def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
 
 
 def magnitudes(scene: Problem) -> dict[str, tuple[Expr, ...]]:
-    """Return the magnitudes of the invariants as expressions. The keys are the names of the invariants.
+    """Return the magnitudes of the invariants as expressions.
 
     The magnitude of an invariant is the sum of the absolute values of its terms.
     """
@@ -78,7 +76,7 @@ def magnitude(root: Expr) -> Expr:
 
 
 def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
-    """Return the magnitude of the expression ``e``. ``sizes`` contains the magnitudes of ``e.args``."""
+    """Return the magnitude of the expression ``e`` from the magnitudes ``sizes`` of ``e.args``."""
     match e.op:
         case "add" | "sub":
             return sizes[0] + sizes[1]
@@ -87,8 +85,7 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
         case "neg":
             return sizes[0]
         case "div":
-            # Division by the magnitude of the divisor could make the result too small. The magnitude can be
-            # larger than the absolute value.
+            # A magnitude larger than the absolute value of the divisor would make the result too small.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)
@@ -106,10 +103,7 @@ def _absolute(e: Expr) -> Expr:
 
 
 def _laws(scene: Problem, domain: ExprDomain, state: Vector) -> Vector:
-    """Return expressions of the state.
-
-    All expressions are zero if and only if the state is on the manifold.
-    """
+    """Return expressions that are zero if and only if the state is on the manifold."""
     start = 0
     laws: list[Expr] = []
     for block in scene.state:

@@ -1,12 +1,8 @@
 """Measures the CPU time that each recipe needs to reach a required error.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. The recipe is
-measured with emitted C code. The control of a run is the number of equal steps, or the exponent k of the
-tolerance 10^-k.
-
-The control is increased until two consecutive runs have small enough errors. The error of a single run can be
-small by accident. Afterwards, bisection finds the smallest control that reaches the required error. The
-comparison of all recipes is called the race.
+A recipe is a method with equal steps or step-size control, on one form of the equations. The accuracy of the
+runs is increased until two consecutive runs have small enough errors. The error of a single run can be small
+by accident.
 """
 
 from __future__ import annotations
@@ -39,10 +35,7 @@ FINEST = 15.0
 """The exponent k of the smallest tolerance 10^-k."""
 
 LONGEST = 0.2
-"""After a run of more than LONGEST seconds of CPU time, the accuracy of the runs is not increased further.
-
-If another recipe reaches the required error in a short time, the limit is below LONGEST (:data:`PATIENT`).
-"""
+"""After a run of more than LONGEST seconds of CPU time, the accuracy of runs is not increased further."""
 
 BRIEF = 0.01
 """A run that takes less than BRIEF seconds of CPU time is never too slow.
@@ -74,7 +67,7 @@ class Entry:
     def code(self) -> str:
         """The code of the step, without the header comment, the module name, and the prefix of the functions.
 
-        Two recipes with equal code compute the same steps. Only one of the two recipes is measured.
+        Two recipes with equal code compute the same steps.
         """
         manifest = self.artifact.manifest
         source = self.artifact.files[known_target(manifest["target"]).step_file(manifest["module"])]
@@ -88,8 +81,7 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # In forms other than PRINTED, the unknowns are coordinates. The method ignores the manifold of the
-        # scene. Therefore the states may leave the manifold.
+        # In forms other than PRINTED, the states may leave the manifold of the scene.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 
@@ -101,7 +93,7 @@ class Result:
     If no run reaches the required error, the attributes describe the most accurate run.
 
     - ``control``: the number of equal steps, or the exponent k of the tolerance 10^-k.
-    - ``steps``: the number of steps. Rejected steps are not counted.
+    - ``steps``: the number of accepted steps.
     - ``error``: the error of the run.
     - ``seconds``: the CPU time of the run, or infinity if no run reaches the required error.
     - ``reached``: False if no run reaches the required error.
@@ -190,9 +182,8 @@ class Racer:
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the result for the fastest run that reaches an error.
 
-        ``best`` is the least CPU time of the other recipes in seconds. If a run takes much longer than
-        ``best`` (:data:`PATIENT`), the accuracy is not increased further. If the error is not reached, the
-        attribute ``reached`` of the result is False.
+        ``best``, the least CPU time of the other recipes in seconds, limits the search (:data:`PATIENT`). If
+        the error is not reached, the attribute ``reached`` of the result is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
@@ -218,12 +209,10 @@ class Racer:
         return replace(result, control=control, steps=steps, error=error, seconds=self.seconds(control))
 
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
-        """Increase the control until two consecutive runs have small enough errors.
+        """Increase the accuracy of the runs until two consecutive runs have small enough errors.
 
-        The control is the number of equal steps, or the exponent k of the tolerance 10^-k. The error of the
-        first run must be at most ``error``, and the error of the second run at most 2 * ``error``. Returns
-        the control of the first run, and True. If there are no such runs, returns the last control, and
-        False. After a run of more than ``longest`` seconds of CPU time, the control is not increased.
+        The result is the number of equal steps, or the exponent k of the tolerance 10^-k, of the first run,
+        and True. If there are no such runs, the second result is False.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
@@ -241,7 +230,7 @@ class Racer:
     def _at_rounding(self, values: list[float]) -> bool:
         """Return True if rounding errors probably prevent further convergence.
 
-        ``values`` are the errors of all runs. The result is True if all three conditions hold:
+        The errors ``values`` of all runs must meet three conditions:
 
         - There are at least five runs.
         - The smallest error, relative to the size of the state, is below 1e-9.
@@ -254,10 +243,10 @@ class Racer:
         return control + 1.0 if self.entry.recipe.adaptive else 2.0 * control
 
     def _coarsened(self, control: float, error: float) -> float:
-        """Reduce the control of a run by bisection. Return the smallest tested value that reaches the error.
+        """Return the smallest control that reaches the error in a bisection.
 
-        ``control`` is the number n of equal steps, or the exponent k of the tolerance 10^-k. A run with
-        ``control`` must reach the error. The bisection searches between n/2 and n, or between k - 1 and k.
+        ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k. A run with
+        ``control`` must reach the error.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

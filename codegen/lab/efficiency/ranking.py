@@ -1,8 +1,7 @@
 """Ranks methods and other integrators by the CPU time that they need to reach an error.
 
-A candidate is a method or another integrator. For each error 10^-k, the candidates are ranked separately. The
-time to reach an error is interpolated between measured runs. If a candidate was run on several forms of the
-equations, the ranking uses the fastest form.
+The time to reach an error is interpolated between measured runs. If an integrator was run on several forms of
+the equations, the ranking uses the fastest form.
 """
 
 from __future__ import annotations
@@ -43,8 +42,8 @@ def by_form(rows: Sequence[Row]) -> dict[str, list[Row]]:
 def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
     """Return a pair (seconds, form) for the form of the equations on which a candidate is fastest.
 
-    ``seconds`` is the CPU time that the candidate needs on this form to reach ``error``. ``rows`` contains
-    the runs of the candidate on all forms. The result is None if no run reaches the error.
+    ``seconds`` is the CPU time that the candidate needs on this form to reach ``error``. The result is None
+    if no run reaches the error.
     """
     times = [(_seconds_to(own, error), form) for form, own in by_form(rows).items()]
     return min(((t, form) for t, form in times if t is not None), default=None, key=lambda pair: pair[0])
@@ -55,8 +54,8 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
     The runs are sorted from coarse to fine. Runs after the most accurate run are not used. The time is
     interpolated between two runs: the last run whose error is above ``error``, and the next run. The
-    interpolation is linear in the logarithms of time and error. Let t be the least time of the next run and
-    all later runs. The result is t or the interpolated time, whichever is less.
+    interpolation is linear in the logarithms of time and error. If the next run or a later run took less
+    time, the least of these times is the result.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -119,8 +118,7 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
 def prevailing_form(rows: Sequence[Row]) -> list[Row]:
     """Return the rows of the form of the equations that is most often the fastest.
 
-    For each error 10^-k with k in :data:`DECADES`, the fastest form is determined. The form that is fastest
-    for the most errors is selected.
+    The fastest form is determined for each error 10^-k with k in :data:`DECADES`.
     """
     best = [reached[1] for d in DECADES if (reached := fastest_form(rows, 10.0**-d)) is not None]
     forms = by_form(rows)

@@ -28,8 +28,7 @@ class Request:
     - ``stack``: the largest accepted stack memory of a call in bytes, or None for no limit.
     - ``span``: a time span that replaces the time span of the scene, or None.
     - ``budget``: the longest time of the search in seconds.
-    - ``tableaux``: names of tableaux. If ``tableaux`` is not empty, the search considers only methods with
-      these tableaux.
+    - ``tableaux``: names of the tableaux of the methods to search, or () for all methods.
     """
 
     scene: str

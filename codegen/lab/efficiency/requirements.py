@@ -18,10 +18,10 @@ STACK = 4096
 
 @dataclass(frozen=True)
 class Requirement:
-    """A requirement on a method. The table of recommended methods has one column for each requirement.
+    """A requirement on a method.
 
-    ``needs`` contains names from :data:`codegen.lab.efficiency.goal.NEEDS`. A method must meet all these
-    needs. ``stack`` is the largest allowed stack memory of a call in bytes, or None for no limit.
+    A method must meet all ``needs`` (:data:`codegen.lab.efficiency.goal.NEEDS`). ``stack`` is the largest
+    allowed stack memory of a call in bytes, or None for no limit.
     """
 
     name: str

@@ -1,17 +1,11 @@
 """The search for the fastest recipes of the library for several goals.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. A goal is a bound on
-the error and a list of requirements. For example, the method must be symplectic. The search has three stages.
+the error and a list of requirements. The search has three stages:
 
-In the first stage, the CPU time of each recipe is predicted from short runs in the interpreter
-(:mod:`codegen.lab.efficiency.prediction`). The interpreter stops early if the recipe is much too slow.
-
-In the second stage, recipes are emitted as C and measured. The measured times are used to correct the
-predicted times of other recipes. Recipes with short corrected times are measured early. If the corrected time
-of a recipe is far above the best measured time, the recipe is not measured.
-
-In the third stage, the fastest recipes are timed again with more repetitions. The goals share the
-predictions, the compiled modules and the runs.
+- The CPU time of each recipe is predicted from short runs (:mod:`codegen.lab.efficiency.prediction`).
+- Recipes with short predicted times are emitted as C and measured.
+- The fastest recipes are timed again with more repetitions.
 """
 
 from __future__ import annotations
@@ -37,31 +31,21 @@ from codegen.lab.reference import Reference, cached_reference
 from orderconds.processes import in_processes
 
 SAFETY = 2.5
-"""A factor in the rule that decides whether a recipe is measured.
+"""A recipe is measured if its predicted time is at most SAFETY times the best measured time.
 
-The recipe is measured if its predicted time is at most SAFETY times the best measured time. The predicted
-time is first corrected by the results of measured recipes.
+The predicted time is first corrected by the results of measured recipes.
 """
 
 UNSEEN = 4.0
-"""The safety factor for a kind of recipe that has not been measured yet.
-
-For the other kinds, the safety factor is :data:`SAFETY`.
-"""
+"""The safety factor (:data:`SAFETY`) for a kind of recipe that has not been measured yet."""
 
 LEADERS, CLOSE = 4, 1.4
-"""Limits that decide which recipes are timed again.
-
-A recipe is timed again if it is one of the LEADERS fastest recipes, and its CPU time is at most CLOSE times
-the best CPU time.
-"""
+"""The LEADERS fastest recipes are timed again if their CPU time is at most CLOSE times the best CPU time."""
 
 CONTROLLED = 100.0
-"""The divisor of predicted times of recipes with step-size control.
+"""The divisor of unreliable predicted times of recipes with step-size control (:meth:`Search.hoped`).
 
-The divisor is used if two conditions hold: the prediction comes from inaccurate runs with equal steps, and no
-recipe of the same kind has been measured. On stiff scenes, a time that is predicted from equal steps can be a
-hundred times the true time.
+On stiff scenes, a time that is predicted from equal steps can be a hundred times the true time.
 """
 
 ROUND = 6
@@ -82,38 +66,30 @@ The remaining budget is the time that is left after the computation of the refer
 UNREACHED = 1e-3
 """The gain of a recipe whose estimated time is infinite, or long but unreliable.
 
-Recipes with large gains are measured first. The gain UNREACHED is small. Therefore such a recipe is measured
-late.
+Recipes with large gains are measured first.
 """
 
 LONG_STEPS = 20_000
 """The number of steps of the long run that tests whether a method preserves conserved quantities."""
 
 SHORTER = 5
-"""The largest number of halvings of a step size.
-
-The step size is halved if a conserved quantity is not preserved in a long run.
-"""
+"""The largest number of halvings of a step size in the test of conserved quantities in a long run."""
 
 Kind = tuple[str, bool, bool]
-"""A kind of recipe: (family, explicit, adaptive).
+"""A kind of recipe: (name of the method family, explicit, with step-size control).
 
-``family`` is the name of the method family. ``explicit`` is True for an explicit method, and ``adaptive`` is
-True for step-size control. All recipes of a kind have similar ratios of measured to predicted times.
+All recipes of a kind have similar ratios of measured to predicted times.
 """
 
 Key = tuple[str, str]
-"""The key of a prediction: the method and the form of the equations.
-
-Recipes that differ only in step-size control have the same key.
-"""
+"""The key of a prediction: the method and the form of the equations."""
 
 
 @dataclass
 class Search:
     """A search for the fastest recipes for several goals.
 
-    :meth:`run` predicts and measures recipes. After that, :meth:`leaders` returns the ranking for a goal.
+    :meth:`run` must be called before :meth:`leaders`.
 
     - ``predictions``: the predicted errors and times of recipes.
     - ``ratios``: the ratios of measured to predicted times, for each kind of recipe and each error.
@@ -161,11 +137,7 @@ class Search:
         self.race()
 
     def predict(self) -> None:
-        """Predict the times of recipes. Stop when the time budget for predictions is used up.
-
-        The constant :data:`PREDICTING` defines this time budget. The class :class:`Jobs` decides in which
-        order the recipes are predicted.
-        """
+        """Predict the times of recipes until the time budget (:data:`PREDICTING`) is used up."""
         methods: dict[Recipe, list[Goal]] = defaultdict(list)
         for recipe, suited in self.suited.items():
             methods[replace(recipe, adaptive=False)] += suited
@@ -185,10 +157,8 @@ class Search:
     def expected(self, recipe: Recipe, error: float) -> float:
         """Return an optimistic estimate of the CPU time of a recipe for a required error, in seconds.
 
-        The predicted time is multiplied by the ratio of measured to predicted times for this kind of recipe.
-        If no recipe of this kind has been measured, the least ratio of all kinds is used. To make the
-        estimate optimistic, the corrected time is divided by a safety factor. If there is no prediction, the
-        result is infinity.
+        The predicted time is multiplied by a ratio of measured to predicted times, and divided by a safety
+        factor. If there is no prediction, the result is infinity.
         """
         prediction = self.prediction(recipe)
         if prediction is None or prediction.failure:
@@ -213,17 +183,13 @@ class Search:
     def prediction(self, recipe: Recipe) -> Prediction | None:
         """Return the prediction for a recipe, or None if there is no prediction.
 
-        For a recipe with step-size control, the prediction for step-size control is returned. If there is no
-        such prediction, the prediction for equal steps is returned.
+        If step-size control has no prediction of its own, the prediction for equal steps is returned.
         """
         known = self.predictions.get((recipe.method, recipe.form))
         return known.controlled or known if known is not None and recipe.adaptive else known
 
     def _correct(self) -> None:
-        """Compute the factors that correct predicted times.
-
-        The factors are computed from the ratios of measured to predicted times.
-        """
+        """Compute factors that correct predicted times, from the ratios of measured to predicted times."""
         self._corrections = {key: geometric_mean(x) for key, x in self.ratios.items() if x}
         joined: dict[Kind, list[float]] = defaultdict(list)
         for (kind, _), ratios in self.ratios.items():
@@ -237,10 +203,9 @@ class Search:
         return recipe.family, prediction is None or prediction.explicit, recipe.adaptive
 
     def race(self) -> None:
-        """Emit and measure recipes. The recipes with the largest gains (:meth:`_next`) come first.
+        """Emit and measure recipes until no remaining recipe can be the fastest.
 
-        The function returns when no remaining recipe can be the fastest, or when the time budget is used up.
-        In the second case, ``complete`` is set to False.
+        If the time budget is used up earlier, the function sets ``complete`` to False and returns.
         """
         while True:
             self._correct()
@@ -262,13 +227,10 @@ class Search:
                     break
 
     def _next(self) -> list[Recipe]:
-        """Return the recipes to emit next: at most :data:`ROUND` recipes.
+        """Return the recipes with the largest gains, at most :data:`ROUND` recipes.
 
-        The recipes with the largest gains are returned. Let a be the best measured time for a goal, and b the
-        estimated time of a recipe (:meth:`expected`). If b is below a, the gain of the recipe for this goal
-        is log(a/b). If no measured recipe reaches the goal, the least estimated time of all recipes is
-        multiplied by the safety factor and used as a. The gains for all goals are added. If no recipe of a
-        kind has been measured, at most one recipe of this kind is returned.
+        Let a be the best measured time for a goal, and b < a the estimated time of a recipe. The gain of the
+        recipe is log(a/b), summed over all goals.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -307,11 +269,9 @@ class Search:
         return min((r.seconds for r in self._reached(goal)), default=math.inf)
 
     def _reached(self, goal: Goal) -> Iterable[Result]:
-        """Return the results of the recipes that reach a goal, one result for each recipe.
+        """Return the fastest result of each recipe that reaches a goal.
 
-        A recipe reaches a goal if it satisfies the requirements of the goal and one of its runs reaches the
-        required error. The result describes the fastest of these runs. If a recipe does not preserve a
-        conserved quantity in a long run, the recipe is omitted.
+        If a recipe does not preserve a conserved quantity in a long run, the recipe is omitted.
         """
         fastest: dict[Recipe, Result] = {}
         for error, results in self.results.items():
@@ -328,10 +288,7 @@ class Search:
         return Racer(self.task.equations(candidate.recipe.form), self.exact, candidate)
 
     def _measure(self, recipe: Recipe) -> None:
-        """Measure the CPU time of a recipe for each error of the goals, and store the results.
-
-        An error is omitted if the estimate :meth:`hoped` is not below the best measured time for this error.
-        """
+        """Measure the CPU time of a recipe for each error of the goals, and store the results."""
         racer = self.racers[recipe]
         prediction = self.prediction(recipe)
         assert prediction is not None
@@ -344,8 +301,7 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If the recipe does not reach the error, its time is not known. A long time is
-                # assumed, to make the search avoid similar recipes.
+                # If the recipe does not reach the error, a long time makes the search avoid similar recipes.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)
@@ -368,8 +324,7 @@ class Search:
     def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
         """Return the results for a goal, from fast to slow, and the labels of excluded recipes.
 
-        A recipe is excluded if it does not preserve a conserved quantity in a long run. If all measured
-        recipes are excluded, further recipes are measured.
+        A recipe is excluded if it does not preserve a conserved quantity in a long run.
         """
         while True:
             ranked, raced = self._ranked(goal), len(self.raced)
@@ -381,10 +336,8 @@ class Search:
     def _ranked(self, goal: Goal) -> list[Result]:
         """Return the results for a goal, from fast to slow.
 
-        The fastest recipes are timed again, and the results are sorted. If a requirement of the goal concerns
-        long times, the two fastest recipes must preserve the conserved quantities in a long run. If a recipe
-        fails this test, its step size is halved, and the test is repeated. If the recipe fails after
-        :data:`SHORTER` halvings, it is excluded.
+        If a requirement of the goal concerns long times, the two fastest recipes must preserve the conserved
+        quantities in a long run.
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
@@ -392,8 +345,7 @@ class Search:
         kept = 0
         while goal.long and kept < min(2, len(ranked)):
             result = ranked[kept]
-            # All tests of a recipe use the same time span. Therefore each halving of the step size doubles
-            # the number of steps.
+            # All tests of a recipe use the same time span.
             if not self._loses(result, LONG_STEPS << halvings[result.entry.recipe]):
                 kept += 1
                 continue
@@ -404,17 +356,12 @@ class Search:
             if shorter is None:
                 self.lost[goal][recipe] = None
             else:
-                # The first ``kept`` results have passed the test. The result with half the step size is
-                # sorted into the other results by its CPU time.
+                # The first ``kept`` results have passed the test.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked
 
     def _loses(self, result: Result, steps: int) -> bool:
-        """Make a long run with the step size of ``result``.
-
-        Return True if the run fails, or if the deviation of a conserved quantity becomes as large as the
-        quantity.
-        """
+        """Return True if a long run with the step size of ``result`` fails or loses a conserved quantity."""
         racer = self.racers[result.entry.recipe]
         h = (racer.last - racer.first) / result.steps
         done = record(self.problem, racer.integrator, racer.initial, h, steps, racer.first)

@@ -22,10 +22,7 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 BUDGET = 50.0
-"""The default time limit of a search in seconds.
-
-If the limit is reached during a measurement, this measurement is still completed.
-"""
+"""The default time limit of a search in seconds."""
 
 
 @dataclass(frozen=True)
@@ -35,10 +32,9 @@ class Task:
     - ``scene``: the name of the scene.
     - ``span``: a time span that replaces the time span of the scene, or None.
     - ``budget``: the longest time of the search in seconds.
-    - ``methods``: pairs (label, adaptive) of the methods to search. ``adaptive`` is True for step-size
-      control. If ``methods`` is empty, the methods of the library are searched.
-    - ``tableaux``: names of tableaux, used only if ``methods`` is empty. If ``tableaux`` is not empty, only
-      the methods of the library with these tableaux are searched.
+    - ``methods``: pairs (label, adaptive) of the methods to search, or () for the methods of the library.
+    - ``tableaux``: names of the tableaux of the library methods to search, or () for all. ``tableaux``
+      is used only if ``methods`` is empty.
     """
 
     scene: str
@@ -52,10 +48,7 @@ class Task:
         return _problem(self.scene, self.span)
 
     def first_part(self) -> Task:
-        """Return the task with a shorter time span.
-
-        The time span is divided into :data:`PARTS` equal intervals. The new task has the first interval.
-        """
+        """Return the task with the first of :data:`PARTS` equal parts of the time span."""
         first, last = self.problem().span
         return replace(self, span=(first, first + (last - first) / PARTS))
 
@@ -103,13 +96,10 @@ def _beginning(task: Task, form: str) -> tuple[Equations, Reference]:
 
 
 def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | None:
-    """Return the predicted errors and times of a recipe. A worker process executes this function.
+    """Return the predicted errors and times of a recipe.
 
-    ``job`` contains the recipe and its bars. A bar contains limits on the error and on the CPU time of the
-    recipe. If there are no bars, the result is None.
-
-    The prediction uses runs with equal steps. If these runs have large errors, and the recipe has step-size
-    control, further runs are made with step-size control.
+    ``job`` contains the recipe and its bars (limits on the error and on the CPU time). If there are no bars,
+    the result is None.
     """
     recipe, bars = job
     if not bars:
@@ -124,10 +114,7 @@ def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | N
 
 
 def emitted(task: Task, recipe: Recipe) -> Entry | Failed:
-    """Emit and compile the module of a recipe. Return the module, or the reason why it cannot be built.
-
-    A worker process executes this function.
-    """
+    """Emit and compile the module of a recipe. Return the module, or the reason why it cannot be built."""
     problem = task.problem()
     try:
         candidate = entry(recipe, compile_method(problem, method_of(recipe, problem), form=recipe.form))

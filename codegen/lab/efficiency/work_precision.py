@@ -1,8 +1,7 @@
-"""Measures the points of work-precision diagrams. Such a diagram shows error against CPU time.
+"""Measures the points of work-precision diagrams.
 
 A :class:`Candidate` is an emitted method or another integrator (a peer). Each candidate is run with several
-step sizes or tolerances. Each run produces a :class:`Row`. The row contains the CPU time, and the error at
-the end of the time span in the norm of the scene. If the run fails, the row contains the reason.
+step sizes or tolerances. The error is measured at the end of the time span in the norm of the scene.
 """
 
 from __future__ import annotations
@@ -23,16 +22,10 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 
 AGAIN = 3
-"""The largest number of repeated measurements of a run with an implausible time.
-
-The times of two runs are implausible if the run with fewer steps takes longer than the run with more steps.
-"""
+"""The largest number of repeated measurements of two runs if the run with fewer steps takes longer."""
 
 NEAR_ROUNDING = 1e-9
-"""The largest error of a run that may be caused by rounding, relative to the size of the state.
-
-A larger error is not attributed to rounding.
-"""
+"""The largest error of a run that may be caused by rounding, relative to the size of the state."""
 
 
 @dataclass(frozen=True)
@@ -41,10 +34,9 @@ class Row:
 
     - ``control``: the requested tolerance or number of steps.
     - ``h``: the mean step size.
-    - ``seconds``: the CPU time of a run. The run is repeated in several batches. The mean time of a run in
-      the fastest batch is used.
-    - ``spread``: the relative spread of the CPU time. In about three quarters of the batches, the mean time
-      of a run is at most (1 + ``spread``) times ``seconds``.
+    - ``seconds``: the mean CPU time of a run in the fastest of several batches.
+    - ``spread``: in about three quarters of the batches, the mean time of a run is at most (1 + ``spread``)
+      times ``seconds``.
     - ``evaluations``, ``exponentials``, ``iterations``: the numbers of field evaluations, group exponentials
       and iterations for implicit equations in the run, or None if they were not counted.
     - ``emit_seconds``, ``compile_seconds``: the times to emit and to compile the code.
@@ -78,9 +70,9 @@ class Row:
 class Candidate(Protocol):
     """The interface of a measured integrator: a method, or a peer (another integrator).
 
-    ``label`` and ``target`` identify the candidate in tables. ``target`` is the programming language of a
-    method, or 'peer'. ``key`` identifies the code of the candidate in the cache. ``form`` is the name of
-    the form of the equations, or '' if the scene has only one form.
+    ``target`` is the programming language of a method, or 'peer'. ``key`` identifies the code of the
+    candidate in the cache. ``form`` is the name of the form of the equations, or '' if the scene has only one
+    form.
     """
 
     label: str
@@ -116,9 +108,8 @@ def measure_rows(
 ) -> tuple[Row, ...]:
     """Make the runs of a candidate, and return one row for each run.
 
-    ``done`` is called with the row of each run. If ``cache`` contains the row of a run, and the reference
-    solution was the same, the run is not measured again. If the candidate cannot run on the scene, the last
-    row contains the reason.
+    ``done`` is called with the row of each run. If the candidate cannot run on the scene, the last row
+    contains the reason.
     """
     rows: list[Row] = []
     ready = False
@@ -151,12 +142,10 @@ def measure_rows(
 
 
 def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collection[float]) -> list[Row]:
-    """Repeat measurements with implausible times, and return all rows.
+    """Repeat measurements with implausible times, and return the rows with the least times.
 
-    Two consecutive runs have implausible times if the run with fewer steps took longer. Both runs are then
-    measured again, at most :data:`AGAIN` times. If a repeated measurement is faster, its row replaces the
-    old row. ``fresh`` contains the controls (tolerances or numbers of steps) of the runs that may be measured
-    again.
+    Two consecutive runs have implausible times if the run with fewer steps took longer. ``fresh`` contains
+    the controls (tolerances or numbers of steps) of the runs that may be measured again.
     """
     kept = list(rows)
     for _ in range(AGAIN):
