@@ -1,24 +1,17 @@
 """Decides whether a conserved quantity drifts in a long run.
 
-A record contains the deviations of the quantity along one trajectory. The usual confidence interval of a
-fitted line assumes independent deviations. Consecutive deviations are correlated, so the usual interval would
-be far too narrow. Therefore the record is cut into long blocks. The means over the blocks are nearly
-independent. A line is fitted to these means, and the confidence interval of its slope follows from Student's
-distribution (method of batch means).
+Consecutive deviations of the quantity are correlated. Therefore the record of the deviations is cut into long
+blocks. A line is fitted to the means over the blocks, and the confidence interval of its slope follows from
+Student's distribution (method of batch means).
 
 A slope different from zero can have three causes:
 
-- The deviation may vary slowly. To exclude a slow variation, the record is divided into five consecutive
-  sections. The slope counts as a drift only if the means over the sections are monotone. For a sinusoid with
-  a period longer than two sections, the means are monotone only if the period is longer than 1.2 times
-  the record.
-- The deviation may be a random walk. Two tests compare the record with random walks (:data:`STRAIGHT`,
-  :data:`STEADY`). The slope counts as a drift only if at least one of the two tests excludes a random walk.
-  The test with STRAIGHT is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
+- The deviation may vary slowly. The slope counts as a drift only if the means over five consecutive sections
+  of the record are monotone.
+- The deviation may be a random walk. The slope counts as a drift only if at least one of two tests excludes a
+  random walk (:data:`STRAIGHT`, :data:`STEADY`). The test with STRAIGHT is due to J. D. Sargan and A.
+  Bhargava, Econometrica 51 (1983) 153.
 - The deviation may grow systematically. Only systematic growth is called a drift.
-
-A deviation may stop growing, for example because the method reaches a fixed point. The line is then fitted
-only to the part of the record in which the deviation grows.
 """
 
 from __future__ import annotations
@@ -36,10 +29,7 @@ FEWEST = 2 * BLOCKS
 
 CONFIDENCE = 0.95
 PARTS = 5
-"""The number of consecutive sections of a record.
-
-The slope of a record counts as a drift only if the means over the sections are monotone.
-"""
+"""A slope counts as a drift only if the means over PARTS consecutive sections of the record are monotone."""
 
 LOST = 1.0
 """A conserved quantity counts as lost if its relative deviation is at least LOST."""
@@ -47,69 +37,60 @@ LOST = 1.0
 BOUNDED, WALK = 0.25, 0.75
 """Limits for the exponent p of a deviation that grows like t^p, where t is the time.
 
-A value of p below BOUNDED suggests a bounded deviation. A value between BOUNDED and WALK suggests a random
-walk.
+A value between BOUNDED and WALK suggests a random walk.
 """
 
 LATE, LATE_CONFINED = 1.5, 2.0
-"""Limits for the growth factor of a deviation that counts as bounded.
+"""The limits for the growth factor of a bounded deviation: usually, and for a scatter below :data:`CONFINED`.
 
 The growth factor is the largest deviation of the record, divided by the largest deviation of its first half.
-The usual limit is LATE. The limit is LATE_CONFINED if the scatter is below :data:`CONFINED`.
 """
 
 LEVEL, STAYS = 0.9, 0.5
-"""Limits for a deviation that saturates: it grows and then remains large.
+"""A deviation saturates if it reaches LEVEL times its largest value in the first half of the record.
 
-Let d be the largest deviation of the record. A saturating deviation reaches LEVEL times d in the first half
-of the record. After this time, the deviation is at least STAYS times d.
+After this time, the deviation must be at least STAYS times the largest value.
 """
 
 WALKING = (0.5, 1.6)
-"""Limits for the variance ratio of a random walk. For the distance FAR, only the lower limit is used.
+"""Limits for the variance ratio V_k/(k V_1) of a random walk. Only the lower limit is used for k = FAR.
 
-The record is divided into blocks, and a line is fitted to the means over the blocks. Let r_i be the residual
-of block i in this fit, and V_k the mean of (r_(i+k) - r_i)^2 over all i. The variance ratio is V_k/(k V_1),
-where k is the distance in blocks. The variance ratio is about 1 for a random walk, and about 1/k for
-independent deviations.
+V_k is the mean of (r_(i+k) - r_i)^2 over all i. Here r_i is the residual of the mean over block i, after a
+line is fitted to the means over all blocks of the record.
 """
 
 CONFINED = 0.04
-"""A limit for the scatter of a record. If the scatter is below the limit, a random walk is excluded.
+"""A random walk is excluded if the scatter V/(n D) of a record is below CONFINED.
 
-The record of the deviation is divided into n blocks. Let V be the variance of the means over the blocks, and
-D the variance of the differences between consecutive means. The scatter is V/(n D). Only 3 % of all random
-walks have a scatter below CONFINED.
+V is the variance of the means over n blocks, and D the variance of the differences between consecutive means.
+Only 3 % of all random walks have a scatter below CONFINED.
 """
 
 STRAIGHT = 0.0225
-"""A limit for the scatter about a line. If the scatter is below the limit, a random walk is excluded.
+"""A random walk is excluded if the scatter V/(n D) about a line is below STRAIGHT.
 
-The record is divided into n blocks, and a line is fitted to the means over the blocks. Let V be the variance
-of the residuals of this fit, and D the variance of the differences between consecutive means. The scatter is
-V/(n D). Only 1 % of all random walks have a scatter below STRAIGHT.
+V is the variance of the residuals of a line fitted to the means over n blocks. D is the variance of the
+differences between consecutive means. Only 1 % of all random walks have a scatter below STRAIGHT.
 """
 
 STEADY = 3.2
-"""A limit for the steadiness of a record. If the steadiness is above the limit, a random walk is excluded.
+"""A random walk is excluded if the steadiness |m|/s of a record is above STEADY.
 
-The record is divided into BLOCKS blocks. Let m be the average difference between the means of consecutive
-blocks, and s the standard error of m. The steadiness is |m|/s. Only 1 % of all random walks have a steadiness
-above STEADY.
+Here m is the average difference between the means of consecutive blocks, and s the standard error of m. Only
+1 % of all random walks have a steadiness above STEADY.
 """
 
 TINY = 1e-24
-"""A limit for the variance of the differences between block means.
+"""A variance of the differences between block means below TINY is attributed to rounding errors.
 
-The limit is TINY times the square of the largest deviation. A smaller variance is attributed to rounding
-errors.
+The unit is the square of the largest deviation.
 """
 
 FINE, NEAR, FAR = 100, 5, 20
-"""FINE is the number of blocks for the scatter and for two variance ratios (:data:`WALKING`).
+"""FINE is the largest number of blocks for the scatter and for two variance ratios (:data:`WALKING`).
 
-The two variance ratios have the distances k = NEAR and k = FAR. If a record is short, it has fewer than FINE
-blocks, and the second distance is at most half the number of blocks.
+The two variance ratios have the distances k = NEAR and k = FAR. In a short record, the number of blocks and
+the second distance are smaller.
 """
 
 
@@ -120,16 +101,14 @@ class Drift:
     - ``slope``: the slope of the fitted line per unit of time, or NaN if too few deviations are finite.
     - ``half_width``: the half width of the 95 % confidence interval of the slope.
     - ``largest``: the largest absolute deviation of the record.
-    - ``exponent``: the exponent p of growth. The largest deviation up to the time t grows like t^p. The
-      exponent is about 0 for a bounded deviation, 1/2 for a random walk and 1 for a drift.
+    - ``exponent``: the exponent p, if the largest deviation up to the time t grows like t^p.
     - ``rounding``: the largest deviation that rounding errors can cause.
     - ``persists``: True if the means over consecutive sections of the record are monotone.
     - ``later``: the growth factor (:data:`LATE`) of the deviation.
-    - ``ratios``: two variance ratios (:data:`WALKING`). For a random walk, both ratios are about 1.
+    - ``ratios``: two variance ratios (:data:`WALKING`), both about 1 for a random walk.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
     - ``unlike_walk``: True if :data:`STRAIGHT` or :data:`STEADY` excludes a random walk.
-    - ``until``: the time at which the deviation saturates, or None. The line is fitted to the record before
-      this time.
+    - ``until``: the time at which the deviation saturates, or None.
     """
 
     slope: float
@@ -153,8 +132,7 @@ class Drift:
     def law(self) -> str:
         """The verdict on the deviation: one of the following strings.
 
-        - ``lost``: the deviation reaches the size of the quantity. If the deviation saturates, half of this
-          size is enough.
+        - ``lost``: the deviation reaches the size of the quantity, or half of this size if it saturates.
         - ``exact``: all deviations are zero.
         - ``rounding``: the deviation is so small that rounding errors can cause it.
         - ``drift``: the attributes ``is_drift``, ``persists`` and ``unlike_walk`` are all True.
@@ -176,8 +154,7 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # If a deviation grows with alternating sign, the means over blocks do not grow, and ``is_drift`` is
-        # False. The exponent is large in this case, so ``steady`` tests the exponent.
+        # ``steady`` tests the exponent, because ``is_drift`` is False for growth with alternating sign.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -188,7 +165,7 @@ class Drift:
     def drifts(self) -> bool | None:
         """True if the verdict :attr:`law` is ``drift``, ``random walk`` or ``lost``.
 
-        None if the run is too short for a verdict. False for the other verdicts.
+        None if the run is too short for a verdict.
         """
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
@@ -213,16 +190,15 @@ def fit(
 ) -> Drift:
     """Return the drift of a quantity, computed from its relative deviations.
 
-    - ``times``: the times of the samples, measured from the start of the run. In a backward run, the times
-      decrease.
+    - ``times``: the times of the samples, measured from the start of the run (decreasing in a backward run).
     - ``deviations``: the relative deviation at each sample.
     - ``peaks``, ``lows``: the largest and the smallest absolute deviation in the interval that ends at each
       sample. The default for both is the absolute value of the deviation at the sample.
     - ``rounding``: the largest deviation that rounding errors can cause.
 
-    A line is fitted to the samples. If a sample is not finite, only the samples before this sample are used,
-    and the attribute ``largest`` of the result is infinite. If the deviation saturates (:data:`STAYS`)
-    after at least :data:`FEWEST` samples, only the samples before the saturation are used.
+    If a sample is not finite, only the samples before this sample are used, and the attribute ``largest`` of
+    the result is infinite. If the deviation saturates (:data:`STAYS`) after at least :data:`FEWEST` samples,
+    only the samples before the saturation are used.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift
@@ -250,10 +226,10 @@ def fit(
 
 
 def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | numpy.ndarray) -> int | None:
-    """Return the index of the sample at which a deviation saturates, or None if it does not saturate.
+    """Return the index of the sample at which a deviation saturates (:data:`LEVEL`, :data:`STAYS`), or None.
 
     ``peaks`` and ``lows`` contain the largest and the smallest absolute deviation in the interval that ends
-    at each sample. The constants :data:`LEVEL` and :data:`STAYS` define when a deviation saturates.
+    at each sample.
 
     >>> saturation([0.1 * min(k, 10) for k in range(40)], [0.1 * min(k, 10) for k in range(40)])
     9
@@ -266,10 +242,9 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 
 
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
-    """Return the drift for samples at the times ``t``. All numbers must be finite.
+    """Return the drift for finite deviations ``y`` at the times ``t``.
 
-    ``y`` contains the deviation of each sample. ``size`` contains the largest absolute deviation in the
-    interval that ends at each sample.
+    ``size`` contains the largest absolute deviation in the interval that ends at each sample.
     """
     whole, scale = float(t[-1]), float(size.max()) or 1.0
     # The scaling prevents an overflow in the squares of times and deviations.
@@ -292,13 +267,7 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the scatter of block means about a fitted polynomial of the given degree.
-
-    The record is divided into n blocks, and the polynomial is fitted to the means over the blocks. Let V be
-    the variance of the residuals of this fit, and D the variance of the differences between consecutive
-    means. The scatter is V/(n D). The limit for the scatter is :data:`CONFINED` for the degree 0 and
-    :data:`STRAIGHT` for the degree 1.
-    """
+    """Return the scatter (:data:`CONFINED`, :data:`STRAIGHT`) about a polynomial of the given degree."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
@@ -331,9 +300,7 @@ def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
 def _means(t: numpy.ndarray, y: numpy.ndarray, blocks: int) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Return the weighted mean time and the weighted mean value of each block.
 
-    The times ``t`` and the values ``y`` are divided into ``blocks`` consecutive blocks. The weights
-    decrease towards both ends of a block (Hann's window). Short oscillations therefore nearly cancel in the
-    mean.
+    With the weights (Hann's window), short oscillations nearly cancel in the mean.
     """
     rows = []
     for a, b in zip(numpy.array_split(t, blocks), numpy.array_split(y, blocks), strict=True):
@@ -344,7 +311,7 @@ def _means(t: numpy.ndarray, y: numpy.ndarray, blocks: int) -> tuple[numpy.ndarr
 
 
 def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
-    """Fit a line to block means. Return the slope, and the half width of its 95 % confidence interval."""
+    """Return the slope of a line fitted to block means, and the half width of its confidence interval."""
     import scipy.stats
 
     x, z = _means(t, y, BLOCKS)
@@ -353,19 +320,15 @@ def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
     residual = z - z.mean() - slope * centred
     square = float(residual @ residual)
     error = math.sqrt(square / (BLOCKS - 2) / float(centred @ centred))
-    # Let r be the correlation of consecutive residuals. The variance of the slope is (1 + r)/(1 - r) times
-    # the variance for independent residuals.
+    # If consecutive residuals have the correlation r, the variance of the slope is larger by the factor
+    # (1 + r)/(1 - r).
     r = max(float(residual[1:] @ residual[:-1]) / square, 0.0) if square > 0.0 else 0.0
     error *= math.sqrt((1 + r) / (1 - r))
     return slope, float(scipy.stats.t.ppf((1 + CONFIDENCE) / 2, BLOCKS - 2)) * error
 
 
 def _exponent(t: numpy.ndarray, size: numpy.ndarray) -> float:
-    """Return the exponent of growth: the slope of log(d) against log(t).
-
-    Here t is the time, and d is the largest deviation up to this time. The first tenth of the record is not
-    used.
-    """
+    """Return the slope of log(d) against log(t), where d is the largest deviation up to the time t."""
     largest = numpy.maximum.accumulate(size)
     late = (t >= t[0] + 0.1 * (t[-1] - t[0])) & (largest > 0)
     if late.sum() < 2:

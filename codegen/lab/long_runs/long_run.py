@@ -1,11 +1,8 @@
 """Measures conserved quantities, symplecticity, reversibility and rounding errors in runs of many steps.
 
-The scene declares invariants, for example the energy. The expressions that are zero on the manifold of the
-scene are also conserved. All conserved quantities are evaluated after every step. The deviation of a quantity
-is divided by the size of the quantity.
-
-To test reversibility, the method runs to the end with the step size h, and back with the step size -h. A
-symmetric method then returns to the initial state, apart from rounding errors.
+The conserved quantities are the invariants of the scene and the expressions that are zero on its manifold.
+The deviation of a quantity is divided by the size of the quantity. To test reversibility, the method runs to
+the end with the step size h, and back with the step size -h.
 """
 
 from __future__ import annotations
@@ -30,29 +27,24 @@ from codegen.lab.orders.step_sizes import rounding as rounding_bound
 from codegen.lab.runner import Emitted
 
 ROUNDING_STEPS = 20_000
-"""The largest number of steps of a run that measures the growth of rounding errors.
-
-Several such runs are made, from different initial states.
-"""
+"""The largest number of steps of a run that measures the growth of rounding errors."""
 
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""A factor of the limit for deviations that are attributed to rounding errors.
+"""The deviation limit for rounding errors is UNSTABLE * n * EPSILON times the magnitude of a quantity.
 
-The factor is used for a quantity that the method conserves exactly. After n steps, the limit is
-UNSTABLE * n * EPSILON times the magnitude of the quantity. EPSILON is the machine epsilon of doubles.
+The limit holds after n steps of a method that conserves the quantity exactly. EPSILON is the machine epsilon
+of doubles.
 """
 
 
 @dataclass(frozen=True)
 class Kept:
-    """The deviations of one conserved quantity in a run, and its drift.
+    """The relative deviations of one conserved quantity in a run, and its drift.
 
-    A deviation is the difference from the initial value, divided by the size of the quantity. ``times`` are
-    the times of the samples, measured from the start of the run. For each sample, ``deviations`` contains the
-    mean deviation of all steps since the previous sample, and ``peaks`` contains the largest absolute
-    deviation of all steps since the previous sample.
+    ``times`` are the times of the samples, measured from the start of the run. ``deviations`` and ``peaks``
+    are the mean deviation and the largest absolute deviation of all steps since the previous sample.
     """
 
     name: str
@@ -67,13 +59,13 @@ class LongRun:
     """The results of a run of ``steps`` steps of size ``h``.
 
     - ``kept``: the results for each conserved quantity, or () if the run has too few samples.
-    - ``reversals``: two pairs (n, distance), or () if not measured. The method makes n steps forward and n
-      steps back. The number ``distance`` is the distance between the final and the initial state. In the
-      first pair, n is about a hundredth of ``steps``. In the second pair, n is equal to ``steps``.
+    - ``reversals``: two pairs (n, distance from the initial state after n steps forward and n steps back), or
+      () if not measured. The number n is about a hundredth of ``steps`` in the first pair, and ``steps`` in
+      the second.
     - ``symplectic``: the largest symplectic defect of steps from several states, or None if it was not
       measured.
-    - ``failure``: the message of a step that failed, or ''. If a step failed, the results describe the steps
-      before the failure.
+    - ``failure``: the message of a step that failed, or ''. The results describe the steps before the
+      failure.
     - ``rounding``: the growth of rounding errors in the quantities that the method conserves exactly.
     - ``unmeasured``: for a Hamiltonian scene, the reason why ``symplectic`` could not be measured, or ''.
     """
@@ -90,10 +82,7 @@ class LongRun:
     unmeasured: str = ""
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data for JSON. Numbers that are not finite become None.
-
-        The result does not contain the deviations at the samples.
-        """
+        """Return plain data for JSON, without the samples. Numbers that are not finite become None."""
         return {
             "scene": self.scene,
             "method": self.method,
@@ -115,9 +104,8 @@ def long_run(
 ) -> LongRun:
     """Run emitted code from the initial state of the scene over many steps.
 
-    If ``back`` is True, the method then integrates back from the final time to the initial time. If
-    ``rounding`` is True, the growth of rounding errors is measured with and without compensated summation
-    (:mod:`codegen.lab.long_runs.rounding_growth`).
+    If ``back`` is True, the method then integrates back to the initial time. If ``rounding`` is True, the
+    growth of rounding errors is measured (:mod:`codegen.lab.long_runs.rounding_growth`).
     """
     scene, runner = compiled.scene, Emitted(compiled)
     first = float(scene.span[0])
@@ -160,12 +148,7 @@ def long_run(
 
 
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
-    """Test the reversibility of a method. Return two pairs (n, distance).
-
-    The method makes n steps forward and n steps back. The number ``distance`` is the distance between the
-    final and the initial state. Let N be the number of steps of ``trajectory``. In the first pair, n is about
-    N/100. In the second pair, n is N.
-    """
+    """Return the two pairs (n, distance) of :attr:`LongRun.reversals`."""
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
         n = trajectory.counts[k]
@@ -182,13 +165,9 @@ def _kept(
 ) -> tuple[Kept, ...]:
     """Return the deviations and the drift of each conserved quantity.
 
-    ``conserved`` contains the names of the quantities that the method conserves exactly. ``changes`` maps
-    the name of a quantity to the largest change of the quantity in one step, computed with 60 digits. If this
-    change, divided by the size of the quantity, is at most EPSILON/10, small deviations of the quantity are
-    attributed to rounding errors. Otherwise no deviation of the quantity is attributed to rounding errors.
-
-    ``early(n)`` repeats the first n steps with more samples. If a deviation saturates before there are enough
-    samples for a fit (:data:`FEWEST`), ``early`` is called.
+    ``changes`` maps the name of a quantity to its largest change in one step. Deviations are attributed to
+    rounding errors only if this change is at most EPSILON/10 times the size of the quantity. ``early(n)``
+    repeats the first n steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:
@@ -218,9 +197,7 @@ def _before_saturation(
 ) -> Drift:
     """Return the drift of a quantity, fitted to the samples before the deviation saturates.
 
-    ``whole`` is the result of :func:`fit` for the complete run. If there are enough samples before the
-    saturation, the function returns ``whole``. Otherwise ``early(n)`` repeats the first n steps
-    with more samples, and the drift is computed from these samples.
+    If too few samples precede the saturation, ``early(n)`` repeats the first n steps with more samples.
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0

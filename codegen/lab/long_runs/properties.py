@@ -1,10 +1,7 @@
 """Tests three properties of a method: symplecticity, symmetry, and no drift of a conserved quantity.
 
 Table 2.1 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* has a column for
-each of the three properties. A method is symplectic if the symplectic defect of its steps is zero
-(:mod:`codegen.lab.long_runs.symplecticity`). A method is symmetric if a step of size h, followed by a step of
-size -h, returns to the start. Symplecticity and symmetry are tested with more digits than doubles have. The
-drift is measured in a long run.
+each of the three properties. Symplecticity and symmetry are tested with more digits than doubles have.
 """
 
 from __future__ import annotations
@@ -30,12 +27,10 @@ SYMMETRIC = 1e-30
 class Properties:
     """The measured properties of a method. A property that was not measured is None.
 
-    - ``symplectic``: True if the method is symplectic.
-    - ``symmetric``: True if the method is symmetric.
+    - ``symplectic``, ``symmetric``: True if the method has the property.
     - ``steady``: False if the deviation of the first conserved quantity grows over many steps.
     - ``quantity``: the name of the first conserved quantity, or '' if there is none.
-    - ``reversal``: the relative distance from the start after a step of size h and a step of size -h
-      (:func:`reversal`).
+    - ``reversal``: the result of :func:`reversal`.
     """
 
     method: str
@@ -57,10 +52,7 @@ class Properties:
 
 
 def properties(compiled: Compiled, run: LongRun) -> Properties:
-    """Return the properties of a method. ``run`` contains the results of a long run of the method.
-
-    Symmetry is tested with two steps that are computed with 60 digits (:func:`reversal`).
-    """
+    """Return the properties of a method. ``run`` contains the results of a long run of the method."""
     back = reversal(compiled, run.h)
     kept = run.kept[0] if run.kept and not run.failure else None
     drifts = None if kept is None else kept.drift.drifts
@@ -75,18 +67,16 @@ def properties(compiled: Compiled, run: LongRun) -> Properties:
 
 
 def reversal(compiled: Compiled, h: float) -> float | None:
-    """Test if a step of size -h undoes a step of size h.
+    """Return the distance from the start after a step of size h and a step of size -h.
 
-    Let d be the distance between the states before and after the two steps. The result is d divided by the
-    change of the state in the step of size h. If a step fails, the result is None. If the step of size h does
-    not change the state, the result is also None.
+    The distance is divided by the change of the state in the step of size h. The result is None if a step
+    fails or if the step of size h does not change the state.
     """
     problem, domain = problem_for(compiled.scene, compiled.method), PreciseDomain(0, DIGITS)
     runner, start = Emitted(compiled), problem.initial(domain)
     t = domain.context.mpf(float(compiled.scene.span[0]))
     try:
-        # The test starts one step after the initial state. At a special initial state, a method may pass the
-        # test, although the method is not symmetric.
+        # The start is not the initial state, from which an asymmetric method may pass by chance.
         first = solved_step(compiled, runner, start, t, h)
         after = solved_step(compiled, runner, first, t + h, h)
         back = solved_step(compiled, runner, after, t + 2 * h, -h)

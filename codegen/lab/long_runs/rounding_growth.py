@@ -1,18 +1,11 @@
 """The growth of rounding errors over many steps, with and without compensated summation.
 
-Some methods conserve a quantity exactly, apart from rounding errors. Then the deviation of the quantity shows
-how the rounding errors grow. A quantity counts as conserved if a step that is computed with 60 digits does
-not change it.
+The deviation of an exactly conserved quantity shows how the rounding errors grow. If the rounding errors are
+independent, the deviation grows like the square root of the number of steps (Brouwer 1937). If the rounding
+errors are biased, the deviation grows in proportion to the number of steps.
 
-If the rounding errors are independent, the deviation grows like the square root of the number of steps
-(Brouwer 1937). If the rounding errors are biased, the deviation grows in proportion to the number of steps.
-For example, a body that rotates by the same angle in every step may have the same rounding error in every
-step. Compensated summation does not remove such an error.
-
-Several runs start from different states of one trajectory. For several numbers n, the root mean square of
-the deviations of all runs after n steps is computed. A power of n is fitted to these root mean squares. The
-confidence interval of the exponent comes from the jackknife method: the fit is repeated without the first
-run, without the second run, and so on.
+A power of n is fitted to the root mean square of the deviations of several runs after n steps. The confidence
+interval of the exponent comes from the jackknife method.
 """
 
 from __future__ import annotations
@@ -41,35 +34,25 @@ from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
-"""The number of steps from the initial state of a run to the initial state of the next run.
-
-All initial states are on one trajectory.
-"""
+"""The number of steps from the initial state of a run to the initial state of the next run."""
 
 TIMES = 9
-"""The number of measurements of a deviation in a run.
-
-From one measurement to the next, the number of completed steps doubles.
-"""
+"""The number of measurements in a run. The number of steps doubles from one measurement to the next."""
 
 EXACT = 1e-30
-"""A quantity counts as exactly conserved if its relative change in one step is less than EXACT.
-
-The change is computed with 60 digits.
-"""
+"""A quantity counts as exactly conserved if its relative change in one step is less than EXACT."""
 
 
 CHAIN = 3
 """The number of consecutive steps in :func:`changes_of_a_step`.
 
-One step is not enough: from a special initial state, the change of a quantity in one step may be zero by
-chance.
+From a special initial state, the change of a quantity in one step may be zero by chance.
 """
 
 NEARLY = 1e-14
 """The bound that replaces :data:`EXACT` for a step from a state with rounding errors.
 
-A state with rounding errors is not exactly on the manifold. Therefore a larger bound is needed.
+A state with rounding errors is not exactly on the manifold.
 """
 
 
@@ -81,7 +64,7 @@ class Growth:
     - ``compensated``: True if the steps use compensated summation.
     - ``steps``: the numbers of steps after which the deviation is measured.
     - ``sizes``: the root mean square of the relative deviations of all runs, for each entry of ``steps``.
-    - ``exponent``: the fitted exponent p. After n steps, the root mean square is roughly proportional to n^p.
+    - ``exponent``: the exponent p of the power n^p fitted to ``sizes``, where n is the number of steps.
     - ``half_width``: the half width of the 95 % confidence interval of the exponent.
     """
 
@@ -124,11 +107,10 @@ class Growth:
 
 
 def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
-    """Measure how rounding errors grow in every exactly conserved quantity.
+    """Measure how rounding errors grow in every exactly conserved quantity over ``steps`` steps.
 
-    Runs of ``steps`` steps of size ``h`` are made without and with compensated summation. If the method
-    cannot use compensated summation, only the runs without compensated summation are made. The result
-    contains one item for each quantity and each kind of summation. If a run fails, the result is empty.
+    For each quantity, the result contains one item without compensated summation. A second item is with
+    compensated summation, if the method can use it. If a run fails, the result is empty.
     """
     scene, plain = compiled.scene, Emitted(compiled)
     domain = PreciseDomain(0, DIGITS)
@@ -160,10 +142,9 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return the pairs (time, state) from which the measured runs start.
+    """Return the pairs (time, state) on one trajectory from which the measured runs start.
 
-    All states are on one trajectory. ``run`` is a pair (compensated, integrator). The integrator computes
-    the trajectory. ``compensated`` is True if the integrator uses compensated summation.
+    ``run`` is a pair (compensated, integrator).
     """
     carried, integrator = run
     size, starts = len(initial), []
@@ -179,10 +160,9 @@ def exactly_conserved(
 ) -> dict[str, Evaluate]:
     """Return functions that evaluate the exactly conserved quantities. The keys are the names of quantities.
 
-    From each pair (time, state) in ``starts``, a step is computed with 60 digits. A quantity counts as
-    conserved if its relative change in every step is below a bound. For the step from the first state, the
-    bound is :data:`EXACT`. For the other steps, the bound is :data:`NEARLY`, because their initial states
-    contain rounding errors. If a step cannot be computed, the result is empty.
+    In a step from each pair (time, state) in ``starts``, the relative change must be below a bound. The bound
+    is :data:`EXACT` for the first pair and :data:`NEARLY` for the other pairs. If a step cannot be computed,
+    the result is empty.
     """
     domain = PreciseDomain(0, DIGITS)
     quantities = _quantities(compiled, domain, expressions(compiled.scene))
@@ -205,7 +185,7 @@ def exactly_conserved(
 def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str, float]:
     """Return the largest change of each conserved quantity in one of the first :data:`CHAIN` steps.
 
-    The steps are computed with 60 digits. If a step cannot be computed, the result is empty.
+    If a step cannot be computed with 60 digits, the result is empty.
     """
     domain = PreciseDomain(0, DIGITS)
     problem = problem_for(compiled.scene, compiled.method)
@@ -228,10 +208,7 @@ def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str
 def _quantities(
     compiled: Compiled, domain: PreciseDomain, kept: dict[str, tuple[Expr, ...]]
 ) -> dict[str, Evaluate]:
-    """Return a function for each quantity, as a dictionary. The keys are the names of the quantities.
-
-    ``kept`` contains the expressions of each quantity. The functions compute in the arithmetic ``domain``.
-    """
+    """Return functions that evaluate the quantities of ``kept`` in the arithmetic ``domain``."""
     functions = of_scalars(domain.context)
     scene = compiled.scene
     return {
@@ -246,19 +223,15 @@ def _distance(values: Vector, before: Vector, scale: Scalar) -> float:
 
 
 class _Sizes:
-    """Computes the sizes of quantities. The deviation of a quantity is divided by the size of the quantity.
-
-    The size of a quantity is usually its absolute value. If the terms of the quantity nearly cancel, the size
-    is the sum of the absolute values of the terms.
-    """
+    """Computes the sizes by which the deviations of quantities are divided (:func:`scale`)."""
 
     def __init__(self, compiled: Compiled, domain: PreciseDomain) -> None:
         self.magnitudes = _quantities(compiled, domain, magnitudes(compiled.scene))
 
     def size(self, name: str, value: Vector, state: Sequence[Scalar], t: float) -> Scalar:
-        """Return the size of the quantity ``name``. ``value`` is its value at the given state and time.
+        """Return the size of the quantity ``name``, whose value is ``value``.
 
-        The expressions for the manifold are zero on the manifold. Therefore their size is defined as 1.
+        The expressions for the manifold are zero on the manifold, so their size is defined as 1.
         """
         if name == MANIFOLD:
             return 1
@@ -277,11 +250,10 @@ def _deviations(
     domain: PreciseDomain,
     carried: bool,
 ) -> list[dict[str, float]]:
-    """Make a run from the state ``start``. Return the deviation of every quantity after each number of steps.
+    """Return the deviation of every quantity after each number of steps in ``counts``.
 
-    ``counts`` contains the numbers of steps. ``carried`` is True if the integrator uses compensated
-    summation. With compensated summation, the state of the integrator contains the coordinates and the
-    accumulated rounding errors.
+    If ``carried`` is True, the state of the integrator contains the coordinates and the accumulated rounding
+    errors.
     """
     number, size = domain.context.mpf, len(start)
 
@@ -307,10 +279,7 @@ def _deviations(
 def _growth(name: str, carried: bool, counts: Sequence[int], members: Sequence[Sequence[float]]) -> Growth:
     """Return the growth of the deviations of the quantity ``name``.
 
-    ``counts`` contains several numbers of steps. For each run, ``members`` contains the list of the
-    deviations after these numbers of steps. The root mean square of the deviations over all runs is computed,
-    and the exponent of its growth is fitted. The confidence interval of the exponent comes from the jackknife
-    method. ``carried`` is True for runs with compensated summation.
+    For each run, ``members`` contains the list of the deviations after the numbers of steps in ``counts``.
     """
     import scipy.stats
 
@@ -329,9 +298,7 @@ def _rms(members: Sequence[Sequence[float]]) -> list[float]:
 
 
 def _slope(counts: Sequence[int], sizes: Sequence[float]) -> float:
-    """Return the slope of log(size) against log(count), fitted by least squares. Sizes of zero are
-    ignored.
-    """
+    """Return the slope of log(size) against log(count), fitted to the positive sizes by least squares."""
     pairs = [(math.log(n), math.log(x)) for n, x in zip(counts, sizes, strict=True) if x > 0]
     if len(pairs) < 2:
         return 0.0

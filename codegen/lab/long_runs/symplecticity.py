@@ -1,8 +1,6 @@
 """The symplectic defect of a step on T*G, the cotangent bundle of a group G.
 
-A step is symplectic if its tangent map preserves the canonical symplectic form. The defect measures how
-much the tangent map changes this form. The tangent map is approximated by central differences. All steps
-are computed with 40 digits.
+The defect measures how much the tangent map of the step changes the canonical symplectic form.
 
 Let q be an element of G, and let mu be its momentum. In right trivialisation, a tangent vector at (q, mu) is
 a pair (xi, nu) of an element xi of the Lie algebra and an element nu of the dual of the Lie algebra. The
@@ -33,30 +31,21 @@ from codegen.lab.straight_line_field import velocity
 
 DIGITS = 40
 OFFSET = 10
-"""The tangent map is approximated by central differences with the increment 10^-OFFSET.
-
-The error of the approximation is proportional to the square of the increment.
-"""
+"""The tangent map is approximated by central differences with the increment 10^-OFFSET."""
 
 SWEEPS = 40
-"""The largest number of fixed-point iterations for each system of implicit equations in a step.
-
-If the iterations do not converge, Newton's method is used.
-"""
+"""The largest number of fixed-point iterations for each system of implicit equations in a step."""
 
 LEFT = 0.5
-"""The largest relative deviation of a conserved quantity for which a symplectic defect is computed.
-
-After a larger deviation, no symplectic defect is computed.
-"""
+"""The largest relative deviation of a conserved quantity for which a symplectic defect is computed."""
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of three steps of size ``h``.
 
-    The steps start at three samples of the run: the first sample, the middle sample, and the sample with the
-    fastest motion. If a relative deviation exceeds :data:`LEFT`, this sample and all later samples are not
-    used. Raises ArithmeticError or ValueError if a step cannot be computed with 40 digits.
+    The steps start at the first sample, the middle sample, and the sample with the fastest motion. Samples
+    after a deviation above :data:`LEFT` are not used. Raises ArithmeticError or ValueError if a step cannot
+    be computed with 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -99,8 +88,8 @@ def symplectic_defect(
     divided by the largest absolute entry of A.
 
     ``state`` contains the coordinates of a group element and of its momentum. The scene must be Hamiltonian.
-    Implicit equations are solved by fixed-point iteration. If the iteration fails, Newton's method starts
-    from ``near``, if given. Raises ArithmeticError or ValueError if no solution is found.
+    If fixed-point iteration fails, Newton's method starts from ``near``. Raises ArithmeticError or ValueError
+    if no solution is found.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)

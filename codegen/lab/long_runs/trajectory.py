@@ -1,7 +1,7 @@
 """The record of a long run: states at equally spaced times, and deviations of conserved quantities.
 
-The stored states are called samples. The conserved quantities are evaluated after every step. For each
-interval between two samples, only a summary of the deviations is stored (:class:`Series`).
+The stored states are called samples. For each interval between two samples, only a summary of the deviations
+is stored (:class:`Series`).
 """
 
 from __future__ import annotations
@@ -23,21 +23,16 @@ from codegen.scene.problem import Problem
 
 SAMPLES = 1000
 CANCELLED = 1e-2
-"""The bound that decides whether the terms of a quantity cancel.
-
-The terms cancel if the absolute value of their sum is at most CANCELLED times the sum of their absolute
-values.
-"""
+"""The terms x_i of a quantity cancel if abs(sum x_i) <= CANCELLED * sum abs(x_i)."""
 
 CHUNK = 100_000
-"""The approximate number of steps in a chunk. A long run is divided into chunks to save memory."""
+"""A long run is divided into chunks of about CHUNK steps to save memory."""
 
 ArrayFunction: TypeAlias = Callable[[numpy.ndarray, numpy.ndarray], numpy.ndarray]
 """A function that evaluates a quantity at many states.
 
-The first argument is an array with one row for each coordinate and one column for each state. The second
-argument contains the times of the states. The result has one row for each component of the quantity, and one
-column for each state.
+The first argument has one row for each coordinate and one column for each state. The second argument contains
+the times of the states. The result has one row for each component, and one column for each state.
 """
 
 FUNCTIONS = of_arrays(numpy)
@@ -48,8 +43,7 @@ class Series:
     """The deviations of one conserved quantity in each interval between consecutive samples of a run.
 
     The deviation of an invariant is its value minus its initial value ``start``. The deviation of the
-    manifold equations is their largest absolute residual, and ``start`` is zero. Each list has one entry for
-    each interval:
+    manifold equations is their largest absolute residual.
 
     - ``deviations``: the mean deviation.
     - ``peaks``: the largest absolute deviation.
@@ -68,7 +62,7 @@ class Series:
         """
         absolute = numpy.abs(values)
         crosses = values.min() < 0.0 < values.max()
-        with numpy.errstate(all="ignore"):  # The sum may overflow. Then the mean is infinite.
+        with numpy.errstate(all="ignore"):  # The sum may overflow.
             self.deviations.append(float(values.mean()))
         self.peaks.append(float(absolute.max()))
         self.lows.append(0.0 if crosses else float(absolute.min()))
@@ -136,11 +130,11 @@ def record(
 
 
 def scale(start: float, magnitude: float) -> float:
-    """Return the size of a conserved quantity. The deviation of the quantity is divided by the size.
+    """Return the size of a conserved quantity, by which its deviation is divided.
 
     ``start`` is the initial value of the quantity, and ``magnitude`` is the sum of the absolute values of its
-    terms. The size is usually the absolute value of ``start``. If the terms cancel (:data:`CANCELLED`), the
-    size is ``magnitude``. If ``start`` and ``magnitude`` are zero, the size is 1.
+    terms. The size is the absolute value of ``start``, or ``magnitude`` if the terms cancel
+    (:data:`CANCELLED`). If ``start`` and ``magnitude`` are zero, the size is 1.
 
     >>> scale(-2.0, 3.0), scale(1e-12, 3.0), scale(0.0, 0.0)
     (2.0, 3.0, 1.0)
@@ -149,11 +143,9 @@ def scale(start: float, magnitude: float) -> float:
 
 
 def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
-    """Return the magnitude of each conserved quantity.
+    """Return the sum of the absolute values of the terms of each conserved quantity at the initial state.
 
-    The magnitude is the sum of the absolute values of the terms of the quantity at the initial state. If this
-    sum is zero, the largest sum in the first tenth of the samples is returned instead. For the manifold
-    equations, the magnitude is 1.
+    If this sum is zero, the largest sum in the first tenth of the samples is returned instead.
     """
     count = max(len(trajectory.states) // 10, 1)
     states, times = numpy.array(trajectory.states[:count]).T, numpy.array(trajectory.times[:count])
@@ -167,12 +159,11 @@ def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
 def array_functions(
     scene: Problem, kept: Mapping[str, tuple[Expr, ...]] | None = None, swept: Sequence[str] = ()
 ) -> dict[str, ArrayFunction]:
-    """Return a dictionary of functions that evaluate quantities at many states (:data:`ArrayFunction`).
+    """Return a dictionary from the names of quantities to functions that evaluate them at many states.
 
-    The keys are the names of the quantities. ``kept`` maps the name of a quantity to its expressions. By
-    default it contains the conserved quantities of the scene. The functions return infinity in place of
-    values that are not finite. ``swept`` lists additional symbols. For each symbol in ``swept``, the
-    array of states has an additional row.
+    ``kept`` contains the expressions of each quantity, by default those of the conserved quantities of the
+    scene. The functions return infinity in place of values that are not finite. For each symbol in ``swept``,
+    the array of states has an additional row.
     """
     symbols = (*scene.symbols, *swept)
 
@@ -200,9 +191,8 @@ def _append(
 ) -> None:
     """Append the samples of a chunk of steps to the record of a run.
 
-    The first row of ``rows`` is the last state of the previous chunk. The other rows are the states after
-    the steps of the chunk. Every ``stride``-th state of the chunk becomes a sample. The last state of the
-    chunk is always a sample. ``first`` is the initial time of the run.
+    The first row of ``rows`` is the last state of the previous chunk. Every ``stride``-th state and the last
+    state of the chunk become samples.
     """
     count = len(rows) - 1
     if not count:
