@@ -20,9 +20,8 @@ R = TypeVar("R")
 class Section:
     """The content of a section of the report.
 
-    ``template`` is the source text of a Jinja template, and ``data`` contains the variables of the template.
-    The template can import macros from ``parts.html.j2``. HTML characters in ``data`` are escaped, except in
-    objects of the class ``Markup``.
+    ``template`` is the source text of a Jinja template with the variables ``data``. HTML characters in
+    ``data`` are escaped, except in objects of the class ``Markup``.
     """
 
     template: str
@@ -38,8 +37,7 @@ class Measurement(ABC, Generic[R]):
     - ``title``: the heading of the section;
     - ``about``: one line of text for ``orderconds list measurements``;
     - ``json_key``: the key of the result in the JSON of the report, by default ``name``;
-    - ``part_of``: the name of another measurement. If the user selects the other measurement, the
-      measurement of this class is made too.
+    - ``part_of``: the name of another measurement whose selection includes this measurement.
     """
 
     name: ClassVar[str]
@@ -87,10 +85,7 @@ class Measurement(ABC, Generic[R]):
         return {}
 
     def result(self, subject: Subject) -> R:
-        """Return the result for a subject.
-
-        The first call makes the measurement and stores the result. Later calls return the stored result.
-        """
+        """Return the result for a subject. Only the first call makes the measurement."""
         if self.name not in subject.results:
             subject.results[self.name] = self.run(subject)
         return cast("R", subject.results[self.name])

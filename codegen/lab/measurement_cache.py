@@ -1,11 +1,8 @@
-"""A cache on disk for the results of measurements. A stored result is not measured again.
+"""A cache on disk for the results of measurements.
 
-Each result is stored in its own file. The key of a result contains the inputs of the measurement, for example
-the emitted files and the settings. CPU times depend on the kind of processor. Therefore the cache adds the
-kind of processor to the key. The file name is a digest of the key.
-
-The file contains the result and a digest of the result. If the digest does not match the result, or if the
-result has the wrong type, the measurement is made again. The cache does not use a folder of another user.
+Each result is stored in its own file. The key of a result contains the inputs of the measurement and the kind
+of processor, on which CPU times depend. If a file is damaged or contains a wrong type, the measurement is
+made again.
 """
 
 from __future__ import annotations
@@ -25,13 +22,10 @@ from orderconds.input_file import MAX_WRITTEN_BYTES, content_of
 T = TypeVar("T")
 
 FORMAT = 1
-"""The version of the file format. Files of old versions are not read, because every key contains FORMAT."""
+"""The version of the file format, which is part of every key."""
 
 FOLDER = ".measured"
-"""The name of the cache folder of a report.
-
-The folder is created inside the output folder, and removed when the report is complete.
-"""
+"""The name of the cache folder inside the output folder of a report."""
 
 DIGEST = 32
 """The number of bytes of the SHA-256 digest at the start of each file of the cache."""
@@ -48,12 +42,11 @@ class MeasurementCache:
         self.folder = folder
 
     def get(self, key: Sequence[object], kind: type[T], measure: Callable[[], T]) -> T:
-        """Return the stored result with the key ``key``.
+        """Return the stored result with the key ``key``, or call ``measure`` and store its result.
 
-        If no result is stored, call ``measure`` and store its result. Exceptions of ``measure`` are not
-        caught. ``kind`` is the type of the result. A result can consist of dataclasses, tuples, numbers
-        and strings. The file name is computed from the ``repr`` of each value in ``key``. The ``repr`` of a
-        value must not differ between processes. If the folder cannot be used, the result is not stored.
+        A result (of type ``kind``) can consist of dataclasses, tuples, numbers and strings. The ``repr`` of a
+        value in ``key`` must not differ between processes. Exceptions of ``measure`` are not caught. If the
+        folder cannot be used, the result is not stored.
         """
         result = self.find(key, kind)
         if result is None:
@@ -62,7 +55,7 @@ class MeasurementCache:
         return result
 
     def find(self, key: Sequence[object], kind: type[T]) -> T | None:
-        """Return the stored result with the key ``key``. ``kind`` is the type of the result.
+        """Return the stored result with the key ``key`` and the type ``kind``.
 
         Return None if no result is stored, if the file is damaged, or if the result has another type.
         """
@@ -111,10 +104,9 @@ def user_cache() -> MeasurementCache:
 
 
 def _secured(folder: Path) -> bool:
-    """Set the access mode of ``folder`` to 0700 (access for the owner only). Return True on success.
+    """Set the access mode of ``folder`` to 0700 (owner only), and return True on success.
 
-    If ``folder`` is a symbolic link, or if another user owns ``folder``, nothing is changed and the result is
-    False.
+    A symbolic link or a folder of another user is not changed.
     """
     try:
         status = os.lstat(folder)

@@ -12,25 +12,21 @@ from codegen.ir.table import PiecewisePolynomial
 from codegen.lab.number_types import Scalar
 
 TABLES = "table"
-"""The key of the function that evaluates tables, in a dictionary of type :data:`Functions`.
-
-A table is a piecewise polynomial, given by its coefficients.
-"""
+"""The key of the function that evaluates piecewise polynomials, in a dictionary :data:`Functions`."""
 
 Functions = Mapping[str, Scalar]
 """A dictionary that maps names such as ``sin`` to functions of numbers or arrays.
 
-The value for the key :data:`TABLES` is a function with two arguments. The first argument is a table, that is,
-a piecewise polynomial. The second argument is a function that converts exact numbers to the number type. The
-result is a function that evaluates the table.
+The value for the key :data:`TABLES` is a function with two arguments: a piecewise polynomial, and a function
+that converts exact numbers to the number type. The result is a function that evaluates the polynomial.
 """
 
 
 def of_scalars(source: object) -> Functions:
     """Return the functions that formulas may call, for one type of numbers.
 
-    ``source`` is a module or class with functions (for example ``sin`` and ``sqrt``) of these numbers. For
-    floats, ``source`` is the module ``math``. The numbers must have the operators ``<``, ``<=`` and ``>``.
+    ``source`` is a module or class with functions of these numbers, for example the module ``math``. The
+    numbers must have the operators ``<``, ``<=`` and ``>``.
     """
     return {
         **{name: getattr(source, name) for name in (*MATHEMATICAL, ANGLE)},
@@ -66,9 +62,8 @@ def of_arrays(library: Scalar) -> Functions:
 
 
 def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
-    """Return the function of ``functions`` with the name ``name``.
+    """Return the function of ``functions`` for ``name``, a string or a piecewise polynomial.
 
-    If ``name`` is a piecewise polynomial and not a string, return a function that evaluates the polynomial.
     ``constant`` converts the exact coefficients of the polynomial to the number type. Raises ArithmeticError
     if ``functions`` has no such function.
     """
@@ -85,7 +80,7 @@ def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
 
 
 def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
-    """Return the numbers that define a piecewise polynomial. ``constant`` converts each number.
+    """Return the numbers that define a piecewise polynomial, converted by ``constant``.
 
     On an interval with base point b, the polynomial is c_0 + c_1 (x - b) + c_2 (x - b)^2 + ...
 

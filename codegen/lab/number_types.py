@@ -1,7 +1,7 @@
 """Type aliases for numbers, vectors and functions that evaluate formulas.
 
-The variables of a formula can be floats, mpmath numbers, Arb balls, power series and expressions. These
-types have no common base class. Therefore the aliases allow every type.
+The aliases allow every type, because floats, Arb balls, power series and expressions have no common base
+class.
 """
 
 from __future__ import annotations

@@ -23,10 +23,7 @@ BODY = '{% include "sections/advice.html.j2" %}'
 OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 SAFETY = 1.5
-"""The safety factor of the search for predicted CPU times.
-
-With a larger factor, the search measures more methods.
-"""
+"""The safety factor for predicted CPU times. A larger factor means that more methods are measured."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +38,7 @@ class Advised:
     - ``command``: the command that emits the integrator.
 
     If the time is interpolated between measured runs, ``command`` is empty, and ``h``, ``tolerance`` and
-    ``steps`` are None. The times of peers are always interpolated.
+    ``steps`` are None.
     """
 
     error: float
@@ -103,8 +100,7 @@ class Advice(Measurement[Recommendations]):
     def run(self, subject: Subject) -> Recommendations:
         """Search for the fastest methods, and determine the properties of the methods in the report.
 
-        If the user named methods, the search considers only the named methods. If the user named no methods,
-        the search considers the whole library.
+        The search considers the methods that the user named, by default the whole library.
         """
         cost = Cost().result(subject)
         known = [features(m.compiled, m.artifact) for m in subject.compiled.measured]
@@ -188,10 +184,9 @@ def completed(
 ) -> tuple[Line, ...]:
     """Return the lines of a search that the time limit ended, completed with other methods.
 
-    ``known`` contains the properties of the other methods, and ``entries`` contains runs. The search may have
-    missed a faster method. Therefore a faster method in ``known`` that satisfies the requirement is entered
-    instead. The CPU time of this method is interpolated between its runs. The lines of requirements on long
-    times are not changed, because only the search makes long runs.
+    ``known`` contains the properties of the other methods, and ``entries`` contains runs. A faster method in
+    ``known`` that satisfies the requirement replaces the method of the search. Requirements on long times are
+    not changed, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -211,11 +206,7 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return a copy of ``line`` in which a larger error never needs more CPU time than a smaller error.
-
-    A method that reaches an error also reaches every larger error. If the method for the next smaller error
-    is faster, the copy contains this faster method for both errors.
-    """
+    """Return a copy of ``line`` in which a larger error never needs more CPU time than a smaller error."""
     best = list(line.best)
     for i in reversed(range(len(best) - 1)):
         entry, smaller = best[i], best[i + 1]
@@ -243,8 +234,8 @@ def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
 def table(result: Recommendations, subject: Subject) -> dict[str, object]:
     """Return the recommendations as a table with one row for each error.
 
-    There is a column for each requirement that at least one method satisfies. The entry ``unmet`` lists the
-    other requirements.
+    The columns are the requirements that at least one method satisfies. The entry ``unmet`` lists the other
+    requirements.
     """
     met = [a for a in result.advice if any(a.best)]
     rows = [
@@ -264,9 +255,7 @@ def table(result: Recommendations, subject: Subject) -> dict[str, object]:
 def cell(best: Advised | None) -> dict[str, str] | None:
     """Return the texts of a cell of the table, or None for an empty cell.
 
-    The text ``control`` contains the step size or the tolerance, and the number of steps. The texts
-    ``label``, ``time`` and ``command`` are the name of the method, the CPU time, and the command that emits
-    the integrator.
+    The text ``control`` contains the step size or the tolerance, and the number of steps.
     """
     if best is None:
         return None

@@ -28,10 +28,7 @@ For higher orders, only the conditions that a method violates are shown.
 """
 
 LONGEST = 48
-"""A residual is shown exactly if its text has at most LONGEST characters.
-
-A longer residual is shown as a decimal number.
-"""
+"""The largest number of characters of an exact residual. A longer residual is shown as a decimal number."""
 
 
 @dataclass(frozen=True)
@@ -115,10 +112,9 @@ class Conditions(Measurement[ConditionTables]):
 
 
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
-    """Return a pair (family, n) for each family whose conditions the report shows.
+    """Return a pair (family, n) for each family whose conditions of the orders 1 to n are shown.
 
-    The report shows the conditions of the orders 1 to n. The number n is the highest order of the methods of
-    the family, but at most DEEPEST.
+    The number n is the highest order of the methods of the family, but at most DEEPEST.
     """
     highest: dict[str, int] = {}
     for each in study:

@@ -134,8 +134,6 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
 def _decades(numbers: Sequence[int]) -> str:
     """Return a text that lists the error 10^-k for each k in the sorted list ``numbers``.
 
-    Consecutive numbers are printed as a range.
-
     >>> _decades([2, 4, 5, 6])
     '10⁻² and 10⁻⁴ to 10⁻⁶'
     """
@@ -151,8 +149,7 @@ def _decades(numbers: Sequence[int]) -> str:
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
     """Return the rows of a table with one row for each method and peer (other integrator).
 
-    A row contains the emission time, the compilation time, the numbers of operations per step and the CPU
-    time per step. The values per step are averages over the successful run with the smallest steps.
+    The values per step are averages over the successful run with the smallest steps.
     """
     lines = []
     for label, rows in entries.items():

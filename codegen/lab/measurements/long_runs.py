@@ -14,7 +14,7 @@ from codegen.lab.page.formatting import Picture, enumeration, scientific
 from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 
 LEAST = 1e-17
-"""The smallest deviation in a logarithmic plot. Smaller deviations are drawn at this value."""
+"""Deviations below LEAST are drawn as LEAST in a logarithmic plot."""
 
 Result = MethodResults[LongRun]
 
@@ -60,11 +60,10 @@ class LongRuns(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence about the growth of the deviation of one conserved quantity.
+        """Return a sentence that lists the methods for each law of growth (for example ``bounded``).
 
-        For each law of growth (for example ``bounded`` or ``drift``), the sentence lists the methods with
-        this law. The quantity is the energy. If the scene has no energy, the quantity is the first invariant.
-        If the scene has no invariants, the quantity is the residual of the manifold equations.
+        The law describes the deviation of the energy. If the scene has no energy, the law describes the first
+        invariant, or else the residual of the manifold equations.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -98,10 +97,9 @@ def _count(n: int) -> str:
 
 
 def _shown(runs: Sequence[LongRun]) -> list[str]:
-    """Return the names of the quantities for which the section shows a diagram.
+    """Return the names of the quantities with a diagram, in the order of the diagrams.
 
-    The first quantity is the energy. If the scene has no energy, the first quantity is the first invariant.
-    If the scene has manifold equations, the last quantity is their residual.
+    The quantities are the energy (otherwise the first invariant) and the residual of the manifold equations.
     """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]
@@ -130,12 +128,7 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
 
 
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
-    """Return points (t, d), where d is the largest deviation of the quantity ``name`` up to the time t.
-
-    To limit the number of points, the next point is added when d has grown by more than 2 % since the last
-    point. If all deviations are finite, a point at the final time is added too. The points end before a
-    deviation that is not finite.
-    """
+    """Return points (t, d), where d is the largest deviation of the quantity ``name`` up to the time t."""
     for kept in run.kept:
         if kept.name != name:
             continue

@@ -24,10 +24,7 @@ OVERVIEW = (
 )
 
 NAMED = 2
-"""The largest number of methods that the verdict names.
-
-If more methods share the largest usable step, the verdict states only their number.
-"""
+"""The verdict names the methods with the largest usable step if their number is at most NAMED."""
 
 Result = MethodResults[Stability]
 
@@ -64,8 +61,7 @@ class StabilityTests(Measurement[Result]):
     def holds(self, result: Result) -> bool:
         """Return True if all methods were tested and passed.
 
-        A method fails if a step with extreme input has a wrong result. A method also fails if one of its runs
-        of many steps fails (:mod:`codegen.lab.stability.endurance`).
+        A method fails if a step with extreme input has a wrong result, or if a run of many steps fails.
         """
         return not result.failures and all(s.honest for s in result.measured)
 
@@ -81,11 +77,7 @@ class StabilityTests(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the stability tests failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence about wrong results for extreme input, and about the largest usable step.
-
-        The sentence names the methods with the largest usable step. If there are more than :data:`NAMED`
-        such methods, the sentence states only their number.
-        """
+        """Return a sentence about wrong results for extreme input, and about the largest usable step."""
         answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
         wrong = [method for kind, method in answers if kind == "wrong"]
         parts = []
@@ -182,10 +174,7 @@ def _length(x: float) -> str:
 
 
 def _cases(stability: Stability) -> dict[str, object]:
-    """Return the label of a method, the number of extreme inputs, and a table of the results.
-
-    Consecutive inputs with the same status message share a row of the table.
-    """
+    """Return the label of a method, the number of extreme inputs, and a table of the results."""
     rows: list[dict[str, object]] = []
     names: list[str] = []
     for a in stability.findings.answers:

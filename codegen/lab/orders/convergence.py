@@ -2,9 +2,7 @@
 
 The error of a run is the distance of its final state from a reference solution (:mod:`codegen.lab.distance`).
 The slope between two consecutive runs is the change of log(error) divided by the change of log(h), where h is
-the step size. The step size is halved from run to run until the slopes hardly change
-(:mod:`codegen.lab.orders.step_sizes`). The stated order comes from the order conditions, from the tableau
-file or from the user.
+the step size.
 """
 
 from __future__ import annotations
@@ -27,15 +25,11 @@ ROUNDING = "rounding"
 UNPROVED = ("stated", "claimed")
 """The values of ``certificate`` for an order that is not proved by order conditions.
 
-Such an order comes from the user or from the tableau file. Even if the observed order agrees with such an
-order, the order is measured again with very short steps.
+Even if the observed order agrees with such an order, the order is measured again with very short steps.
 """
 
 FEWEST = 4
-"""The smallest number of usable runs.
-
-Four runs give three slopes. The test whether the slopes have settled needs three slopes.
-"""
+"""The smallest number of usable runs. The test whether the slopes have settled needs three slopes."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -45,8 +39,8 @@ class Convergence:
     - ``target``: the name of the target (for example ``c``), or ``interpreter``.
     - ``stated``: the order to test.
     - ``refinement``: the runs, from long to short steps.
-    - ``kinks``: for each kink, how many derivatives of the field are continuous there. A kink is a point of
-      the solution at which the field is not smooth (:class:`codegen.lab.reference.Reference`).
+    - ``kinks``: for each kink (point where the field is not smooth), how many derivatives of the field are
+      continuous at the kink.
     """
 
     scene: str
@@ -63,9 +57,8 @@ class Convergence:
     def observed(self) -> float | None:
         """The observed order, or None if there is no slope.
 
-        If :attr:`limit` is at least the stated order, the observed order is the last slope. Otherwise kinks
-        of the solution make the slopes irregular. The observed order is then the slope between the first and
-        the last usable run.
+        The observed order is the last slope. If :attr:`limit` is below the stated order, the observed order
+        is the slope between the first and the last usable run.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:
@@ -75,10 +68,9 @@ class Convergence:
 
     @property
     def verdict(self) -> str:
-        """The result of the comparison of the observed order with the stated order.
+        """The comparison of the observed order with the stated order: ``holds``, ``fails`` or ``undecided``.
 
-        The result is ``holds``, ``fails`` or ``undecided``. If :attr:`limit` is lower than the stated order,
-        the result is ``undecided``.
+        If :attr:`limit` is lower than the stated order, the result is ``undecided``.
         """
         if self.limit < self.stated.order:
             return "undecided"
@@ -88,12 +80,10 @@ class Convergence:
     def limit(self) -> float:
         """An upper bound of the order that runs with equal steps can show on this scene.
 
-        The bound comes from kinks (points of the solution at which the field is not smooth). If there are no
-        kinks, the bound is infinity.
+        If the solution has no kinks (points where the field is not smooth), the bound is infinity.
         """
-        # Let k derivatives of the field be continuous at a kink. In each run, one step crosses the kink. The
-        # local error of this step is proportional to h^(k+2). The final error contains the local errors of
-        # all steps. Therefore the order is at most k + 2.
+        # If k derivatives of the field are continuous at a kink, the local error of the step across the kink
+        # is proportional to h^(k+2).
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:
@@ -145,10 +135,7 @@ class Convergence:
         )
 
     def _short(self) -> str:
-        """Return a text that states the order measured with very short steps.
-
-        The text also explains why this order differs from the order observed at the usual step sizes.
-        """
+        """Return a text that compares the order at very short steps with the order at the usual steps."""
         text = f"very short steps, computed with 100 digits, show order {self.refinement.short:.2f}"
         if not self.refinement.settled:
             return f"the slopes do not settle before rounding errors dominate, but {text}"
@@ -217,10 +204,8 @@ def converge(
 
     - ``stated``: the order to test.
     - ``exact``: the reference solution.
-    - ``steps``: the numbers of steps of the runs. If ``steps`` is empty, the runs have 5, 10, 20, ...
-      steps (:func:`codegen.lab.orders.step_sizes.refine`). No run has more than ``runner.most_steps`` steps.
-    - ``to_rounding``: If True, the runs continue until rounding errors dominate, even if the slopes have
-      settled.
+    - ``steps``: the numbers of steps of the runs, by default 5, 10, 20, ... up to ``runner.most_steps``.
+    - ``to_rounding``: If True, the runs continue until rounding errors dominate.
     - ``form``: the form of the equations that ``runner`` integrates, or None for the equations of the scene.
 
     Final states are converted to the coordinates of the scene before errors are measured.

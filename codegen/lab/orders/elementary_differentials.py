@@ -1,10 +1,9 @@
 """Exact elementary differentials of the field of a scene, computed with nilpotent numbers.
 
 An element x of the Lie algebra acts on a point y, and x.y is the resulting tangent vector. The vector field
-that maps y to x.y is called a frozen field. To differentiate a function g along a frozen field, y is replaced
-by y + eps x.y, where eps^2 = 0. The derivative is the coefficient of eps in the value of g. A derivative
-along k frozen fields uses k numbers eps_1, ..., eps_k. The derivative is the coefficient of the product
-eps_1 ... eps_k in the value of g. The scene must be polynomial in its coordinates.
+that maps y to x.y is called a frozen field. The derivative of a function g along a frozen field is the
+coefficient of eps in g(y + eps x.y), where eps^2 = 0. A derivative along k frozen fields uses k numbers
+eps_1, ..., eps_k and is the coefficient of their product. The scene must be polynomial in its coordinates.
 """
 
 from __future__ import annotations
@@ -30,8 +29,7 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 class RingDomain(Domain):
     """Arithmetic in an exact ring, for scenes that are polynomial in their coordinates.
 
-    The class :class:`codegen.ir.domain.Domain` requires a step size ``h``. Elementary differentials do not
-    depend on the step size. In this class ``h`` is 1.
+    The step size ``h`` is 1, because elementary differentials do not depend on the step size.
     """
 
     def __init__(self, ring: Ring) -> None:
@@ -75,8 +73,7 @@ class FrozenFields:
     """The elementary differentials of the field f of an autonomous scene at its initial point.
 
     The function f maps a point to an element of the Lie algebra. The elementary differential F(t) of an
-    ordered tree t (:mod:`orderconds.trees.levels`) is also an element of the Lie algebra. At a point y, F(t)
-    generates the tangent vector F(t).y. The frozen field of t is the vector field that maps y to F(t).y.
+    ordered tree t (:mod:`orderconds.trees.levels`) is also an element of the Lie algebra.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -88,8 +85,7 @@ class FrozenFields:
     def tree(self, tree: Tree) -> Vector:
         """Return the elementary differential F(t) of a tree t.
 
-        F(t) is an element of the Lie algebra, and a derivative of the field f at the initial point. For
-        each branch b of t, the field is differentiated once along the vector field that maps y to F(b).y.
+        F(t) is the derivative of the field f along the frozen fields y -> F(b).y, one for each branch b of t.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
@@ -100,8 +96,8 @@ class FrozenFields:
     def forest(self, forest: Forest) -> Vector:
         """Return the elementary differential of an ordered forest.
 
-        The differential is a derivative of the coordinates of y at the initial point. For each tree t of the
-        forest, the coordinates are differentiated once along the vector field that maps y to F(t).y.
+        The differential is the derivative of the coordinates of y along the frozen fields y -> F(t).y, one
+        for each tree t of the forest.
         """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
@@ -119,14 +115,14 @@ class FrozenFields:
 class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, for trees with directed edges.
 
-    The elementary differential of a tree is a pair (xi, nu). Each branch at the root is a tree and has its
-    own pair (xi_b, nu_b). The Hamiltonian H(q, mu) is differentiated once for each branch:
+    The elementary differential of a tree is a pair (xi, nu). For each branch b at the root, with the pair
+    (xi_b, nu_b), the Hamiltonian H(q, mu) is differentiated once:
 
-    - If the branch has kind 0, H is differentiated with respect to q in the direction xi_b.
-    - If the branch has kind 1, H is differentiated with respect to mu in the direction nu_b.
+    - If b has kind 0 (:mod:`orderconds.trees.directed`), with respect to q in the direction xi_b.
+    - If b has kind 1, with respect to mu in the direction nu_b.
 
     Let K be the result. Then xi is the derivative of K with respect to mu, and -nu is the derivative of K
-    with respect to q. The module :mod:`orderconds.trees.directed` defines the kinds.
+    with respect to q.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -153,8 +149,8 @@ class CanonicalFields:
 def action_fields(scene: Problem, ring: Ring) -> ActionFields:
     """Return the elementary differentials of an autonomous polynomial Hamiltonian scene at its initial point.
 
-    The module :mod:`orderconds.series.action_trees` defines the trees. The elementary differential of a tree
-    is an element of the Lie algebra or of its dual space. Group elements are represented by matrices.
+    The elementary differential of a tree (:mod:`orderconds.series.action_trees`) is an element of the Lie
+    algebra or of its dual space.
     """
     domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
     group = scene.group.require(MatrixRepresentation, where=scene.name)

@@ -1,13 +1,12 @@
 """The exact order of a method on a scene, computed from the Taylor series of the local error of a step.
 
-An order that is computed from the errors of runs is an estimate. If the field of a scene is polynomial or
-rational, the Taylor coefficients of the local error are exact numbers. Let h be the step size. The order
-is p if the coefficient of h^(p+1) is the first coefficient that is not zero.
+If the field of a scene is polynomial or rational, the Taylor coefficients of the local error are exact
+numbers. The order is p if the coefficient of h^(p+1) is the first nonzero coefficient, where h is the step
+size.
 
-The coefficients of the method belong to a ring of exact numbers. Initial coordinates that do not belong to
-this ring are replaced by nearby rational numbers. The new initial point is in general not on the manifold.
-The computed order is valid nevertheless, because the equations, the group action and the order conditions are
-also valid off the manifold.
+Initial coordinates outside the ring of the coefficients of the method are replaced by nearby rational
+numbers. The new initial point may be off the manifold, where the equations, the group action and the order
+conditions are valid too.
 """
 
 from __future__ import annotations
@@ -135,10 +134,9 @@ def local_error_or_reason(scene: Problem, method: Method) -> ExactLocalError | N
 def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     """Return the leading term of the local error of one step, for a method on a scene.
 
-    Raises :class:`codegen.errors.SceneError` if the field is not smooth at the initial state. SceneError is
-    also raised if the Taylor coefficients of the local error cannot be computed exactly, for example if the
-    field calls ``sqrt``. Raises :class:`codegen.errors.MethodError` if the coefficients of the method are
-    balls (intervals), because a ball cannot prove that a number is zero.
+    Raises :class:`codegen.errors.SceneError` if the field is not smooth at the initial state, or if exact
+    Taylor coefficients cannot be computed. Raises :class:`codegen.errors.MethodError` if the coefficients of
+    the method are balls (intervals), because a ball cannot prove that a number is zero.
     """
     ring = method.ring
     third = ring.rational(1, 3)

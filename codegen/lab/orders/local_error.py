@@ -1,13 +1,11 @@
 """The exact local error of one step: its Taylor coefficients in the step size h, computed in two ways.
 
-In the first way, the interpreter executes the program of a step. The variables of the program are power
-series in h, not numbers. The coefficients of the series are exact. The result is the series of the state
-after one step. Picard iteration gives the series of the exact solution. The difference of the two series is
-the local error. If the order is p, the lowest power of h in the local error is h^(p+1).
+In the first way, the interpreter executes the program of a step with power series in h. The series of the
+exact solution, computed by Picard iteration, is subtracted.
 
-In the second way, the coefficient of h^(p+1) is a sum over the order conditions. Each summand is the residual
-of a condition times an elementary differential. If the program of the step is correct,
-the two results are equal.
+In the second way, the coefficient of the lowest power of h is a sum over the order conditions. Each summand
+is the residual of a condition times an elementary differential. If the program of the step is correct, the
+two results are equal.
 """
 
 from __future__ import annotations
@@ -37,9 +35,9 @@ from orderconds.trees import directed, levels
 def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
     """Return the state after one step from the initial state of the scene.
 
-    Each coordinate is a power series in the step size h. The series end at h^``order``, and their
-    coefficients are in ``ring``. ``scene`` is the problem for which the program was generated. Raises
-    ArithmeticError if the coefficients cannot be computed exactly, for example if the field calls ``sqrt``.
+    Each coordinate is a power series in the step size h up to h^``order``, with coefficients in ``ring``.
+    ``scene`` is the problem for which the program was generated. Raises ArithmeticError if the coefficients
+    cannot be computed exactly, for example if the field calls ``sqrt``.
     """
     domain = SeriesDomain(ring, order)
     inputs: dict[str, Scalar] = {"t": _time(scene, domain)}
@@ -54,8 +52,7 @@ def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
 def exact_flow(scene: Problem, ring: Ring, order: int) -> Vector:
     """Return the exact solution at the time h after the initial time of the scene.
 
-    Each coordinate is a power series in h up to h^``order``. Each Picard iteration determines one more
-    coefficient.
+    Each coordinate is a power series in h up to h^``order``.
     """
     domain = SeriesDomain(ring, order)
     start = scene.initial(domain)
@@ -77,9 +74,9 @@ def _integral(ring: PowerSeries, x: Scalar) -> Scalar:
 
 
 def local_error(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the local error of a step of size h, as one power series in h for each coordinate.
+    """Return the local error of a step of size h: the state after the step minus the exact solution.
 
-    The series end at h^``order``. The local error is the state after one step minus the exact solution.
+    Each coordinate is a power series in h up to h^``order``.
     """
     pairs = zip(step(program, scene, ring, order), exact_flow(scene, ring, order), strict=True)
     return tuple(x - y for x, y in pairs)
@@ -104,8 +101,8 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
 
     The result contains one number for each coordinate. The method must satisfy all order conditions of orders
     lower than ``power``. ``scene`` is the problem that :func:`codegen.lower.problem_for` returns for the
-    method. The scene must be autonomous and polynomial. If ``method`` is a
-    symplectic partitioned method, the scene must also be Hamiltonian on T*R^n.
+    method. The scene must be autonomous and polynomial. For a symplectic partitioned method, the scene must
+    also be Hamiltonian on T*R^n.
     """
     if not scene.autonomous:
         raise SceneError("the scene depends on time", where=scene.name, expected="an autonomous scene")
@@ -123,10 +120,7 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
-    """Return a pair for each order condition of order ``power`` that the method violates.
-
-    The pair contains the tree, forest or word of the condition, and the residual of the condition.
-    """
+    """Return (tree, forest or word; residual) for each violated order condition of order ``power``."""
     family = family_of(method)
     conditions = family.all_conditions(power)
     coefficients = family.read(method.tableau)
@@ -163,8 +157,7 @@ def _forests(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error, as a sum over ordered forests w.
 
     The summand of w is d(w) F(w), where F(w) is the elementary differential of w. The number d(w) is the
-    coefficient of w in the Lie-Butcher series of the numerical solution, minus the coefficient of w in the
-    series of the exact solution.
+    coefficient of w in the Lie-Butcher series of the numerical solution, minus that of the exact solution.
     """
     fields = FrozenFields(scene, method.ring)
     terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]
@@ -187,11 +180,11 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _action(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the coefficient of h^``power`` in the local error of a variational method.
+    """Return the coefficient of h^``power`` in the local error of a variational method as a sum over words.
 
-    The coefficient is a sum over words. A word w is a sequence of trees. Let d(w) be the coefficient of w in
-    the series of the numerical solution, minus the coefficient of w in the series of the exact solution. The
-    summand of w is d(w) times a vector that depends only on w and the scene.
+    The summand of a word w (a sequence of trees) is d(w) times a vector that depends only on w and the scene.
+    The number d(w) is the coefficient of w in the series of the numerical solution, minus that of the exact
+    solution.
     """
     ring = method.ring
     family = family_of(method)
