@@ -8,5 +8,5 @@ from typing import TypeAlias
 Progress: TypeAlias = Callable[[str], object]
 """A function that displays one line of text about the progress, for example the name of the next measurement.
 
-To display nothing, pass :class:`str`. A call of ``str`` with a text has no effect.
+To display nothing, pass :class:`str`.
 """

@@ -2,13 +2,8 @@
 
 In the differential equation, the derivative of the state y is the action of the Lie algebra element f(y) on
 y. The modified midpoint rule is applied to the coordinates of y. The results of the midpoint rule are
-extrapolated in the squared step size (Hairer, Norsett and Wanner I, section II.9).
-
-The reference uses no group exponential and no code of the tested integrators. An error in this code therefore
-cannot change the reference.
-
-The equation is solved twice, with two extrapolation orders and two tolerances. If the two final states do not
-agree, SceneError is raised. The uncertainty is the maximum norm of the difference of the final states.
+extrapolated in the squared step size (Hairer, Norsett and Wanner I, section II.9). The reference uses no
+group exponential and no code of the tested integrators.
 """
 
 from __future__ import annotations
@@ -37,32 +32,32 @@ The reference solution has fewer correct digits (see :data:`AGREEMENT`).
 """
 
 BITS = 200
-"""The working precision of the Arb arithmetic in bits. 200 bits are about 60 decimal digits."""
+"""The working precision of the Arb arithmetic in bits (about 60 decimal digits)."""
 
 RUNS = ((14, -33), (16, -36))
-"""The settings of the two integrations of a reference solution: a pair (columns, e) for each integration.
+"""The settings of the two integrations: the number of columns of the extrapolation table, and the exponent e
+of the tolerance 10^e.
 
-``columns`` is the number of columns of the extrapolation table, and 10^e is the tolerance. The second
-integration gives the reference solution. The first integration only checks the second.
+The first integration only checks the second.
 """
 
 AGREEMENT = 1e-28
-"""The largest accepted difference between the final states of the two integrations (see :data:`RUNS`).
+"""The largest accepted difference (maximum norm) between the final states of the two integrations
+:data:`RUNS`.
 
-The difference is measured in the maximum norm. If the norm of the second final state is at least 1, the
-difference is divided by that norm.
+If the norm of the second final state is at least 1, the difference is divided by that norm.
 """
 
 LEAST_STEP = 1e-6
 """The length of the shortest permitted step, as a fraction of the time span.
 
-If the step-size control demands a shorter step, SceneError is raised. A usual cause is a singularity.
+If the step-size control demands a shorter step, SceneError is raised.
 """
 
 MOST_STEPS = 10_000
 """The largest number of extrapolation steps, including rejected steps.
 
-If more steps are necessary, SceneError is raised. Usual causes are a stiff equation and a long time span.
+If more steps are necessary, SceneError is raised.
 """
 
 
@@ -70,11 +65,13 @@ If more steps are necessary, SceneError is raised. Usual causes are a stiff equa
 class Reference:
     """The reference solution of a scene: the state at the end of the time span.
 
-    ``scene`` is the name of the scene. ``state`` contains the coordinates as mpmath numbers of :data:`DIGITS`
-    digits, in the order of the attribute ``symbols`` of the scene. The state is computed twice, with two
-    extrapolation orders. ``uncertainty`` is the maximum norm of the difference of the two states.
-    A kink is a point of the solution at which the field is not smooth. For each kink, ``kinks`` contains the
-    number of continuous derivatives of the field, or -1 if the field is discontinuous.
+    - ``scene``: the name of the scene.
+    - ``state``: the coordinates as mpmath numbers of :data:`DIGITS` digits, in the order of the attribute
+      ``symbols`` of the scene.
+    - ``uncertainty``: the maximum norm of the difference of two solutions with different extrapolation
+      orders.
+    - ``kinks``: the number of continuous derivatives of the field at each point of the solution where the
+      field is not smooth, or -1 if the field is discontinuous.
     """
 
     scene: str
@@ -91,7 +88,7 @@ class Reference:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A :class:`Reference` as the cache stores it. The coordinates in ``state`` are decimal strings."""
+    """A :class:`Reference` as the cache stores it, with decimal strings in ``state``."""
 
     state: tuple[str, ...]
     uncertainty: float
@@ -101,9 +98,8 @@ class _Stored:
 def cached_reference(
     scene: Problem, cache: MeasurementCache | None = None, end: float = math.inf
 ) -> Reference:
-    """Return the reference solution of a scene from the cache.
+    """Return the reference solution of a scene from the cache, or compute and store the solution.
 
-    If the cache does not contain the solution, the function computes the solution and stores it in the cache.
     The default of ``cache`` is the cache of the current user. :func:`reference` describes ``end`` and the
     exceptions.
     """
@@ -120,11 +116,7 @@ def cached_reference(
 
 
 def _key(scene: Problem) -> tuple[object, ...]:
-    """Return the cache key of the reference solution of a scene.
-
-    The key contains all data that determine the solution: the code of the field, its constants, the initial
-    state, the time span and the settings.
-    """
+    """Return the cache key: all data that determine the reference solution of a scene."""
     field = velocity(scene)
     start = scene.initial(PreciseDomain(0, DIGITS))
     return (
@@ -141,10 +133,10 @@ def _key(scene: Problem) -> tuple[object, ...]:
 def reference(scene: Problem, end: float = math.inf) -> Reference:
     """Compute the state of a scene at the end of its time span, and the uncertainty of the computed state.
 
-    The equation is solved twice, with two extrapolation orders and two tolerances. The uncertainty is the
-    maximum norm of the difference of the two final states. ``end`` is the deadline of the computation on the
-    clock ``time.monotonic()``. Raises :class:`codegen.errors.SceneError` if the equation cannot be solved, if
-    the two final states do not agree to 28 digits, or if the deadline passes.
+    The uncertainty is the maximum norm of the difference of two solutions with different extrapolation
+    orders. ``end`` is the deadline of the computation on the clock ``time.monotonic()``. Raises
+    :class:`codegen.errors.SceneError` if the equation cannot be solved, if the two solutions do not agree to
+    28 digits, or if the deadline passes.
     """
     (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
@@ -160,11 +152,10 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
 
 
 def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Vector, tuple[int, ...]]:
-    """Solve the differential equation of a scene once with step-size control.
+    """Return the final state of a scene for the tolerance 10^``exponent``, and the ``kinks`` of
+    :class:`Reference`.
 
-    The result contains the final state and the attribute ``kinks`` of :class:`Reference`. ``columns`` is the
-    number of columns of the extrapolation table. The tolerance is 10^``exponent``. ``finish`` is the deadline
-    on the clock ``time.monotonic()``. Raises SceneError if the deadline passes.
+    Raises SceneError if the deadline ``finish`` on the clock ``time.monotonic()`` passes.
     """
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
@@ -180,8 +171,7 @@ def _integrate(
 ) -> tuple[Vector, tuple[int, ...]]:
     """Return the state at the end of the time span, and the attribute ``kinks`` of :class:`Reference`.
 
-    ``y`` is the initial state. ``columns`` is the number of columns of the extrapolation table. ``finish``
-    is the deadline on the clock ``time.monotonic()``. Raises SceneError if the deadline passes.
+    Raises SceneError if the deadline ``finish`` on the clock ``time.monotonic()`` passes.
     """
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
@@ -223,8 +213,7 @@ def _integrate(
             t, y = (t + step).mid(), new
             if last:
                 return y, () if sided is None else tuple(sided.kinks)
-        # The error estimate is proportional to step^p with p = 2 * columns - 1. Therefore a step of length
-        # step * ratio would have the largest permitted error. The factor 0.9 makes the step a little shorter.
+        # The error estimate is proportional to step^p with p = 2 * columns - 1.
         ratio = (tolerance * size / error) ** (1 / (2 * columns - 1)) if error else 4.0
         step = min(step, float(left)) * max(0.2, min(4.0, 0.9 * ratio))
     else:
@@ -242,8 +231,6 @@ def _extrapolate(
 ) -> tuple[Vector, float]:
     """Return the extrapolated state after one step from ``y`` at time ``t``, and an estimate of its error.
 
-    The extrapolation table has ``columns`` rows and ``columns`` columns. The last entry of the last row is
-    the new state. The estimate is the maximum norm of the difference of the last two entries of the last row.
     Raises ArithmeticError if the field cannot be evaluated at one of the intermediate states.
     """
     slope = field(y, t)
@@ -262,11 +249,9 @@ def _extrapolate(
 
 
 def _midpoint(field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
-    """Divide one step into ``n`` equal substeps, and return the state after the last substep.
+    """Return the state after ``n`` equal substeps of the modified midpoint rule.
 
-    The first substep is an Euler step, and all later substeps use the explicit midpoint rule. ``slope`` is
-    the derivative at the state ``y``. ``n`` must be even. Otherwise the error has no expansion in powers of
-    the squared step size.
+    ``n`` must be even, because otherwise the error has no expansion in powers of the squared step size.
     """
     h = step / n
     twice = 2 * h

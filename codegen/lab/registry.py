@@ -1,4 +1,4 @@
-"""The list of registered measurements. The list determines the order of the sections in the report.
+"""The list of registered measurements, in the order of the sections in the report.
 
 To add a measurement to this package, write a file in :mod:`codegen.lab.measurements` and add a line to
 :data:`BUILT_IN`. To add a measurement from another package, call :func:`register`, or declare an entry point
@@ -28,7 +28,7 @@ BUILT_IN = (
     "codegen.lab.measurements.conditions:Conditions",
     "codegen.lab.measurements.emitted_code:EmittedCode",
 )
-"""The measurements of this package. Each measurement is named in the form ``module:class``."""
+"""The measurements of this package in the form ``module:class``."""
 
 GROUP = "orderconds.measurements"
 """The entry-point group in which other packages declare measurements."""
@@ -37,10 +37,9 @@ _registered: dict[str, type[AnyMeasurement]] = {}
 
 
 def register(kind: type[AnyMeasurement]) -> type[AnyMeasurement]:
-    """Add the class of a measurement at the end of the list of measurements. Return the class unchanged.
+    """Add the class of a measurement at the end of the list of measurements, and return the class.
 
-    The function can be used as a class decorator. Raises InputError if another measurement already has the
-    name of the new one.
+    Raises InputError if another measurement already has the name of the new one.
     """
     known = {m.name: type(m) for m in measurements()}
     if known.get(kind.name, kind) is not kind:
@@ -74,7 +73,6 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
     """Return the measurements whose name or whose attribute ``part_of`` is in ``names``.
 
-    For example, the measurement ``conditions`` is a part of ``orders``, and its ``part_of`` is ``"orders"``.
     If ``names`` is empty, all measurements are returned. Raises :class:`UnknownName` for an unknown name.
     """
     every = measurements()

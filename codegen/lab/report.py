@@ -102,12 +102,10 @@ class ScenePage:
 def report(request: Request, directory: str | Path, progress: Progress) -> tuple[Path, tuple[ScenePage, ...]]:
     """Measure all scenes and write the pages into a folder.
 
-    Returns the path of the overview page, and the results of each scene. The page of a scene is written as
-    soon as the scene is measured. Results are also stored in a hidden subfolder until the report is complete.
-    After an interruption, the next call reuses the stored results. For one scene, ``progress`` is called with
-    a text before each measurement. For several scenes, ``progress`` is called with the name of each finished
-    scene. Before the first measurement, :class:`InputError` is raised if a name is unknown, if there is no C
-    compiler, or if the folder cannot be written to.
+    Returns the path of the overview page, and the results of each scene. After an interruption, the next call
+    reuses the results stored in the folder. ``progress`` is called before each measurement of a single scene,
+    or after each of several scenes. Before the first measurement, :class:`InputError` is raised if a name is
+    unknown, if there is no C compiler, or if the folder cannot be written to.
     """
     folder = Path(directory)
     request.check()
@@ -129,10 +127,7 @@ def report(request: Request, directory: str | Path, progress: Progress) -> tuple
 
 
 def _page(job: tuple[Request, str, str], progress: Progress = str) -> ScenePage:
-    """Measure one scene and write its page.
-
-    ``job`` contains the request, the name of the scene, and the path of the folder.
-    """
+    """Measure the scene of a ``job`` (request, name of the scene, path of the folder) and write its page."""
     request, name, folder = job[0], job[1], Path(job[2])
     planned = replace(request.subject(name), cache=MeasurementCache(folder / FOLDER), progress=progress)
     results = measure_scene(planned, selected(request.parts))

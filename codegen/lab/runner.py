@@ -1,7 +1,6 @@
 """Runs a method over the time span of a scene, with the interpreter or with an emitted module.
 
-A :data:`Runner` computes the final state after a given number of steps. All runners have one interface.
-Therefore one convergence test works with the interpreter, with emitted Python and with emitted C.
+A :data:`Runner` computes the final state after a given number of steps.
 """
 
 from __future__ import annotations
@@ -83,11 +82,11 @@ class Interpreted:
         h = (end - start) / steps if steps else end - start
         if self.digits <= DOUBLE:
             return self._run(FloatDomain(float(h)), steps)
-        # BallDomain computes with Arb balls. Arb balls are several times faster than mpmath numbers.
+        # Arb balls are several times faster than mpmath numbers.
         domain = BallDomain(h, self.digits)
         with domain.precision():
             state = self._run(domain, steps)
-        # In ball arithmetic, a division by zero raises no error. The quotient is not a finite number.
+        # In ball arithmetic, a division by zero raises no error.
         if not all(x.is_finite() for x in state):
             raise RunFailed("the run computes a number that is not finite")
         context = PreciseDomain(0, self.digits).context
@@ -113,10 +112,8 @@ class Interpreted:
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
-    """Return the coordinates of the components of a state. The keys are the names of the components.
-
-    A component is, for example, a group element or a momentum. ``state`` lists the coordinates of all
-    components.
+    """Return the coordinates of each component of a state (for example a momentum), by the name of the
+    component.
     """
     fields: dict[str, Vector] = {}
     start = 0
@@ -159,7 +156,7 @@ class Emitted:
     def observed(self) -> Emitted:
         """A runner of the same method whose module also returns the solutions of the implicit equations.
 
-        Only some targets can emit such a module. Therefore the new runner can have another target.
+        The new runner can have another target, because only some targets can emit such a module.
         """
         return Emitted(self.compiled, printers.observable().name, self.order)
 
@@ -193,8 +190,7 @@ function ``final``.
 def check_target(target: str, digits: int = DOUBLE) -> None:
     """Check that a target is known and can compute with ``digits`` decimal digits.
 
-    Raises :class:`codegen.errors.MethodError` if a condition fails. Only the interpreter computes with more
-    than :data:`DOUBLE` decimal digits.
+    Raises :class:`codegen.errors.MethodError` if a condition fails.
     """
     known = (*printers.names(), INTERPRETER)
     if target not in known:
@@ -212,10 +208,10 @@ def runner(
 ) -> Runner:
     """Return a runner of a method on a scene.
 
-    ``target`` is the name of a target such as ``c``, or ``interpreter``. ``digits`` is the number of decimal
-    digits of the arithmetic. More than 16 digits require the interpreter. ``order`` is the order of the
-    method, if the caller already knows it. Raises :class:`codegen.errors.MethodError` if the target is
-    unknown, or if the target cannot compute with ``digits`` digits.
+    ``target`` is the name of a target such as ``c``, or ``interpreter``. More than 16 decimal ``digits``
+    require the interpreter. ``order`` is the order of the method, if the caller already knows it. Raises
+    :class:`codegen.errors.MethodError` if the target is unknown, or if the target cannot compute with
+    ``digits`` digits.
     """
     check_target(target, digits)
     compiled = compile_method(scene, method)

@@ -17,8 +17,7 @@ BACK = 100_000
 SECONDS = 3.0
 """The approximate limit, in seconds, on the CPU time of a run in one direction.
 
-A run forward has MANY steps. A run forward and back has BACK steps in each direction. If the steps in one
-direction would take longer than the limit, the number of steps is reduced.
+If the steps in one direction would take longer than the limit, the number of steps is reduced.
 """
 
 TRIAL = 1000
@@ -28,18 +27,17 @@ TRIAL = 1000
 class Endurance:
     """The result of a long run: a run forward, or a run forward followed by a run back to the initial time.
 
-    - ``steps``: the number of steps in each direction. If a step failed, ``steps`` is the number of completed
-      steps in the direction of the failed step.
+    - ``steps``: the number of steps in each direction, or of completed steps in the direction of a failed
+      step.
     - ``defect``: the largest absolute residual of the equations of the manifold after a run forward. If the
-      final state is not finite, ``defect`` is infinite. If the final state is finite and the manifold is a
-      vector space, ``defect`` is None.
+      final state is not finite, ``defect`` is infinite. Otherwise ``defect`` is None for a vector space.
     - ``returned``: the distance of the final state from the initial state after a run forward and back.
     - ``failure``: the error message of the integrator if a step failed.
 
     If a step fails, the run passes the test, because the integrator reported the failure. A complete run
     forward passes if ``defect`` is None, or at most 64 ``steps`` 2^-53 (a bound for rounding errors). A
-    complete run forward and back passes if ``returned`` is finite. A large ``returned`` is accepted, because
-    only symmetric methods return to the initial state.
+    complete run forward and back passes if ``returned`` is finite, because only symmetric methods return to
+    the initial state.
     """
 
     name: str
@@ -69,8 +67,8 @@ class Endurance:
 def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
     """Make a run forward, and a run forward and back.
 
-    The step size is a hundredth of the time span, so long runs end far beyond the time span. A trial run of
-    :data:`TRIAL` steps measures the time of a step. If the trial run fails, its result is the only result.
+    The step size is a hundredth of the time span. If the trial run of :data:`TRIAL` steps fails, its result
+    is the only result.
     """
     first, last = map(float, compiled.scene.span)
     h = (last - first) / 100

@@ -1,22 +1,18 @@
 """Single steps with extreme input: the result of emitted code is compared with an exact result.
 
-The interpreter (:mod:`codegen.ir.interpret`) makes the step of the emitted code with at least 60 digits. The
-result of the interpreter is called the exact result. Several probes repeat the step. In a probe, the
-interpreter adds random rounding errors of a double to the input and to the result of every operation. The
-differences between the probes and the exact result show how much rounding can change the result.
+The exact result is the step made by the interpreter (:mod:`codegen.ir.interpret`) with at least 60 digits. In
+several probes, the interpreter adds random rounding errors of a double to the input and to the result of
+every operation. The differences between the probes and the exact result show how much rounding can change the
+result.
 
 There are three verdicts:
 
 - *wrong*: the result is not finite, or rounding cannot cause its error.
 - *accurate*: rounding can cause the error, and at least :data:`LEAST` digits are correct.
-- *undetermined*: rounding can cause the error, and fewer digits are correct. For example, a rotation by 1e20
-  radians has no correct digit. For a step with this verdict, the emitted code should return a status.
+- *undetermined*: rounding can cause the error, and fewer digits are correct.
 
-Correct digits are counted separately for each component (for example a group element) of the state.
-
-The interpreter solves the equations of an implicit method by fixed-point iteration. If the iteration does not
-converge, it uses Newton's method. The equations can have several solutions. Therefore Newton's method starts
-from the solution of the emitted code.
+Correct digits are counted separately for each component (for example a group element) of the state. Implicit
+equations can have several solutions, so Newton's method starts from the solution of the emitted code.
 """
 
 from __future__ import annotations
@@ -49,7 +45,7 @@ if TYPE_CHECKING:
 DIGITS = 60
 EPSILON = 2.0**-53
 TINY = 2.0**-1022
-"""The smallest normal double. A result with an absolute value below TINY counts as zero."""
+"""The smallest normal double, below which the absolute value of a result counts as zero."""
 
 ROUNDINGS = 256.0
 """If an error is above about ROUNDINGS times the largest error of a probe, rounding cannot cause it.
@@ -68,10 +64,7 @@ at most CORRECTIONS Newton iterations.
 """
 
 PATIENCE = 100
-"""The largest number of fixed-point iterations in :func:`solved_step`.
-
-If the fixed-point iteration does not converge, Newton's method is used.
-"""
+"""The largest number of fixed-point iterations in :func:`solved_step` before Newton's method is used."""
 
 ACCURATE, WRONG = "accurate", "WRONG"
 SILENT = f"undetermined: rounding leaves fewer than {LEAST} correct digits"
@@ -126,8 +119,7 @@ def cases(compiled: Compiled) -> Iterator[Case]:
     """Yield the inputs of the steps to test.
 
     The first input is the initial state of the scene, with a step size of one hundredth of the time span. In
-    each further input, the step size or a component of the state has an unusual value. Examples are zero, a
-    very large number and NaN.
+    each further input, the step size or a component of the state has an unusual value, such as zero or NaN.
     """
     scene = compiled.scene
     state = tuple(float(x) for x in scene.initial(FloatDomain(0.0)))
@@ -163,10 +155,9 @@ def _firsts(compiled: Compiled) -> list[int]:
 
 
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
-    """Return a copy of ``state`` in which some components are multiplied by ``scale``.
+    """Return a copy of ``state`` in which some components (for example momenta) are multiplied by ``scale``.
 
-    All momenta are multiplied. Points are multiplied if the group acts by rotations. If the group is abelian,
-    all components are multiplied. If no component is multiplied or a number overflows, the result is None.
+    If no component is multiplied or a number overflows, the result is None.
     """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:
@@ -181,10 +172,7 @@ def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple
 
 
 def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
-    """Return the norm of the value of the vector field in the Lie algebra at ``state``.
-
-    For groups of rotations, the norm is the angle of rotation per unit of time.
-    """
+    """Return the norm of the value of the vector field in the Lie algebra at ``state``."""
     field = compiled.scene.as_field()
     domain = FloatDomain(0.0)
     (value,) = field.apply(domain, "field", None, (tuple(state), t))
@@ -232,9 +220,8 @@ def _blocks(compiled: Compiled) -> list[range]:
 
 
 def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
-    """Return the state, time and step size of a case, with one random rounding error in each number.
-
-    ``number`` is the seed of the random numbers.
+    """Return the state, time and step size of a case, with one random rounding error (seed ``number``) in
+    each number.
     """
     draw, context = random.Random(number), mpmath_context(DIGITS)
 
@@ -245,11 +232,10 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
-    """Return the exact state after the step, and the states after the probes.
+    """Return the exact state after the step, and the states after probes with simulated rounding errors.
 
-    A probe repeats the step with simulated rounding errors. All numbers have at least 60 digits. In implicit
-    equations, long steps cause cancellation. If the step size is above 1, Newton's method and the probes
-    therefore use more digits.
+    If the step size is above 1, Newton's method and the probes use more digits, because long steps cause
+    cancellation.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -277,8 +263,8 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
 def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
     """Make one step with emitted code, and return the solutions of its implicit equations.
 
-    A step may solve several systems of equations, one after another. The result contains a list of numbers
-    for each system. The result is None if the step fails or has no implicit equations.
+    The result contains a list of numbers for each system of equations. The result is None if the step fails
+    or has no implicit equations.
     """
     widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
     if not widths:
@@ -295,10 +281,9 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 class Rounding(BallDomain):
     """Arithmetic with many digits that adds one rounding error of a double to the result of every operation.
 
-    The signs of the errors are random. If an operation is repeated in a step, its error keeps its sign.
-    Otherwise the equations of an implicit method would change in each iteration. The right-hand side r of an
-    implicit equation gets two rounding errors. The first error is proportional to r, so it vanishes if r is
-    zero. The second error is proportional to the right-hand side of another equation.
+    The signs of the errors are random, but an operation that is repeated in a step keeps its sign. Otherwise
+    the equations of an implicit method would change in each iteration. The right-hand side r of an implicit
+    equation gets a second error, because the first error vanishes if r is zero.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -311,8 +296,7 @@ class Rounding(BallDomain):
     def computed(self, name: str, value: Value) -> Value:
         """Return ``value``, the result of an operation, with one rounding error in each component.
 
-        ``name`` is the variable to which the step assigns the result. The name determines the signs of the
-        errors.
+        The name of the variable to which the step assigns the result determines the signs of the errors.
         """
         size = len(value) if isinstance(value, tuple) else 1
         if name not in self.signs:
@@ -396,9 +380,8 @@ def solved_step(
 ) -> list[Scalar]:
     """Return the state after one step, computed by the interpreter with :data:`DIGITS` digits.
 
-    Implicit equations are solved by fixed-point iteration. If the iteration does not converge, Newton's
-    method is used. Newton's method starts from the solution of the emitted code. Raises ArithmeticError or
-    ValueError if no solution is found.
+    Implicit equations are solved by fixed-point iteration, or by Newton's method from the solution of the
+    emitted code. Raises ArithmeticError or ValueError if no solution is found.
     """
     try:
         return precise_step(compiled, state, t, h, limit=PATIENCE, newton=False)

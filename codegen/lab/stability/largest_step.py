@@ -6,8 +6,7 @@ The time span of the scene is divided into n equal steps. The run is usable if i
 - The error of the final state is at most a tenth of max(1, norm of the exact final state).
 - If the scene has a conserved energy, the energy changes by at most a tenth of its size.
 
-Bisection finds a number n such that the run with n steps is usable and the run with n - 1 steps is not. The
-reason describes the failure of the run with n - 1 steps.
+Bisection finds a number n such that the run with n steps is usable and the run with n - 1 steps is not.
 """
 
 from __future__ import annotations
@@ -48,8 +47,7 @@ class Limit:
 def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
     """Return the largest usable step size of a compiled method.
 
-    The first run has one step. The number of steps is doubled until the run is usable. Bisection then finds a
-    number n such that the run with n steps is usable and the run with n - 1 steps is not.
+    The run with one step fewer in the time span is not usable.
     """
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "the length of the time span; a single step over the whole span is usable", 0, 1

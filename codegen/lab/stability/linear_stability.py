@@ -4,9 +4,8 @@ imaginary axes.
 If a Runge-Kutta method solves y' = lambda y, each step of size h multiplies y by R(h lambda). The function R
 is the stability function of the method.
 
-A Lie group method for y' = f(y).y, where f(y) is in the Lie algebra, multiplies the state by exponentials of
-elements of the Lie algebra. If f is constant, a step of arbitrary size h is therefore exact. If f(y) varies
-along the solution, the stability intervals of the tableau limit the step size.
+A Lie group method for y' = f(y).y, where f(y) is in the Lie algebra, is exact if f is constant. If f(y)
+varies along the solution, the stability intervals of the tableau limit the step size.
 """
 
 from __future__ import annotations
@@ -40,10 +39,10 @@ class Quotient:
 class Region:
     """The stability function of a method, and its stability intervals.
 
-    ``label`` is the name of the method, and ``value`` is the stability function R. A stability interval
-    begins at zero. All its points z satisfy |R(z)| <= 1. ``real`` is the length of the interval on the
-    negative real axis. ``imaginary`` is the length of the interval on the positive imaginary axis. If a
-    length exceeds :data:`FARTHEST`, it is replaced by infinity.
+    ``label`` is the name of the method, and ``value`` is the stability function R. On a stability interval,
+    which begins at zero, |R(z)| <= 1. ``real`` and ``imaginary`` are the lengths of the intervals on the
+    negative real and the positive imaginary axis. If a length exceeds :data:`FARTHEST`, it is replaced by
+    infinity.
     """
 
     label: str
@@ -62,8 +61,8 @@ class Region:
 def region(method: Method) -> Region | None:
     """Return the stability function and the stability intervals of the tableau of a method.
 
-    The tableau is used as a Runge-Kutta method on R^n. The result is None if the stability function is not
-    known, for example for splitting methods and tableaux with inexact coefficients.
+    The result is None if the stability function is not known, for example for splitting methods and tableaux
+    with inexact coefficients.
     """
     known = get(method.family_label).stability_coefficients()
     if known is not None:
@@ -88,10 +87,10 @@ def _horner(row: Sequence[float], z: complex) -> complex:
 
 
 def reach(value: Callable[[complex], complex], direction: complex) -> float:
-    """Return the length of the stability interval that begins at 0 and has the given direction.
+    """Return the length of the interval from 0 in the given direction on which |value(z)| <= 1.
 
-    All points z of the interval satisfy |value(z)| <= 1. ``direction`` is a complex number with absolute
-    value 1. If the length exceeds :data:`FARTHEST`, the result is infinity.
+    ``direction`` is a complex number with absolute value 1. If the length exceeds :data:`FARTHEST`, the
+    result is infinity.
 
     >>> round(reach(lambda z: 1 + z, -1.0), 6), reach(lambda z: 1 / (1 - z), -1.0)
     (2.0, inf)

@@ -1,10 +1,9 @@
 """Measures order reduction: the observed order of long steps on stiff variants of a scene.
 
-A stiff variant of a scene has a fast motion with a known rate. The first run makes one step over the time
-span. In each further run, the step size h is half that of the run before. A run is in the stiff regime if the
-product of h and the rate is above one. The slope between two successive runs is the change of log(error)
-divided by the change of log(h). The median of the slopes in the stiff regime is the observed order. The
-observed order is compared with the order computed from the order conditions.
+A stiff variant of a scene has a fast motion with a known rate. In each further run, the step size h is half
+that of the run before. A run is in the stiff regime if the product of h and the rate is above one. The slope
+between two successive runs is the change of log(error) divided by the change of log(h). The observed order is
+the median of the slopes in the stiff regime.
 """
 
 from __future__ import annotations
@@ -26,16 +25,10 @@ from codegen.method import Method
 from codegen.scene.stiff_variant import StiffVariant
 
 DOUBLINGS = 15
-"""The largest number of runs. Each run has twice as many steps as the run before.
-
-If the error of a run is as small as rounding errors, this run is the last.
-"""
+"""The largest number of runs, each with twice as many steps as the run before."""
 
 StiffRun: TypeAlias = tuple[float, float | None, str]
-"""A triple that describes one run: the step size, the error, and the reason of a failure.
-
-The error is None if the run failed. The reason is '' if the run succeeded.
-"""
+"""A run: the step size, the error (None if the run failed), and the reason of a failure (or '')."""
 
 CLOSE = 0.1
 """Runs with errors of at least CLOSE max(1, norm of the exact final state) do not count as accurate."""
@@ -49,8 +42,8 @@ class OrderReduction:
     - ``rate``: the rate of the fast motion, per unit of time.
     - ``stated``: the order computed from the order conditions.
     - ``runs``: a triple (step size, error or None, reason of a failure) for each run.
-    - ``observed``: the order observed with steps longer than 1/``rate``. If too few runs with these steps are
-      accurate enough, ``observed`` is None.
+    - ``observed``: the order observed with steps longer than 1/``rate``, or None if too few runs are
+      accurate.
     - ``verdict``: a sentence about the observed order or the usable step sizes.
     """
 
@@ -118,10 +111,7 @@ def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> 
 def _verdict(
     stated: int, observed: float | None, runs: Sequence[StiffRun], size: float, variant: StiffVariant
 ) -> str:
-    """Return a sentence about the observed order.
-
-    If no order is observed, the sentence describes the usable step sizes.
-    """
+    """Return a sentence about the observed order, or about the usable step sizes if no order is observed."""
     close = [h for h, e, _ in runs if e is not None and e < CLOSE * size]
     if not close:
         failed = [why for _, e, why in runs if e is None]
