@@ -36,9 +36,7 @@ class OrderStudy:
     - ``order``: the order from the order conditions.
     - ``convergences``: the convergence for each target (programming language).
     - ``times``: the CPU times of runs with the default target.
-    - ``spread``: the largest difference in a coordinate of the final state (:func:`largest_difference`). The
-      first target is compared with each other target and with the interpreter. If the final states could not
-      be compared, ``spread`` is None.
+    - ``spread``: the largest difference between final states (:func:`largest_difference`), or None.
     - ``artifact``: the emitted files for the default target.
     """
 
@@ -76,11 +74,7 @@ class OrderStudy:
 
 @dataclass(frozen=True)
 class _Measured:
-    """The part of an :class:`OrderStudy` that is stored in the cache.
-
-    ``refinements`` contains the runs for each target. ``times`` and ``spread`` are
-    explained in :class:`OrderStudy`.
-    """
+    """The part of an :class:`OrderStudy` that is stored in the cache."""
 
     refinements: dict[str, Refinement]
     times: tuple[Timing, ...]
@@ -92,7 +86,7 @@ def order_study(
 ) -> OrderStudy:
     """Return the study of the order of one compiled method.
 
-    ``exact`` is the reference solution. Results that are stored in ``cache`` are not measured again.
+    Results that are stored in ``cache`` are not measured again.
     """
     scene, method = compiled.scene, compiled.method
     name = f"{scene.name}, {method.label}"
@@ -123,12 +117,10 @@ def order_study(
 
 
 def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:
-    """Return the largest difference of a coordinate between final states of the runners.
+    """Return the largest difference of a coordinate between the final states of the first and another runner.
 
-    The final state of the first runner is compared with the final state of each other runner. All runners
-    make the same number n of steps. The number n is the first entry of ``steps`` that satisfies two
-    conditions: n is at least :data:`COMPARED`, and all runs with n steps succeed. If there is no such entry,
-    the result is None.
+    All runners make the same number n of steps. The number n is the first entry of ``steps`` that is at
+    least :data:`COMPARED` and for which all runs succeed. If there is no such entry, the result is None.
     """
     for n in steps:
         if n < COMPARED:

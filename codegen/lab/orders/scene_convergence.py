@@ -33,9 +33,8 @@ DIGITS = (DOUBLE, 60)
 class ConvergenceTest:
     """A convergence test of methods on a scene.
 
-    :meth:`of` creates a test from the arguments of the user, and :meth:`result` runs one method.
-    ``equations`` is the problem that the methods integrate: the equations of the scene in the variables of
-    ``form``. If ``form`` is None, ``equations`` is ``scene``.
+    ``equations`` contains the equations of the scene in the variables of ``form``. If ``form`` is None,
+    ``equations`` is ``scene``.
     """
 
     scene: Problem
@@ -131,13 +130,11 @@ def converge(
     stated: int | None = None,
     progress: Progress = str,
 ) -> Convergences:
-    """Measure the order of methods on a scene, and compare the measured order with the expected order.
+    """Measure the order of methods on a scene, and compare the measured order with ``stated``.
 
-    The expected order is ``stated``. If ``stated`` is None, the order conditions give the expected order. The
-    arguments are those of the command ``orderconds converge``. A method is given by its name or by an
-    :class:`orderconds.Tableau`. If a method cannot be emitted for the scene, its result contains the reason.
-    Wrong arguments raise InputError or one of its subclasses SceneError, MethodError, UnknownName and
-    TableauError.
+    By default, ``stated`` is the order from the order conditions. The arguments are those of the command
+    ``orderconds converge``. If a method cannot be emitted for the scene, its result contains the reason.
+    Wrong arguments raise InputError.
     """
     if not methods:
         raise InputError("no method", where="converge", expected="at least one method, such as cf4")

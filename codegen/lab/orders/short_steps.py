@@ -1,14 +1,13 @@
 """Measures the order of a method with steps that are far shorter than every time scale of the scene.
 
-A small parameter of the scene can hide the leading term of the error. For example, let the error of a run be
-e h^p + h^(p+1), where e is the parameter and h is the step size. If h is much larger than e, the observed
-order is p + 1 and not p. If h is much smaller than e, the first term dominates, and the observed order is p.
-The error of such short steps is tiny. Therefore the steps are computed with 100 decimal digits.
+A small parameter e of the scene can hide the leading term of the error. For example, let the error of a run
+be e h^p + h^(p+1), where h is the step size. If h is much larger than e, the observed order is p + 1 and not
+p. If h is much smaller than e, the observed order is p. The steps are computed with 100 decimal digits,
+because the error of such short steps is tiny.
 
 No reference solution is needed. Let the error of one step of size h be C h^(p+1) to leading order. The error
-of two steps of size h/2 is then 2 C (h/2)^(p+1). The difference between the two errors is proportional to
-h^(p+1), and it equals the difference between the two computed states. Therefore the slope of log(difference)
-against log(h) is p + 1.
+of two steps of size h/2 is then 2 C (h/2)^(p+1). Therefore the slope of log(difference of the two computed
+states) against log(h) is p + 1.
 """
 
 from __future__ import annotations
@@ -26,10 +25,9 @@ from codegen.lower import problem_for
 
 DIGITS = 100
 SMALLEST = 70
-"""The shortest step size h satisfies (h/T)^(p+2) = 10^-SMALLEST.
+"""Defines the shortest step size h for order p and a time span of length T: (h/T)^(p+2) = 10^-SMALLEST.
 
-The number p is the expected order, and T is the length of the time span. Numbers of the size (h/T)^(p+2) are
-then much larger than the rounding errors of arithmetic with 100 digits.
+Numbers of this size are much larger than the rounding errors of arithmetic with 100 digits.
 """
 
 STEPS, RATIO = 3, 8
@@ -44,7 +42,7 @@ SWEEPS = 400
 def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
     """Return the order of a method, measured with very short steps from the initial state of the scene.
 
-    The step sizes are computed from the expected order ``stated``. The result is None in three cases:
+    ``stated`` is the expected order. The result is None in three cases:
 
     - A step cannot be computed.
     - For some step size h, one step of size h and two steps of size h/2 give the same state.
@@ -65,10 +63,7 @@ def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
 
 
 def _gap(compiled: Optimised, state: Sequence[Scalar], first: float, size: float) -> Scalar:
-    """Compare one step of length ``size`` from the time ``first`` with two half steps.
-
-    The result is the largest absolute difference in a coordinate of the final state.
-    """
+    """Return the largest difference of a coordinate between a step of length ``size`` and two half steps."""
     context = PreciseDomain(0, DIGITS).context
     t, h = context.mpf(first), context.mpf(size)
 

@@ -1,18 +1,15 @@
 """Measures the order of a method in runs with different step sizes, and compares it with the stated order.
 
-Each slope is computed from two consecutive runs. The slope is the logarithm of the ratio of the errors,
-divided by the logarithm of the ratio of the step sizes. A run is excluded if it fails or if its error is too
-small to be measured. The excluded runs divide the sequence of runs into sections. Only the longest section is
-used.
+A slope is the logarithm of the ratio of the errors of two consecutive runs, divided by the logarithm of the
+ratio of their step sizes. A run is excluded if it fails or if its error is too small to be measured. Only the
+longest section of runs without an excluded run is used.
 
-Let p be the order of the method, and let h be the step size. For a smooth problem, the difference between a
-slope and p is approximately proportional to h. Let d be this difference for one slope. If the step sizes of
-the preceding slope are r times as large, the difference between the preceding slope and p is about r d. The
-two slopes then differ by about (r - 1) d. Therefore their difference, divided by r - 1, is an estimate of d.
-The slopes have *settled* if this estimate is at most :data:`SETTLED` for each of the last two slopes.
+For a smooth problem, the difference d between a slope and the order is approximately proportional to the step
+size. If the step sizes of the preceding slope are r times as large, the two slopes differ by about (r - 1) d.
+Therefore their difference, divided by r - 1, is an estimate of d. The slopes have *settled* if this estimate
+is at most :data:`SETTLED` for each of the last two slopes.
 
-The last slope is compared with the stated order. The two numbers may differ by at most :data:`TOLERANCE`.
-Therefore a method fails if its order is lower or higher than stated.
+The last slope and the stated order may differ by at most :data:`TOLERANCE`.
 """
 
 from __future__ import annotations
@@ -27,17 +24,15 @@ TOLERANCE = 0.25
 CLEAR = 100.0
 """A run is used for slopes only if the error of the run is larger than two bounds.
 
-The first bound is CLEAR times the estimated rounding error of the run. The second bound is CLEAR times the
-uncertainty of the reference solution. Rounding then changes the error of the run by less than 1 %, and so
-does the uncertainty of the reference solution. If the step sizes of two runs differ by a factor of 2, each of
-the two changes the slope by less than 0.03.
+The bounds are CLEAR times the estimated rounding error of the run and CLEAR times the uncertainty of the
+reference solution. If the step sizes of two runs differ by a factor of 2, rounding changes the slope by less
+than 0.03, and so does the uncertainty.
 """
 
 ZERO = 0.5
 """If the order measured with very short steps is at most ZERO, this order is ignored.
 
-If the coefficients of a method are rounded, they do not satisfy the order conditions exactly. With very short
-steps, this inaccuracy dominates the error. The measured order can then be close to 0.
+If the coefficients of a method are rounded, the measured order can be close to 0.
 """
 
 FIRST = 5
@@ -62,7 +57,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Refinement:
-    """Runs of a method with different step sizes. The properties give the observed order of the method.
+    """Runs of a method with different step sizes.
 
     In ``runs``, the step sizes decrease. ``short`` is the order measured with very short steps
     (:mod:`codegen.lab.orders.short_steps`), or None if it was not measured.
@@ -85,19 +80,15 @@ class Refinement:
 
     @property
     def slopes(self) -> tuple[float, ...]:
-        """The slopes of log(error) against log(step size).
-
-        Each slope is computed from two consecutive runs. Only the runs in :attr:`clean` are used.
-        """
+        """The slopes of log(error) against log(step size) for consecutive runs in :attr:`clean`."""
         return slopes(self.clean)
 
     @property
     def settled(self) -> bool:
         """True if the last two slopes are close to the limit of the slopes as the step size tends to 0.
 
-        The limit is not known. Therefore the distance of a slope from the limit is estimated
-        (:mod:`codegen.lab.orders.step_sizes`). For both slopes, the estimated distance must be at most
-        :data:`SETTLED`.
+        The estimated distance of each slope from the limit is at most :data:`SETTLED`
+        (:mod:`codegen.lab.orders.step_sizes`).
         """
         last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
         changes = [abs(b - a) for a, b in pairwise(last)]
@@ -112,18 +103,17 @@ class Refinement:
         """Compare the measured order with ``stated``, and return ``holds``, ``fails`` or ``undecided``.
 
         Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). A
-        number counts as equal to ``stated`` if the difference is at most :data:`TOLERANCE`. If the difference
-        is larger, the number is above or below ``stated``.
+        number counts as equal to ``stated`` if the difference is at most :data:`TOLERANCE`. Otherwise, it is
+        above or below ``stated``.
 
-        If there is no slope, the verdict is ``undecided``.
+        If there is no slope, the verdict is ``undecided``. If the slopes have settled (:attr:`settled`), the
+        first rule that applies gives the verdict:
 
-        If the slopes have settled (:attr:`settled`), the first rule that applies gives the verdict:
-
-        - If s is below ``stated``, the verdict is ``fails``. If s is at most :data:`ZERO`, skip this rule.
-        - If p equals ``stated``, the verdict is ``holds``.
-        - If s equals ``stated`` and p is above ``stated``, the verdict is ``holds``.
-        - If s equals ``stated`` and p is below ``stated``, the verdict is ``undecided``.
-        - In all other cases, the verdict is ``fails``.
+        - ``fails`` if s is above :data:`ZERO` and below ``stated``,
+        - ``holds`` if p equals ``stated``,
+        - ``holds`` if s equals ``stated`` and p is above ``stated``,
+        - ``undecided`` if s equals ``stated`` and p is below ``stated``,
+        - ``fails`` in all other cases.
 
         If the slopes have not settled, the verdict is ``undecided`` with one exception. If :attr:`too_fine`
         is True, s equals ``stated``, and p is not below ``stated``, the verdict is ``holds``.
@@ -163,13 +153,12 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
     """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
 
-    ``run(n)`` makes a run with n steps. No run has more than ``most`` steps. If ``to_rounding`` is False, the
-    function stops as soon as the slopes have settled. If at least one run is usable, the function also stops
-    when the error of a run is too small to be measured.
+    No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as the slopes
+    have settled. After a usable run, the function also stops when an error is too small to be measured.
 
     The function adds runs if the slopes have not settled, the last run is excluded and other runs are usable.
-    For each usable run with n steps, the function adds runs with 6/5 n and 7/5 n steps. The function also
-    adds runs with fewer than N steps (:data:`LONGER`).
+    The added runs have 6/5 n or 7/5 n steps for a usable run with n steps, or fewer than N steps
+    (:data:`LONGER`).
     """
     runs: list[Run] = []
     steps = FIRST
@@ -193,7 +182,7 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
 def rounding(steps: int, epsilon: float, size: float) -> float:
     """Return an estimate of the largest accumulated rounding error of a run.
 
-    The estimate is the product of the number of steps, the machine epsilon ``epsilon`` and the size of the
-    state, ``size``. If ``size`` is below 1, it is replaced by 1.
+    ``epsilon`` is the machine epsilon, and ``size`` is the size of the state. A ``size`` below 1
+    is replaced by 1.
     """
     return steps * epsilon * max(1.0, size)

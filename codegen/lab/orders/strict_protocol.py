@@ -1,9 +1,7 @@
 """The strict protocol: a test of the order of a method on demanding scenes, in arithmetic with 50 digits.
 
-For each scene of :mod:`codegen.lab.orders.strict_scenes`, the slopes of log(error) against log(step size) are
-compared with a stated order. In general, a method passes on a scene if the slopes settle as the step size
-decreases, and if the last slope differs from the stated order by at most 0.25. A method whose order is lower
-or higher than stated does not pass.
+The slopes of log(error) against log(step size) are compared with a stated order. In general, a method passes
+on a scene if the slopes settle, and if the last slope differs from the stated order by at most 0.25.
 """
 
 from __future__ import annotations
@@ -50,9 +48,9 @@ def strict(
 ) -> Iterator[Convergence]:
     """Test the order of the method on each scene, and yield the results.
 
-    By default, the scenes are those of :func:`strict_scenes` for the family of the method. Before each
-    test, ``tell`` is called with a text that names the method and the scene. ``alter`` changes the compiled
-    method before the test. For example, ``alter`` inserts an error, and a caller checks that the test fails.
+    By default, the scenes are those of :func:`strict_scenes` for the family of the method. Before each test,
+    ``tell`` is called with a text that names the method and the scene. ``alter`` changes the compiled method
+    before the test.
     """
     for scene in strict_scenes(lowering(method.family)) if scenes is None else scenes:
         tell(f"{method.label} on {scene.name}")

@@ -1,20 +1,16 @@
-"""The scenes (test problems) of the strict protocol. The protocol tests the order of a method.
+"""The scenes (test problems) of the strict protocol.
 
-The scenes have no symmetry that could hide an error in a method.
-
-The documentation of some published software states order 4 for methods whose true order is 2. The tests of
-the software did not show the true order, because the equations of the tests were too special. The tests used
-rotations about one axis, axes of rotation orthogonal to the state, or fields that do not depend on time.
+The scenes have no symmetry that could hide an error in a method. Rotations about one axis, axes of rotation
+orthogonal to the state, and fields that do not depend on time can hide errors.
 
 Each kind of method has its own scenes:
 
 - Methods for general fields run on equations y' = f(t, y).y with the state y and the time t. The value
   f(t, y) is in the Lie algebra of a group, and the dot is the action of the Lie algebra on y. The function f
   is polynomial, and its values for different t and y do not commute. The groups are SO(3), GL(3) and the
-  group of unipotent 4 x 4 matrices. Each group acts on itself or on vectors.
-- Variational methods run on T*G, where G is a group. The Hamiltonians have no symmetry and depend on time.
+  group of unipotent 4 x 4 matrices.
+- Variational methods run on T*G, where G is a group. The Hamiltonians depend on time.
 - Methods for linear equations run on equations y' = A(t).y. The value A(t) is in the Lie algebra of a group.
-  The group acts from the left or from the right.
 - Splitting methods run on Hamiltonians that are a sum of three terms. The exact flow of each term is known.
   The flows of different terms do not commute.
 """
@@ -90,8 +86,8 @@ def _turn() -> Matrix:
 def _sphere() -> Problem:
     """Return a scene in which SO(3) acts on a sphere.
 
-    The vector f(t, y) is the axis of the rotation of the state y. The axis is not orthogonal to y. With an
-    orthogonal axis, a test could miss errors of a method.
+    The axis f(t, y) of the rotation is not orthogonal to the state y, because an orthogonal axis can hide
+    errors.
     """
     t, m = Symbol("t", real=True), SO3().dual("m")
     return FieldScene(
@@ -177,16 +173,16 @@ def hamiltonians() -> tuple[Problem, ...]:
 
 @cache
 def split_hamiltonians() -> tuple[Problem, ...]:
-    """Return the scenes on which splitting methods are tested. The Hamiltonians have no symmetry.
+    """Return the scenes on which splitting methods are tested.
 
-    Each Hamiltonian is a sum of three terms, and the exact flow of each term is known. The terms are the
-    kinetic energy T, the gyroscopic term G of a rotating frame, and the potential energy V.
+    Each Hamiltonian is the sum of the kinetic energy T, the gyroscopic term G of a rotating frame, and the
+    potential energy V.
     """
     return _rotating_plane(), _rotating_top()
 
 
 def _rotating_plane() -> Problem:
-    """Return the scene of a particle in a rotating plane. The potential has no symmetry."""
+    """Return the scene of a particle in a rotating plane."""
     q, p = Rn(2).point("q"), Rn(2).dual("p")
     parts = {
         "T": p.dot(p) / 2,
@@ -207,7 +203,7 @@ def _rotating_plane() -> Problem:
 
 
 def _rotating_top() -> Problem:
-    """Return the scene of a rigid body in a rotating frame. The potential has no symmetry."""
+    """Return the scene of a rigid body in a rotating frame."""
     group = SO3()
     q, mu = group.point("q"), group.dual("p")
     inverse = Matrix.diag(1, 1, Rational(5, 2))
@@ -232,11 +228,10 @@ def _rotating_top() -> Problem:
 
 @cache
 def linear_fields() -> tuple[Problem, ...]:
-    """Return the scenes on which methods for linear equations are tested.
+    """Return the scenes on which methods for linear equations y' = A(t).y are tested.
 
-    Each scene has an equation y' = A(t).y with the state y. A(t) is in the Lie algebra of a group, and the
-    dot is the action of the Lie algebra on y. The group acts from the right in one scene, and from the left
-    in the other scenes.
+    A(t) is in the Lie algebra of a group. The group acts from the right in one scene, and from the left in
+    the other scenes.
     """
     t, half = Symbol("t", real=True), Rational(1, 2)
     turns = Matrix([1 - 2 * t + 3 * t**4, 2 * t - half + t**5, 1 + t**2 - t**3 + 2 * t**6])
@@ -267,13 +262,7 @@ def _of_time(name: str, group: LieGroup, action: Action, f: Matrix, start: Seque
 
 
 def strict_scenes(family: Lowering) -> tuple[Problem, ...]:
-    """Return the scenes on which the methods of a family are tested.
-
-    - Methods for linear equations: :func:`linear_fields`.
-    - Splitting methods: :func:`split_hamiltonians`.
-    - Other methods for Hamiltonian systems: :func:`hamiltonians`.
-    - All other methods: :func:`fields`.
-    """
+    """Return the scenes on which the methods of a family are tested."""
     if isinstance(family, LinearLowering):
         return linear_fields()
     if isinstance(family, FlowLowering):

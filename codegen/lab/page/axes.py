@@ -20,15 +20,11 @@ SIZE = (4.7, 3.9)
 LINE = 0.175
 """Height of a line of the legend in inches.
 
-A figure has room for a legend of three lines. If the legend has more lines, the figure is made higher by
-LINE for each additional line.
+If the legend has more than three lines, the figure is made higher by LINE for each additional line.
 """
 
 LONG_LABEL = 27
-"""The largest number of characters of a label in a legend with two columns.
-
-If a label has more characters, the legend of a figure with the default width ``SIZE[0]`` has one column.
-"""
+"""The largest number of characters of a label in a legend with two columns, at the default figure width."""
 
 
 class Appearance(TypedDict):
@@ -46,7 +42,7 @@ def new_figure(
 ) -> tuple[Figure, tuple[Axes, ...]]:
     """Return a figure in the style of the report, and the tuple of its axes, listed row by row.
 
-    ``rows`` and ``columns`` are the numbers of axes. ``size`` is the width and height in inches.
+    ``size`` is the width and height in inches.
     """
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
@@ -116,7 +112,7 @@ def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
 
 
 def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | None = None) -> None:
-    """Draw the legend above the axes. If several curves have the same label, the label is listed once.
+    """Draw the legend above the axes, with one entry for each label.
 
     In the SVG element, the legend entry with the number k has the identifier ``key:k``. ``numbers`` maps each
     label to its number. By default, the entries are numbered 0, 1, 2, ....

@@ -1,8 +1,7 @@
 """The HTML documents of the report: a page for each scene, and an overview with links to the pages.
 
-Each document contains its style sheet, its figures and a script, and loads no other files. With the script,
-the reader can display the values of markers and hide curves. A browser that does not run the script shows the
-whole document.
+Each document contains its style sheet, its figures and a script, and loads no other files. A browser that
+does not run the script shows the whole document.
 """
 
 from __future__ import annotations
@@ -96,7 +95,7 @@ def render_overview(summaries: Sequence[Summary], command: str) -> str:
 
 
 def _formatted(paragraph: str) -> Markup:
-    """Return a paragraph of a docstring as HTML. Text in double or single backquotes is shown as code."""
+    """Return a paragraph of a docstring as HTML, with text in double or single backquotes as code."""
     # The list ``parts`` contains plain text and code alternately, and begins with plain text.
     parts = re.split(r"`{1,2}([^`]+)`{1,2}", paragraph)
     return Markup("").join(
@@ -105,12 +104,12 @@ def _formatted(paragraph: str) -> Markup:
 
 
 def _html(section: Section, styles: Styles) -> Markup:
-    """Return a section as HTML. Special characters are escaped, except in objects of the class ``Markup``."""
+    """Return a section as HTML, with special characters escaped except in objects of the class ``Markup``."""
     return Markup(_environment().from_string(section.template).render(section.data, styles=styles))
 
 
 def _marked(sentence: str, labels: Sequence[str]) -> Markup:
-    """Return a sentence as HTML. Names of methods and peers in the sentence are marked as code."""
+    """Return a sentence as HTML, with the names of methods and peers marked as code."""
     pattern = "|".join(re.escape(escape(label)) for label in sorted(labels, key=len, reverse=True))
     text = str(escape(sentence))
     return Markup(re.sub(rf"(?<![\w:])({pattern})(?![\w:])", r"<code>\1</code>", text) if labels else text)
@@ -143,7 +142,7 @@ def _environment() -> Environment:
 
 
 def _breakable(name: str) -> Markup:
-    """Return a name as HTML. The browser may break the line after a colon or an underscore of the name."""
+    """Return a name as HTML that permits a line break after a colon or an underscore."""
     return Markup(re.sub("([:_])", r"\1<wbr>", str(escape(name))))
 
 

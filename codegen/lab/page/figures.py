@@ -32,9 +32,8 @@ Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 class Curve:
     """A labelled sequence of points (x, y) with its style.
 
-    ``order`` is the slope of a reference line. A curve without a reference line has the order None.
-    ``upper`` is empty, or it contains a number u for each point (x, y). A horizontal bar shows the range from
-    x to u.
+    ``order`` is the slope of the reference line, or None. ``upper`` is empty, or it contains a number u for
+    each point (x, y). A horizontal bar shows the range from x to u.
     """
 
     label: str
@@ -48,8 +47,7 @@ class Curve:
 class _Drawing:
     """A figure to which curves are added.
 
-    The curves are numbered 0, 1, 2, .... ``values`` maps the number of a curve to a list of texts, one for
-    each marker. The browser displays the text of a marker if the pointer is on the marker.
+    ``values`` maps the number of a curve (from 0) to the tooltips of its markers.
     """
 
     figure: Figure
@@ -57,10 +55,9 @@ class _Drawing:
     values: dict[int, list[str]] = field(default_factory=dict)
 
     def draw(self, curve: Curve, value: Callable[[float, float], str], marks: Sequence[int]) -> None:
-        """Draw a curve. ``marks`` contains the indices of the points with markers.
+        """Draw a curve with markers at the points with the indices ``marks``.
 
-        If the pointer is on the marker at (x, y), the browser displays the label of the curve and the text
-        ``value(x, y)``.
+        The tooltip of the marker at (x, y) contains the label of the curve and the text ``value(x, y)``.
         """
         number, style = len(self.values), curve.style
         x, y = zip(*curve.points, strict=True)
@@ -70,7 +67,7 @@ class _Drawing:
         line.set_gid(f"series:{number}")
         self.values[number] = [f"{curve.label}: {value(*curve.points[k])}" for k in marks]
         if curve.upper:
-            # All horizontal bars are drawn as one line. The line is interrupted where a coordinate is NaN.
+            # All horizontal bars are drawn as one line, which is interrupted where a coordinate is NaN.
             ends = [z for (a, _), b in zip(curve.points, curve.upper, strict=True) for z in (a, b, math.nan)]
             heights = [z for _, e in curve.points for z in (e, e, math.nan)]
             (bars,) = self.axes.plot(ends, heights, color=line.get_color(), linewidth=2.6, alpha=0.35)
@@ -85,8 +82,7 @@ class _Drawing:
 def convergence_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
     """Return a log-log diagram of error against step size.
 
-    The attribute ``order`` of a curve is the slope of a dashed reference line. Curves with the same ``order``
-    share one reference line.
+    Curves with the same ``order`` share one dashed reference line with this slope.
     """
     drawing = _drawing()
     for order in sorted({c.order for c in curves if c.order is not None}):
@@ -103,11 +99,10 @@ SLOPES = (2, 4, 8)
 
 
 def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
-    """Return a log-log diagram of error against CPU time. Each run covers the time span of the scene.
+    """Return a log-log diagram of error against CPU time.
 
-    If all steps of a run are equal, the CPU time T is proportional to the number of steps. Therefore the
-    error of a method of order p is proportional to T^(-p). The diagram contains a reference line of slope -p
-    for each p of :data:`SLOPES`.
+    With equal steps, the error of a method of order p is proportional to T^(-p), where T is the CPU time. The
+    diagram contains a reference line of slope -p for each p of :data:`SLOPES`.
     """
     drawing = _drawing()
     for curve in curves:
@@ -157,9 +152,8 @@ The first two numbers bound the real part, and the last two numbers bound the im
 GRID = 120
 """The number of grid points along each axis of a diagram of stability regions.
 
-With this number, the grid on :data:`PLANE` has no point on the imaginary axis. For many methods, the absolute
-value of the stability function is 1 on this axis. For a grid point on the axis, rounding errors would decide
-whether the point is in the stability region.
+With this number, no grid point is on the imaginary axis. For many methods, rounding errors would decide
+whether such a point is in the stability region.
 """
 
 MARGIN = 0.7
@@ -174,8 +168,6 @@ def region_figure(name: str, title: str, functions: Sequence[Function]) -> Marku
 
     ``functions`` contains a triple for each method: its label, its style and its stability function R. The
     stability region contains the points z of the complex plane with |R(z)| <= 1.
-    Markers are drawn on the boundary. If two methods have the same boundary, the markers of the two
-    methods are at different points.
     """
     drawing, plane = _drawing(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes
@@ -205,19 +197,14 @@ def region_figure(name: str, title: str, functions: Sequence[Function]) -> Marku
 
 @dataclass(frozen=True)
 class _Plane:
-    """A rectangular grid of points x + iy in the complex plane. ``xs`` and ``ys`` are the values of x and
-    y.
-    """
+    """A rectangular grid of points x + iy in the complex plane, with x in ``xs`` and y in ``ys``."""
 
     xs: tuple[float, ...]
     ys: tuple[float, ...]
 
     @classmethod
     def between(cls, left: float, right: float, low: float, high: float) -> _Plane:
-        """Return the grid on a rectangle.
-
-        ``left`` and ``right`` bound the real part. ``low`` and ``high`` bound the imaginary part.
-        """
+        """Return the grid of points x + iy with ``left`` <= x <= ``right`` and ``low`` <= y <= ``high``."""
         xs, ys = (
             tuple(a + (b - a) * k / (GRID - 1) for k in range(GRID)) for a, b in ((left, right), (low, high))
         )
@@ -246,10 +233,9 @@ class _Plane:
         return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
 
     def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
-        """Return the absolute values of ``function`` at grid points. Each inner list belongs to one y.
+        """Return the absolute values of ``function`` at every ``step``-th x and y of the grid.
 
-        The grid points are those whose indices in ``xs`` and ``ys`` are multiples of ``step``. Values above
-        1000 are replaced by 1000.
+        Each inner list belongs to one y. Values above 1000 are replaced by 1000.
         """
         return [[min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]]
 
@@ -257,9 +243,9 @@ class _Plane:
 def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
     """Choose at most ``count`` positions at about equal distances, and return their indices.
 
-    ``positions`` is an increasing sequence. The interval from the first to the last position is divided into
-    ``count`` equal intervals. In each of these intervals, ``shift`` (from 0 to 1) selects a point: 0 is the
-    beginning of the interval, and 1 is the end. The position nearest to this point is chosen.
+    The interval from the first to the last of the increasing ``positions`` is divided into ``count`` equal
+    intervals. In each interval, the position nearest to the point at the fraction ``shift`` (from 0 to 1) is
+    chosen.
 
     >>> spread([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], 3, 0.5)
     [1, 4, 7]
@@ -311,10 +297,7 @@ def _description(x: str, y: str, curves: Sequence[Curve]) -> str:
 
 
 def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
-    """Draw the line y = C h^order over the step sizes h of a curve.
-
-    With the chosen constant C, the line is slightly below the curve at the smallest step size.
-    """
+    """Draw a line y = C h^order that is slightly below the curve at the smallest step size h."""
     x = sorted(p[0] for p in curve.points)
     finest = min(curve.points)
     y = [0.45 * finest[1] * (h / finest[0]) ** order for h in (x[0], x[-1])]
@@ -323,11 +306,7 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 
 
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
-    """Draw a reference line of slope -p for each p of :data:`SLOPES`, in a corner of the diagram.
-
-    The lines are in the lower left or the upper right corner, because the curves seldom reach these corners.
-    The function chooses the corner with fewer ``points``.
-    """
+    """Draw lines of slope -p for each p of :data:`SLOPES`, in a corner that the curves seldom reach."""
     if not points:
         return
     left, right = map(math.log10, axes.get_xlim())

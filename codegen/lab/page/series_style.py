@@ -8,9 +8,6 @@ The dash pattern of a line has the following meanings:
 - Dash-dotted: a method with step-size control.
 - Dotted: a method with equal steps, in a target (programming language) that is not the default target.
 - Dashed, with open markers: a peer (another integrator, measured for comparison).
-
-Colour-blind readers can distinguish the colours. In grey print, markers and dash patterns distinguish the
-methods.
 """
 
 from __future__ import annotations
@@ -26,7 +23,7 @@ from codegen.lab.peers import PEERS
 from codegen.printers import names
 
 COLOURS = 8
-"""The number of colours for curves. The colours are the CSS variables ``--series-1``, ``--series-2``, ...."""
+"""The number of colours for curves, which are the CSS variables ``--series-1``, ``--series-2``, ...."""
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h", "p", "*")
 """The markers in the notation of Matplotlib."""
@@ -52,8 +49,8 @@ class Style:
     """The appearance of a curve.
 
     ``colour`` is a CSS variable of the page, and ``marker`` is one of :data:`MARKERS`. ``dash`` contains the
-    lengths of dashes and gaps as multiples of the line width. ``dash`` is empty for a solid line. If
-    ``hollow`` is True, only the outlines of the markers are drawn.
+    lengths of dashes and gaps as multiples of the line width. If ``hollow`` is True, only the outlines of the
+    markers are drawn.
     """
 
     colour: str
@@ -63,11 +60,7 @@ class Style:
 
 
 def numbered(place: int) -> Style:
-    """Return the style of the curve with the number ``place``. The curves of a figure are numbered from 0.
-
-    The colours repeat after :data:`COLOURS` curves. The markers repeat after len(MARKERS) curves, and
-    the dash patterns repeat after len(DASHES) curves.
-    """
+    """Return the style of the curve with the number ``place``, counted from 0."""
     colour = f"var(--series-{place % COLOURS + 1})"
     return Style(colour, MARKERS[place % len(MARKERS)], DASHES[place % len(DASHES)])
 
@@ -75,9 +68,8 @@ def numbered(place: int) -> Style:
 class Styles:
     """The styles of all methods and peers (other integrators) in a report or picture.
 
-    The default methods (the methods in ``PICTURED``) have fixed colours and markers. Another method gets the
-    colour and the marker that fewest methods have. If several colours or markers are equally rare, the name
-    of the method determines the choice.
+    The methods in ``PICTURED`` have fixed colours and markers. Another method gets the colour and the marker
+    that fewest methods have.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
@@ -96,8 +88,8 @@ class Styles:
     def of(self, label: str) -> Style:
         """Return the style of the method or peer (other integrator) that ``label`` names.
 
-        The label may begin with ``adaptive``, and may end with a remark in brackets. The remark is a target,
-        for example ``C``, or a form of the equations, for example ``body momentum``.
+        The label may begin with ``adaptive``, and may end with a target or a form of the equations in
+        brackets.
         """
         name = method_name(label)
         if name in PEERS:
@@ -125,10 +117,9 @@ def _digest(name: str) -> int:
 
 @cache
 def _fixed() -> Mapping[str, Place]:
-    """Return a dictionary that maps each default method to the indices of its colour and its marker.
+    """Return a dictionary that maps each method in ``PICTURED`` to the indices of its colour and its marker.
 
-    The default methods are the methods in ``PICTURED``. Each tuple in ``PICTURED`` lists methods that may
-    appear together in one picture. If possible, the methods of a tuple have different colours and markers.
+    If possible, the methods of a tuple in ``PICTURED`` have different colours and markers.
     """
     places: dict[str, Place] = {}
     for name in dict.fromkeys(name for group in PICTURED for name in group):
@@ -141,8 +132,8 @@ def _fixed() -> Mapping[str, Place]:
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
     """Return the index of the colour and the index of the marker that occur least often in ``used``.
 
-    If several markers are equally rare, the function prefers a pair (colour, marker) that is neither in
-    ``used`` nor in ``taken``. If several colours or markers remain, ``first`` determines the choice.
+    Between equally rare markers, the function avoids pairs (colour, marker) in ``taken``, and ``first``
+    decides the rest.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

@@ -1,12 +1,11 @@
 """Converts Matplotlib figures to SVG elements, with the colours and fonts of the page.
 
-Matplotlib draws with placeholder colours. In the SVG, the placeholders are replaced by CSS variables. The
-variables have different values in light and in dark mode. Text is written as SVG text, not as outlines. The
-identifiers in the SVG depend only on the drawn shapes and the name of the figure. Therefore, if a figure is
-drawn again, the SVG does not change. Figures with different names have different identifiers.
+The placeholder colours in the Matplotlib figure are replaced by CSS variables. The identifiers in the SVG
+depend only on the drawn shapes and the name of the figure. Therefore, if a figure is drawn again, the SVG
+does not change.
 
-The elements of a curve have the attribute ``data-series``, and the legend entry of the curve has the
-attribute ``data-key``. The script of the page uses these attributes to show and hide the curve.
+For the script of the page, the elements of a curve have the attribute ``data-series``, and the legend entry
+of the curve has the attribute ``data-key``.
 """
 
 from __future__ import annotations
@@ -48,10 +47,7 @@ LIGHT = {
     "var(--paper)": "#ffffff",
     "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
 } | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
-"""The value of each CSS variable in a figure that is saved as a separate file.
-
-A value is a colour or a list of fonts.
-"""
+"""The value of each CSS variable in a figure that is saved as a separate file."""
 
 STYLE: dict[str, object] = {
     "svg.fonttype": "none",
@@ -82,8 +78,7 @@ class Text:
 
     - ``name``: a name that no other figure of the page has.
     - ``title`` and ``description``: texts that screen readers read aloud.
-    - ``values``: maps the index of a curve to a list of texts, one for each marker of the curve. The browser
-      displays the text of a marker if the pointer is on the marker.
+    - ``values``: maps the index of a curve to the tooltips of its markers.
     """
 
     name: str
@@ -95,7 +90,7 @@ class Text:
 def svg_element(figure: Figure, text: Text) -> Markup:
     """Return the figure as an SVG element.
 
-    The element has no fixed size and contains no date. All colours are CSS variables of the page.
+    The element has no fixed size, and all colours are CSS variables of the page.
     """
     import matplotlib
 
@@ -116,11 +111,9 @@ def svg_element(figure: Figure, text: Text) -> Markup:
 
 
 def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
-    """Return the SVG element ``drawn`` with the attributes that the script of the page uses.
+    """Replace ``id="series:k"`` by ``data-series="k"``, and ``id="key:k"`` by ``data-key="k"`` in ``drawn``.
 
-    For the curve with the number k, ``id="series:k"`` becomes ``data-series="k"``. For the legend entry of
-    the curve, ``id="key:k"`` becomes ``data-key="k"``. ``values`` maps the number of a curve to the texts of
-    its markers. Each text becomes the title of its marker.
+    ``values`` maps the number k of a curve to the titles of its markers.
     """
     before, *groups = re.split(r'<g id="series:(\d+)">', drawn)
     parts = [before]
@@ -130,11 +123,7 @@ def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
 
 
 def _with_titles(body: str, values: Sequence[str]) -> str:
-    """Add the titles ``values`` to the markers of a curve. A browser displays a title as a tooltip.
-
-    ``body`` begins with the markers of the curve. Later markers, for example the markers of the
-    legend, get no title.
-    """
+    """Add the titles ``values`` to the markers of a curve, which are the first markers in ``body``."""
     titles = iter(values)
 
     def titled(match: re.Match[str]) -> str:
@@ -179,10 +168,7 @@ def key(style: Style) -> Markup:
 
 @cache
 def _outline(marker: str) -> str:
-    """Return the outline of a Matplotlib marker as SVG path data.
-
-    The centre of the outline is (12, 5), the centre of the element that :func:`key` returns.
-    """
+    """Return the outline of a Matplotlib marker as SVG path data with the centre (12, 5)."""
     from matplotlib.markers import MarkerStyle
 
     if marker == "o":

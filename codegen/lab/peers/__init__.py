@@ -1,12 +1,11 @@
 """Peers: integrators that do not belong to this project, for comparison with emitted code.
 
-A peer integrates the differential equation of a scene in the coordinates of the state. If the library of the
-peer permits compilation, the right-hand side is compiled. The set-up time (the time before the first step,
-including compilation) is reported separately.
+A peer integrates the differential equation of a scene in the coordinates of the state. The set-up time (the
+time before the first step, including compilation) is reported separately.
 
-A peer whose name ends in ``projected`` projects the state onto the manifold after each step. The solver LSODA
-has no projected peer. LSODA is a multistep method and stores data of earlier steps. A projection of the
-state would not change these data. Therefore the data would not fit the projected state.
+A peer whose name ends in ``projected`` projects the state onto the manifold after each step. The multistep
+method LSODA has no projected peer, because its stored data of earlier steps would not fit the projected
+state.
 """
 
 from __future__ import annotations
@@ -52,10 +51,10 @@ class Run(Protocol):
 class Prepared:
     """A peer that is prepared for one scene and for one tolerance or number of steps.
 
-    - ``run``: ``run(n)`` integrates over n times the length of the time span. The default of n is 1. If the
-      integration ends early, ``run`` raises :class:`PeerFailed`.
-    - ``idle``: a function that integrates over an empty interval. The CPU time of ``idle()`` is the
-      overhead of a call of ``run``. If the overhead is negligible, ``idle`` is None.
+    - ``run``: ``run(n)`` integrates over n times the length of the time span. If the integration ends early,
+      ``run`` raises :class:`PeerFailed`.
+    - ``idle``: a function whose CPU time is the overhead of a call of ``run``, or None if the overhead is
+      negligible.
     """
 
     run: Run
@@ -67,8 +66,7 @@ class Peer:
     """An integrator for comparison: an integrator of other software, or a classical integrator in C.
 
     - ``controlled``: the quantity that the user chooses, ``"tolerance"`` or ``"steps"`` (number of steps).
-    - ``prepare(scene, control)``: prepares the peer for a scene. ``control`` is the tolerance or the number
-      of steps.
+    - ``prepare(scene, control)``: prepares the peer with the tolerance or number of steps ``control``.
     - ``version``: the name and version of the software.
     - ``projects``: True if the peer projects the state onto the manifold of the scene after each step.
     """
@@ -100,24 +98,18 @@ PEERS = {
 }
 """Maps the name of each peer to the name of its module and the name of its Python package.
 
-The module is in ``codegen.lab.peers``. If the peer needs no Python package, the name of the package is ''.
+If the peer needs no Python package, the name of the package is ''.
 """
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
-"""The tolerances for runs of peers, from loose to tight.
-
-The absolute tolerance and the relative tolerance of a run are equal.
-"""
+"""The tolerances (absolute and relative) for runs of peers, from loose to tight."""
 
 GROUPS = {
     "scipy": tuple(n for n in PEERS if n.startswith("scipy")),
     "c": ("c-dop853", "c-rk4-projected"),
     "all": tuple(PEERS),
 }
-"""Maps the name of each group of peers to the names of the peers in the group.
-
-A user can give the name of a group in place of the names of its peers.
-"""
+"""Maps the name of each group of peers to the names of the peers in the group."""
 
 
 def installed(name: str) -> bool:
