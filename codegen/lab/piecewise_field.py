@@ -1,11 +1,9 @@
 """Vector fields that are only piecewise smooth, for the reference solution of a scene.
 
-A selection (:mod:`codegen.ir.smoothness`) is an operation with several cases, for example an absolute value.
-The code calls a case a *side*. The field is smooth while the cases of all selections are constant.
-
-The margins of a selection are functions of the state and the time. All margins are positive while the current
-case applies. An event is a time at which a margin becomes zero. There the selection changes its case, and the
-integration continues with the smooth field of the new case.
+A selection (:mod:`codegen.ir.smoothness`) is an operation with several cases (*sides*), for example an
+absolute value. The margins of a selection are functions of the state and the time that are positive while the
+current case applies. At an event, a margin becomes zero, and the integration continues with the smooth field
+of the new case.
 """
 
 from __future__ import annotations
@@ -28,40 +26,30 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""The case of a selection just after a time t is determined at the time t + AHEAD.
+"""The case of a selection (an operation with several cases) just after a time t is determined at t + AHEAD.
 
-A selection is an operation with several cases. If a selection changes its case at t, rounding errors decide
-which case is found at t itself. AHEAD is much larger than the rounding error of t, and much smaller than the
-time scales of the solution.
+AHEAD is much larger than the rounding error of t, and much smaller than the time scales of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
-"""Two times after an event, measured from the event.
+"""Two times after an event, used to find the number k of continuous derivatives of the field at the event.
 
-At an event, a new smooth field replaces the old smooth field. If the first k derivatives are continuous, the
-difference of the old and the new field grows like the power k + 1 of the time after the event. The
-differences at the two times determine k.
+The difference of the smooth fields before and after the event grows like the power k + 1 of the time.
 """
 
 VANISHING = 1e-30
 """A margin whose absolute value is less than VANISHING counts as zero.
 
-A margin is a function of the state and the time. At a zero of a margin, the field can be non-smooth.
+The field can be non-smooth at a zero of a margin (a function of the state and the time).
 """
 
 SUBSTEPS = 24
-"""The largest number of points inside a step at which the signs of the margins are tested.
-
-A negative margin shows that the case of a selection has changed.
-"""
+"""The largest number of points inside a step that are tested for a changed case of a selection."""
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number that :meth:`PiecewiseField.beyond` returns for the continuous derivatives of a field.
-
-If the field has more continuous derivatives, the result is MOST.
-"""
+"""The largest number of continuous derivatives that :meth:`PiecewiseField.beyond` counts."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +57,7 @@ class PiecewiseField:
     """The smooth fields of a scene whose vector field contains selections (operations with several cases).
 
     Each combination of cases has its own smooth field. The dictionary ``compiled`` stores the results of
-    :meth:`on`. Each key contains one case of each selection.
+    :meth:`on`.
     """
 
     scene: Problem
@@ -92,9 +80,8 @@ class PiecewiseField:
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
         """Return two functions of (state, t): a smooth field, and the margins of all selections.
 
-        A selection is an operation with several cases, such as an absolute value. ``sides`` contains one case
-        of each selection. The smooth field uses the cases in ``sides``. While these cases apply, all margins
-        are positive. An absolute value has one margin, and a table has one or two margins.
+        ``sides`` contains the case of each selection (an operation with several cases) that the smooth field
+        uses. While these cases apply, all margins are positive.
         """
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
@@ -104,11 +91,10 @@ class PiecewiseField:
         return self.compiled[sides]
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
-        """Return the case of each selection just after the time t.
+        """Return the case of each selection (an operation with several cases) just after the time t.
 
-        A selection is an operation with several cases. The state just after t is computed by a short Euler
-        step from the state y with the derivative ``flow(y, t)``. By default, ``flow`` is the field of the
-        scene.
+        The state just after t is computed by a short Euler step from y with the derivative ``flow(y, t)``. By
+        default, ``flow`` is the field of the scene.
         """
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
         ahead = arb(AHEAD)
@@ -121,12 +107,11 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the case of each selection after an event, and the smoothness of the field at the event.
+        """Return the case of each selection after an event at (y, t), and the smoothness of the field there.
 
-        A selection is an operation with several cases. The event occurs at the state y and the time t.
-        ``sides`` contains the cases before the event. The smoothness is the number of continuous derivatives
-        of the field, or -1 if the field is discontinuous. Raises :class:`SceneError` if the solution slides
-        along a discontinuity of the field.
+        A selection is an operation with several cases, and ``sides`` contains the cases before the event. The
+        smoothness is the number of continuous derivatives of the field, or -1 if the field is discontinuous.
+        Raises :class:`SceneError` if the solution slides along a discontinuity of the field.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
@@ -151,19 +136,15 @@ class PiecewiseField:
 
 
 Advance = Callable[..., tuple[Vector, float]]
-"""A function of (field, y, t, length) that makes one step of the given length from the state y at the time t.
-
-The result is the new state and an estimate of the error of the new state.
-"""
+"""A function of (field, y, t, length): the state after a step from (y, t), and an estimate of its error."""
 
 
 class Sided:
-    """A vector field as a function of (state, t). The function uses the current case of each selection.
+    """A vector field as a function of (state, t), with the current case of each selection.
 
-    A selection is an operation with several cases. ``sides`` contains the current case of each selection. At
-    an event, the case of a selection changes. ``kinks`` contains the smoothness of the field at each past
-    event: the number of continuous derivatives, or -1 if the field is discontinuous. ``points`` contains the
-    pairs (state, t) of the latest evaluations of the field.
+    ``sides`` contains the current case of each selection (an operation with several cases). ``kinks``
+    contains the number of continuous derivatives at each past event, or -1 if the field is discontinuous
+    there. ``points`` contains the pairs (state, t) of the latest evaluations of the field.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -194,12 +175,10 @@ class Sided:
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Return True if a margin is negative at a tested point of a step.
+        """Return True if a selection has changed its case at a tested point of a step from (y, t) to ``new``.
 
-        A negative margin shows that the case of a selection has changed. The step begins at the state ``y``
-        and the time ``t``, has the given length, and ends at the state ``new``. The end of the step is always
-        tested. If the step is longer than twice the shortest permitted length, the points of the last
-        :data:`SUBSTEPS` evaluations of the field are tested, too.
+        The end of the step is always tested. If the step is longer than twice the shortest permitted length,
+        the points of the last :data:`SUBSTEPS` evaluations of the field are tested, too.
         """
         inner, self.points = self.points[-SUBSTEPS:], []
         if any(x < 0 for x in self.margins(new, t + length)):
@@ -207,18 +186,16 @@ class Sided:
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Find the first event in a step, and change to the cases that apply after the event.
+        """Find the first event (change of a case) in a step from (y, t), and change to the cases after the
+        event.
 
-        At an event, the case of a selection (an operation with several cases) changes. The step has the given
-        length and begins at (y, t). The result is the time and the state of the event. If the event cannot be
-        found in this step, the result is None, and the caller must try a shorter step.
+        The result is the time and the state of the event, or None if the caller must try a shorter step.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # The root search needs a margin that is positive at the beginning and negative at the end of the
-        # step. If no margin is negative at the end, or if such a margin is zero at the beginning, the caller
-        # must try a shorter step.
+        # The root search needs margins that are positive at the beginning and negative at the end of the
+        # step.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 
@@ -243,10 +220,10 @@ class Sided:
 
 
 def _root(margin: Callable[[Scalar], Scalar], low: Scalar, high: Scalar, length: Scalar) -> Scalar:
-    """Return a zero of the function ``margin`` between 0 and ``length``.
+    """Return a zero of ``margin`` between 0 and ``length``, by the Illinois variant of the false position
+    method.
 
-    The method is the Illinois variant of the false position method. ``low`` is the value of the function at
-    0 and must be positive. ``high`` is the value at ``length`` and must be negative.
+    ``margin`` must have the value ``low`` > 0 at 0, and the value ``high`` < 0 at ``length``.
     """
     a, b, moved = arb(0), length, 0
     for _ in range(MOST_SECANTS):

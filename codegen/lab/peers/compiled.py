@@ -1,13 +1,8 @@
 """Two classical integrators in C: DOP853 with step-size control, and RK4 with projection after each step.
 
-The integrators solve the differential equation of a scene in the coordinates of the state. The module
-:mod:`codegen.lab.straight_line_field` generates the C code of the right-hand side. The integrators are
-compiled with the compiler flags :data:`codegen.printers.c.module.FLAGS` of emitted modules. The coefficients
-of DOP853 come from the tableau ``dop853``.
-
 The error estimate of DOP853 uses an embedded method of order 5, and a quadrature rule of order 3. The nodes
-of the quadrature rule are the nodes of stages 1, 9 and 12. The source is section II.10 of Hairer,
-Norsett and Wanner I. Section II.4 describes the step-size control.
+of the quadrature rule are the nodes of stages 1, 9 and 12. The sources are Hairer, Norsett and Wanner I,
+sections II.10 (DOP853) and II.4 (step-size control).
 """
 
 from __future__ import annotations
@@ -46,7 +41,7 @@ def peer(name: str) -> Peer:
 
 
 def source(template: str, scene: Problem) -> str:
-    """Return the C source code of a peer for a scene. ``template`` is the file name of a template.
+    """Return the C source code of a peer for a scene, from the template file ``template``.
 
     Raises :class:`codegen.errors.SceneError` if the template contains a projection, but there is no
     projection onto the manifold of the scene.

@@ -1,8 +1,7 @@
 """heyoka: the Taylor series method with compiled recurrences, adaptive order and adaptive step size.
 
-heyoka compiles the recurrences for the Taylor coefficients. In the default mode, the compiled code is one
-unrolled function. In the compact mode, it consists of several functions with loops. The code of the default
-mode is about twice as fast, but the compilation can take minutes.
+The code of the default mode is about twice as fast as the code of heyoka's compact mode. The compilation of
+the default mode can take minutes.
 """
 
 from __future__ import annotations
@@ -14,10 +13,7 @@ from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 
 LONG = 1000
-"""If a vector field has more than LONG operations, heyoka's compact mode is used.
-
-This mode compiles faster.
-"""
+"""If a vector field has more than LONG operations, heyoka's compact mode is used, which compiles faster."""
 
 
 def peer(name: str) -> Peer:
@@ -50,6 +46,5 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
             raise PeerFailed(f"heyoka: {outcome}")
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
-    # run(0) integrates over an empty interval, and its time is the overhead of a call. heyoka computes about
-    # one step for an empty interval. Therefore, the measured overhead is slightly too large.
+    # run(0) takes slightly longer than the overhead of a call: heyoka steps even in an empty interval.
     return Prepared(run, lambda: run(0))

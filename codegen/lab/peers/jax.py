@@ -59,5 +59,5 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
         steps = int(solution.stats["num_steps"])
         return Outcome(tuple(map(float, solution.ys[-1])), steps, 12 * steps)
 
-    run()  # The first call compiles ``solve``. The compilation must not be part of a timed run.
+    run()  # Compile ``solve`` before the timed runs.
     return Prepared(run)

@@ -1,9 +1,8 @@
-"""Projection of a state onto its manifold. Users of general ODE solvers often project after each step.
+"""Projection of a state onto its manifold.
 
 A rotation matrix g is replaced by g (3 I - g^T g)/2, where I is the identity matrix and g^T is the transpose.
-The new matrix is the result of one Newton step towards the orthogonal polar factor of g. If the distance of g
-from the orthogonal matrices is e, the distance of the new matrix from the orthogonal matrices is O(e^2). A
-point near a sphere around the origin is scaled to the radius of the sphere. Momenta are not changed.
+The new matrix is the result of one Newton step towards the orthogonal polar factor of g. A point near a
+sphere around the origin is scaled to the radius of the sphere. Momenta are not changed.
 """
 
 from __future__ import annotations

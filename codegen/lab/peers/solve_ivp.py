@@ -18,7 +18,7 @@ FUNCTIONS = of_scalars(math)
 
 
 def peer(name: str) -> Peer:
-    """Return a SciPy solver for comparison. ``name`` is a name such as ``scipy-radau``.
+    """Return the SciPy solver with a name such as ``scipy-radau``, for comparison.
 
     If the name ends in ``-projected``, the state is projected onto the manifold of the scene after each step.
     """

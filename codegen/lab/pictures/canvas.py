@@ -53,15 +53,13 @@ Points: TypeAlias = "tuple[Sequence[float] | numpy.ndarray, Sequence[float] | nu
 class Canvas:
     """A picture to which curves are added.
 
-    Curves with equal labels form a series. The legend has one entry for each series. On an HTML
-    page, the user can hide all curves of a series together.
+    Curves with equal labels form a series. The legend has one entry for each series.
 
     - ``drawing``: the figure of Matplotlib.
     - ``panels``: the Matplotlib axes of the panels.
     - ``names``: the labels of the series.
-    - ``texts``: maps the index of a series in ``names`` to the texts of its markers. The browser displays
-      the text of a marker if the pointer is on the marker.
-    - ``titled``: the labels that are titles of panels. The legend omits these labels.
+    - ``texts``: maps the index of a series in ``names`` to the texts of its markers.
+    - ``titled``: the labels that the legend omits, because they are titles of panels.
     """
 
     drawing: Drawn
@@ -82,10 +80,9 @@ class Canvas:
     ) -> Canvas:
         """Return a canvas with ``count`` panels.
 
-        ``columns`` is the largest number of panels in a row. There is one exception: if ``columns`` is 2,
-        three panels are nevertheless in one row. ``height`` is the height of a panel in inches. ``width`` is
-        the width of the picture in inches. If ``width`` is 0, the number of columns determines the width. If
-        ``space`` is True, the panels have three axes.
+        ``columns`` is the largest number of panels in a row, but if ``columns`` is 2, three panels are in one
+        row. ``height`` (of a panel) and ``width`` (of the picture) are in inches. If ``width`` is 0, the
+        number of columns determines the width. If ``space`` is True, the panels have three axes.
         """
         columns = min(3 if count == 3 and columns > 1 else columns, count)
         rows = -(-count // columns)
@@ -107,9 +104,8 @@ class Canvas:
     ) -> None:
         """Draw a curve as a line.
 
-        ``points`` is a pair: the x coordinates and the y coordinates of all points. ``marks`` contains the
-        indices of the points with markers. ``texts`` contains one text for each marker. ``looks`` contains
-        keyword arguments of Matplotlib's ``plot``. The arguments in ``looks`` override ``style``.
+        ``marks`` contains the indices of the points with markers, and ``texts`` contains one text for each
+        marker. The arguments in ``looks`` override ``style``.
         """
         number = self.number(label)
         listed = "_" if label in self.titled else label
@@ -122,8 +118,7 @@ class Canvas:
     def dots(self, axes: Axes, points: Points, label: str, style: Style, alpha: float = 1.0) -> None:
         """Draw the points of a curve as dots.
 
-        Each dot is a line of length zero with round ends. These lines need less SVG code than Matplotlib's
-        markers.
+        Each dot is a line of length zero with round ends, because Matplotlib's markers need more SVG code.
         """
         from matplotlib.patches import PathPatch
         from matplotlib.path import Path
@@ -146,10 +141,9 @@ class Canvas:
         self.titled.add(label)
 
     def number(self, label: str) -> int:
-        """Return the number of the series with the label ``label``.
+        """Return the number (0, 1, 2, ...) of the series with the label ``label``.
 
-        A series consists of all curves with the same label. The series are numbered 0, 1, 2, .... A new label
-        gets the next number.
+        A new label gets the next number.
         """
         if label not in self.names:
             self.names.append(label)
@@ -172,8 +166,7 @@ class Canvas:
 def styles(figure: Figure) -> dict[str, Style]:
     """Return a dictionary that maps the name of each run of a figure to the style of the run.
 
-    If all runs use different methods, the method of a run determines its style. Otherwise, the name of the
-    run determines its style.
+    The method of a run determines its style if all methods differ, otherwise the name of the run.
     """
     runs = figure.runs
     chosen = Styles([run.method for run in runs])
@@ -190,9 +183,8 @@ REFERENCE_STYLE = Style("var(--ink)", "")
 def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
     """Choose at most ``most`` of ``count`` points and return the indices of the chosen points.
 
-    If ``count`` is greater than ``most``, the points are divided into ``most`` groups of about equal size.
-    One point of each group is chosen. ``shift`` (at least 0 and less than 1) is the position of the chosen
-    point in its group. If ``shift`` is 0, the first point of the group is chosen.
+    If ``count`` is greater than ``most``, one point is chosen from each of ``most`` groups of about equal
+    size. ``shift`` (at least 0 and less than 1) is the relative position of the chosen point in its group.
 
     >>> marks(9, 0.5, 3), marks(2)
     ([1, 4, 7], [0, 1])

@@ -1,9 +1,7 @@
-"""Draws the largest deviation of a quantity against time.
+"""Draws the largest deviation of a quantity, up to each time or in each group of consecutive states.
 
-If the figure has a reference run, the deviation is the difference from the value along the reference run.
-Otherwise, the deviation is the difference from the initial value. If the number ``window`` of the figure is
-0, the figure shows the largest deviation up to each time. Otherwise, the figure shows the largest deviation
-in each group of ``window`` consecutive states.
+The deviation is the difference from the value along the reference run. Without a reference run, the deviation
+is the difference from the initial value.
 """
 
 from __future__ import annotations
@@ -19,7 +17,7 @@ from codegen.lab.pictures.source import Source
 from codegen.scene.figure import Deviation, Run
 
 LEAST = 1e-17
-"""The lower limit of the drawn deviations. Smaller deviations are replaced by LEAST."""
+"""Deviations smaller than LEAST are drawn as LEAST."""
 
 GROWS = 1.02
 """A new point of a curve is drawn if the largest deviation has grown by about this factor."""
@@ -47,11 +45,9 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Return an array of times, and an array with the largest deviation for each time.
 
-    If ``figure.window`` is 0, the second array contains the largest deviation up to each time. To save
-    space, most times are omitted while the largest deviation changes little. If ``figure.window`` is
-    positive, the states are divided into groups of ``figure.window`` consecutive states. The first array
-    contains the time at the end of each group, and the second array contains the largest deviation in each
-    group.
+    If ``figure.window`` is 0, each entry is the largest deviation up to its time. Most times are omitted
+    while the largest deviation changes little. If ``figure.window`` is positive, each entry is the largest
+    deviation in a group of ``figure.window`` states. Its time is the end of the group.
     """
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)

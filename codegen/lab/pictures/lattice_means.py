@@ -24,7 +24,7 @@ from codegen.scene.sites import Offset, neighbour, offset_of
 
 
 def draw(figure: LatticeMeans, source: Source) -> Drawn:
-    """Return the picture. Each run has one curve for each quantity.
+    """Return the picture, with one curve for each quantity of each run.
 
     Raises :class:`codegen.errors.SceneError` if the scene is not a chain or lattice, or if a step fails.
     """
@@ -54,10 +54,7 @@ def draw(figure: LatticeMeans, source: Source) -> Drawn:
 
 
 def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return the output times of a run, and the means over the sites as a two-dimensional array.
-
-    Each row of the two-dimensional array contains the means of all quantities at one output time.
-    """
+    """Return the output times of a run, and an array whose rows are the means of all quantities at a time."""
     problem = source.problem
     evaluate_means = means(problem, list(figure.quantities.values()))
     lattice = load_lattice(source.artifact(run))
@@ -80,14 +77,11 @@ def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarr
 
 
 def means(problem: Problem, quantities: list[Quantity]) -> Any:
-    """Return a function that computes the mean of each quantity over all sites of a lattice.
+    """Return a function of (states, time): the mean of each quantity over all sites of a lattice.
 
-    The function has two arguments: the states of all sites and the time. A quantity is a formula in the
-    coordinates of a site. On a periodic lattice, the formula may also contain coordinates of neighbours.
-
-    Raises :class:`codegen.errors.SceneError` if the scene is not a chain or lattice, or if a quantity is not
-    a formula. Raises SceneError if a formula contains coordinates of neighbours on a lattice with an open
-    boundary.
+    A quantity is a formula in the coordinates of a site. On a periodic lattice, the formula may also contain
+    coordinates of neighbours. Raises :class:`codegen.errors.SceneError` if the scene is not a chain or
+    lattice, or if a quantity is not such a formula.
     """
     import sympy
 
@@ -127,10 +121,9 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
 
 def _formula(problem: Problem, quantity: Quantity) -> Any:
-    """Return the quantity if it is a formula. Raise SceneError if it is the name of an invariant.
+    """Return the quantity, or raise SceneError if it is the name of an invariant.
 
-    An invariant of a lattice scene is constant in time at each site. The curve of its mean would be a
-    horizontal line.
+    The mean of an invariant is constant in time.
     """
     if isinstance(quantity, str):
         raise SceneError(

@@ -37,16 +37,13 @@ FRAMES = 150
 
 @dataclass(frozen=True)
 class _Sheet:
-    """The map from points in space to points of the picture.
-
-    The projection of a point has a horizontal coordinate and a vertical coordinate. The map projects a point,
-    and then scales and shifts both coordinates.
+    """The map from points in space to points of the picture: a projection, then a scaling and a shift.
 
     - ``frame``: the rotation matrix that maps a point to its horizontal, vertical and depth coordinates.
     - ``left``: the least horizontal coordinate of the drawn points.
     - ``high``, ``low``: the largest and the least vertical coordinate of the drawn points.
     - ``unit``: the scale factor from projected coordinates to printer's points.
-    - ``top``: the height of the space for the legend, in printer's points. The drawing is below this space.
+    - ``top``: the height of the space for the legend above the drawing, in printer's points.
     - ``axis``: the length of each coordinate axis, in the unit of the points in space.
     """
 
@@ -153,7 +150,7 @@ def _text(x: float, y: float, words: str, colour: str = "var(--muted)") -> str:
 
 
 def _axes(sheet: _Sheet) -> Iterator[str]:
-    """Yield SVG elements for the coordinate axes. Each axis has a line from the origin and a name."""
+    """Yield SVG elements for the coordinate axes: a line from the origin and a name for each axis."""
     for k, name in enumerate("xyz"):
         ends = sheet.seen(sheet.axis * numpy.outer(numpy.eye(3)[k], (0.0, 1.0, 1.09)))
         yield f'<path d="{_curve(ends[:, :2])}" style="fill:none;stroke:var(--rule);stroke-width:0.8"/>'
@@ -184,11 +181,7 @@ def _stills(bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]], times: Sequence
 
 
 def _times(trail: numpy.ndarray, times: numpy.ndarray, shown: Sequence[int]) -> Iterator[str]:
-    """Yield SVG elements for numbered dots on the path of a point.
-
-    ``shown`` contains the indices of the times at which the bars are drawn. The path has one dot for each
-    index in ``shown``.
-    """
+    """Yield SVG elements for numbered dots on the path of a point, one for each time index in ``shown``."""
     for number, k in enumerate(shown):
         x, y = trail[:, k]
         yield f'<circle cx="{_number(x)}" cy="{_number(y)}" r="2" style="fill:var(--ink)">'
@@ -203,12 +196,10 @@ def _lengths(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
 
 
 def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, unit: str = "") -> str:
-    """Return the transform that maps a horizontal line to a projected bar at one time.
+    """Return the SVG transform that maps a horizontal line to a projected bar at the time with index ``k``.
 
-    ``bar`` contains the two ends of the projected bar at all times. ``k`` is the index of the time, and
-    ``turn`` is the angle of the projected bar in degrees. The horizontal line begins at the origin and is as
-    long as the largest length of the projected bar. If ``unit`` is empty, the result is an SVG transform. If
-    ``unit`` is ``px``, the result is a CSS transform.
+    The line begins at the origin and is as long as the largest length of the projected bar. ``turn`` is the
+    angle of the projected bar in degrees. If ``unit`` is ``px``, the result is a CSS transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"
@@ -224,10 +215,7 @@ def _turns(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
 
 
 def _moving(name: str, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> Iterator[str]:
-    """Yield an SVG element for each bar. Without animation, the element shows the bar at the initial time.
-
-    The CSS class of a bar consists of ``name`` and the number of the bar.
-    """
+    """Yield an SVG element for each bar at the initial time; ``name`` and its number are the CSS class."""
     for number, bar in enumerate(bars):
         at = _transform(bar, 0, _turns(bar)[0])
         yield f'<path class="{name}-{number}" d="M0 0H{_number(_lengths(bar).max())}" transform="{at}"'
@@ -235,10 +223,7 @@ def _moving(name: str, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> I
 
 
 def _keyframes(name: str, seconds: float, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> str:
-    """Return the style element with the CSS animation of each bar.
-
-    ``seconds`` is the duration of the animation.
-    """
+    """Return the style element with a CSS animation of ``seconds`` seconds for each bar."""
     rules = []
     for number, bar in enumerate(bars):
         turns = _turns(bar)

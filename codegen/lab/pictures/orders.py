@@ -21,10 +21,10 @@ from codegen.scene.figure import Orders, Run
 
 
 def draw(figure: Orders, source: Source) -> Drawn:
-    """Return the picture of a figure.
+    """Return the picture of a figure, with logarithmic axes.
 
-    Both axes are logarithmic. Each order p in ``figure.orders`` has a dashed line of slope p. The dashed line
-    is near the curve whose observed order is closest to p.
+    Each order p in ``figure.orders`` has a dashed line of slope p near the curve whose observed order is
+    closest to p.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
@@ -69,7 +69,7 @@ def _failures(figure: Orders, curves: Mapping[str, Sequence[tuple[float, float]]
 
 
 def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]]:
-    """Return pairs (step size, error at the end of the time span). The step sizes decrease.
+    """Return pairs (step size, error at the end of the time span), in order of decreasing step size.
 
     A pair is omitted if a step fails or the error is not finite.
     """
@@ -92,10 +92,10 @@ def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]
 
 
 def slope(points: Sequence[tuple[float, float]]) -> float:
-    """Return the median of the observed orders between consecutive step sizes.
+    """Return the median of the observed orders between consecutive points (step size, error).
 
-    ``points`` contains pairs (step size, error). A pair of consecutive points with a zero error has no
-    observed order. If there is no observed order, the result is 0.
+    A pair of consecutive points with a zero error has no observed order. If there is no observed order, the
+    result is 0.
 
     >>> slope([(0.4, 16.0), (0.2, 4.0), (0.1, 1.0), (0.05, 1.0)])
     2.0

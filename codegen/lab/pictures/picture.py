@@ -11,7 +11,7 @@ from markupsafe import Markup
 from codegen.lab.page.axes import SIZE
 
 POINTS = 72.0
-"""The number of printer's points in an inch. A printer's point is the unit of length in the SVG element."""
+"""The number of printer's points in an inch (the SVG elements measure lengths in printer's points)."""
 
 
 @dataclass(frozen=True)

@@ -56,11 +56,10 @@ def draw(figure: PlaneCurves, source: Source) -> Drawn:
 def _draw_run(
     canvas: Canvas, axes: Axes, figure: PlaneCurves, run: Run, times: numpy.ndarray, points: numpy.ndarray
 ) -> None:
-    """Draw the curve of a run.
+    """Draw the curve of a run, as dots if ``figure.dots`` is True.
 
-    ``points`` contains the x coordinates and the y coordinates of the points. ``times`` contains the time of
-    each point. If the run is repeated for several parameter values, ``times`` contains these values. If
-    ``figure.dots`` is True, each point is drawn as a dot. Otherwise, the curve is a line.
+    ``points`` contains the x and the y coordinates, and ``times`` the time or the swept parameter value of
+    each point.
     """
     x, y = points
     style = styles(figure)[run.name]
@@ -75,7 +74,7 @@ def _draw_run(
 
 
 def _frame(axes: Axes, figure: PlaneCurves, curves: list[numpy.ndarray]) -> None:
-    """Set the bounds and the labels of a panel. Draw a horizontal and a vertical line through the origin."""
+    """Set the bounds and the labels of a panel, and draw two lines through the origin."""
     axes.axhline(0.0, color=MUTED, linewidth=0.6, zorder=1)
     axes.axvline(0.0, color=MUTED, linewidth=0.6, zorder=1)
     label_axes(axes, *figure.axes)
@@ -86,10 +85,7 @@ def _frame(axes: Axes, figure: PlaneCurves, curves: list[numpy.ndarray]) -> None
 
 
 def _bounds(curves: list[numpy.ndarray], square: bool) -> tuple[float, float, float, float]:
-    """Return the bounds (left, right, bottom, top) of a rectangle around the curves.
-
-    There is a margin between the curves and the rectangle. If ``square`` is True, the rectangle is a square.
-    """
+    """Return the bounds (left, right, bottom, top) of a rectangle with a margin around the curves."""
     points = numpy.concatenate(curves, axis=1)
     points = points[:, numpy.isfinite(points).all(axis=0)]
     low, high = points.min(axis=1), points.max(axis=1)

@@ -20,8 +20,7 @@ from codegen.scene.figure import Figure
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
-# Each function draws figures of one subclass of Figure. The first argument has the type Any, because the
-# subclass differs from function to function.
+# Each function draws figures of one subclass of Figure, the type of its first argument.
 Draw: TypeAlias = Callable[[Any, Source], Drawn]
 
 BUILT_IN: dict[type[Figure], str] = {
@@ -36,10 +35,7 @@ BUILT_IN: dict[type[Figure], str] = {
     kinds.Scan: "codegen.lab.pictures.scan:draw",
     kinds.Orders: "codegen.lab.pictures.orders:draw",
 }
-"""Maps each kind of figure to the name of the function that draws it.
-
-The name has the form ``module:function``.
-"""
+"""Maps each kind of figure to the name ``module:function`` of its drawing function."""
 
 _registered: dict[type[Figure], Draw] = {}
 
@@ -60,8 +56,7 @@ def unregister(kind: type[Figure]) -> None:
 def draw(figure: Figure, source: Source) -> Drawn:
     """Return the picture of a figure.
 
-    Raises SceneError if this class of figures has no drawing function, or if the figure cannot be drawn. For
-    example, a figure cannot be drawn if its reference run fails.
+    Raises SceneError if this class of figures has no drawing function, or if the figure cannot be drawn.
     """
     for kind in type(figure).__mro__:
         if kind in _registered:
@@ -104,7 +99,7 @@ def listing() -> list[dict[str, str]]:
     """Return the list that ``orderconds list figures`` prints: one entry for each figure of each scene.
 
     In each entry, ``name`` contains the name of the scene and the name of the figure. ``about`` contains the
-    title of the figure. If the figure reproduces a published figure, ``about`` also names the publication.
+    title, and the publication of a reproduced figure.
     """
     return [
         {

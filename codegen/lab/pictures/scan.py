@@ -22,10 +22,7 @@ DIGITS = 1e-8
 
 
 def draw(figure: Scan, source: Source) -> Drawn:
-    """Return the picture. Each run of the figure has one curve: its error against the parameter.
-
-    A cross marks the least error of each curve.
-    """
+    """Return the picture: the error of each run against the parameter, with a cross at the least error."""
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
     canvas = Canvas.of(1, height=3.4)
@@ -54,10 +51,10 @@ def draw(figure: Scan, source: Source) -> Drawn:
 
 
 def error(source: Source, figure: Scan, run: Run, value: float) -> float:
-    """Return the distance of the final state of a run from the final state of the reference run.
+    """Return the distance of the final state of a run, for the parameter ``value``, from that of the
+    reference run.
 
-    ``value`` is the value of the varied parameter. If a step of the run fails, the result is infinity. If
-    the reference run fails, SceneError is raised.
+    If a step of the run fails, the result is infinity. If the reference run fails, SceneError is raised.
     """
     if figure.reference is None:
         raise ValueError("expected a reference run in a scan, found none")
@@ -80,8 +77,8 @@ def minimum(
 ) -> tuple[float, float]:
     """Return a pair: the parameter value with the least error, and the least error.
 
-    ``values`` contains parameter values in order, and ``sizes`` contains their errors. Brent's method
-    minimises the error between the two neighbours of the value with the least error.
+    ``values`` is sorted, and ``sizes`` contains the error for each value. Brent's method minimises the error
+    between the two neighbours of the value with the least error.
     """
     from scipy.optimize import minimize_scalar
 

@@ -32,10 +32,9 @@ STEP_LIMIT = 10**7
 class Path:
     """The states of a run that a figure shows.
 
-    Each row of ``states`` is the state at one of the output times, and ``times`` contains these times. A
-    sweep repeats a run with several values of a parameter or of the step size. For a run with a sweep,
-    ``states`` contains the final states, and ``times`` contains these values. ``failure`` is the reason why
-    the run ended early, or '' if all steps succeeded.
+    Each row of ``states`` is the state at one of the output times ``times``. For a sweep over a parameter or
+    the step size, ``states`` contains the final states, and ``times`` the swept values. ``failure`` is the
+    reason why the run ended early, or '' if all steps succeeded.
     """
 
     times: numpy.ndarray
@@ -86,8 +85,7 @@ class Source:
     def path(self, run: Run) -> Path:
         """Return the states of a run at its output times.
 
-        A sweep repeats a run with several values of a parameter or of the step size. For a run with a sweep,
-        return the final state for each value of the sweep.
+        For a sweep over a parameter or the step size, return the final state for each swept value.
         """
         if run not in self._paths:
             integrator = self.integrator(run)
@@ -103,8 +101,8 @@ class Source:
     def end(self, run: Run, value: float | None = None) -> list[float]:
         """Return the final state of a run.
 
-        A sweep repeats a run with several values of a parameter or of the step size. For a run with a sweep,
-        ``value`` is one value of the sweep. Raises :class:`codegen.integrator.StepFailed` if a step fails.
+        ``value`` is one value of the parameter or step size that a sweep varies. Raises
+        :class:`codegen.integrator.StepFailed` if a step fails.
         """
         integrator = self.integrator(run)
         swept = "" if run.sweep is None or value is None else run.sweep.name
@@ -142,8 +140,8 @@ class Source:
     def beside(self, run: Run, reference: Run, quantity: Quantity) -> numpy.ndarray:
         """Return the values of a quantity along the reference run, at the output times of ``run``.
 
-        The output times are the times of the states that :meth:`path` returns. Raises
-        :class:`codegen.errors.SceneError` if the reference run has no states at the output times of ``run``.
+        Raises :class:`codegen.errors.SceneError` if the reference run has no states at the output times of
+        ``run``.
         """
         times, exact = self.path(run).times, self.path(reference).times
         count = len(times)
@@ -159,18 +157,16 @@ class Source:
 
 
 def formulas(problem: Problem, quantities: Sequence[Quantity], swept: str = "") -> ArrayFunction:
-    """Return a function that evaluates quantities of a scene at many states.
+    """Return a function of the arrays ``states`` and ``times`` that evaluates quantities of a scene.
 
-    A quantity is a formula or the name of an invariant. The arguments of the returned function are two
-    arrays, ``states`` and ``times``. Each row of ``states`` contains the values of one coordinate. Each row
-    of the result contains the values of one quantity. ``swept`` is the name of a parameter that differs from
-    state to state. The values of this parameter are the last row of ``states``.
+    Each row of ``states`` contains the values of one coordinate, and each row of the result those of one
+    quantity. If ``swept`` is the name of a parameter, the last row of ``states`` contains its values.
     :class:`codegen.errors.SceneError` is raised for a formula with an unknown symbol.
     """
     import sympy
 
     names = (swept,) if swept else ()
-    # The swept parameter must stay a symbol in the formulas. Run-time parameters stay symbols.
+    # The swept parameter must stay a symbol in the formulas, as run-time parameters do.
     problem = replace(problem, runtime=(*problem.runtime, *names))
     reader = Reader(problem.name, [sympy.Symbol(s) for s in problem.symbols])
     domain = ExprDomain(reader.space)
@@ -188,10 +184,7 @@ def formulas(problem: Problem, quantities: Sequence[Quantity], swept: str = "") 
 
 
 def _invariant(problem: Problem, domain: ExprDomain, name: str) -> Expr:
-    """Return the formula of an invariant (a conserved quantity) of a scene.
-
-    Raises SceneError if the scene has no invariant ``name``.
-    """
+    """Return the formula of the invariant ``name`` of a scene, or raise SceneError if there is none."""
     if name not in problem.invariants:
         raise SceneError(
             f"a figure shows the unknown quantity {name!r}",
@@ -204,10 +197,7 @@ def _invariant(problem: Problem, domain: ExprDomain, name: str) -> Expr:
 
 
 def _key(run: Run) -> tuple[object, ...]:
-    """Return a dictionary key for the emitted module of a run.
-
-    Runs with equal keys share one module.
-    """
+    """Return a dictionary key: runs with equal keys share one emitted module."""
     return run.scene, run.method, run.sweep and run.sweep.name, run.tolerance > 0
 
 

@@ -51,8 +51,7 @@ def _box(
 ) -> None:
     """Draw the edges of a box, and write the range of a coordinate beside one edge in its direction.
 
-    ``low`` and ``high`` are opposite corners of the box. ``frame`` is the matrix of the projection, and
-    ``names`` are the names of the coordinates.
+    ``low`` and ``high`` are opposite corners of the box, and ``frame`` is the matrix of the projection.
     """
     axes.grid(False)
     axes.set_axis_off()
@@ -66,8 +65,7 @@ def _box(
             ends[:, k] = corners[:, k]
             edges.append(frame @ ends.T)
             axes.plot(edges[-1][0], edges[-1][1], color=RULE, linewidth=0.7, zorder=1)
-        # Four edges are parallel to axis k. The label is written beside the leftmost edge if the edges are
-        # steep in the picture, and beside the lowest edge otherwise.
+        # Label the leftmost of the four edges parallel to axis k if they are steep, otherwise the lowest.
         upright = abs(edges[0][1, 1] - edges[0][1, 0]) > abs(edges[0][0, 1] - edges[0][0, 0])
         chosen = min(edges, key=lambda edge: edge[0].mean() if upright else edge[1].mean())
         at, shift = (chosen[0].mean(), chosen[1].mean()), (-6, 0) if upright else (0, -12)

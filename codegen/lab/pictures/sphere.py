@@ -93,7 +93,7 @@ def _curve(
     looks: Looks,
     dots: bool = False,
 ) -> None:
-    """Draw a curve on the sphere. The part of the curve on the far half of the sphere is fainter.
+    """Draw a curve on the sphere, fainter on the far half of the sphere.
 
     Each column of ``seen`` is a point of the curve, in the coordinates that :func:`projection` defines.
     """
@@ -109,7 +109,7 @@ def _curve(
 def _sphere(axes: Axes, radius: float, frame: numpy.ndarray, names: tuple[str, str, str]) -> None:
     """Draw the outline of the sphere, three great circles, and the outer ends of the coordinate axes.
 
-    ``frame`` is the matrix of the projection, and ``names`` are the labels of the axes.
+    ``frame`` is the matrix of the projection.
     """
     angle = numpy.linspace(0.0, 2 * math.pi, 181)
     circle = radius * numpy.array([numpy.cos(angle), numpy.sin(angle), 0 * angle])
@@ -124,7 +124,7 @@ def _sphere(axes: Axes, radius: float, frame: numpy.ndarray, names: tuple[str, s
         end = frame @ (radius * numpy.eye(3)[k])
         axes.plot([end[0], 1.12 * end[0]], [end[1], 1.12 * end[1]], color=MUTED, linewidth=0.6, zorder=1)
         at = (1.2 * end[0], 1.2 * end[1])
-        # Each label has a box in the colour of the page. The box hides the lines behind the label.
+        # A box in the colour of the page hides the lines behind each label.
         behind = {"facecolor": PLACEHOLDERS["var(--paper)"], "edgecolor": "none", "pad": 0.8}
         axes.annotate(name, at, color=MUTED, fontsize=8, ha="center", va="center", bbox=behind, zorder=4)
     axes.set_aspect("equal")

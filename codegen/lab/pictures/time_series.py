@@ -1,8 +1,7 @@
 """Draws quantities of the runs of a figure against time.
 
-If the figure has a reference run, the reference curve shows the first quantity along this run.
-If the attribute ``difference`` of the figure is True, the reference curve is subtracted from all quantities.
-Otherwise the reference curve is drawn as a separate line.
+The first quantity along the reference run is drawn as a separate line. If the attribute ``difference`` of the
+figure is True, this curve is subtracted from all quantities instead.
 """
 
 from __future__ import annotations
@@ -24,14 +23,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ONE, SEVERAL = 3.4, 1.7
-"""The height of a panel in inches. ONE applies to a single panel, and SEVERAL to two or more panels."""
+"""The height of a panel in inches: ONE for a single panel, SEVERAL for two or more panels."""
 
 
 def draw(figure: TimeSeries, source: Source) -> Drawn:
-    """Return the picture of a figure.
-
-    Each run has a panel of its own. Each quantity has a colour, a dash pattern and a marker.
-    """
+    """Return the picture of a figure, with one panel for each run."""
     runs, reference = figure.runs, figure.reference
     canvas = Canvas.of(len(runs), 1, ONE if len(runs) == 1 else SEVERAL, width=WIDE)
     numbers: dict[str, dict[str, list[float]]] = {}
@@ -60,10 +56,9 @@ def _draw_rows(
     times: numpy.ndarray,
     rows: numpy.ndarray,
 ) -> dict[str, list[float]]:
-    """Draw the quantities of a run, and return the least and the largest drawn value of each quantity.
+    """Draw the quantities of a run, and return the least and the largest drawn value for each label.
 
-    The keys of the result are the labels of the quantities. Each row of ``rows`` contains the values of one
-    quantity.
+    Each row of ``rows`` contains the values of one quantity.
     """
     numbers = {}
     for k, (label, row) in enumerate(zip(figure.quantities, rows, strict=True)):
@@ -79,10 +74,7 @@ def _draw_rows(
 def _window(
     figure: TimeSeries, times: numpy.ndarray, row: numpy.ndarray
 ) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return the times within the time interval of the figure, and the values at these times.
-
-    ``row`` contains one value for each element of ``times``.
-    """
+    """Return the times within the time interval of the figure, and the values in ``row`` at these times."""
     first, last = figure.window or (-numpy.inf, numpy.inf)
     shown = (times >= first) & (times <= last)
     return times[shown], row[shown]

@@ -35,8 +35,7 @@ def draw(figure: TorusCurves, source: Source) -> Drawn:
     numbers: dict[str, list[float]] = {}
     for run in figure.runs:
         x, y = source.values(run, figure.angles)
-        # If an angle changes by more than pi between two points, a NaN is inserted between these points.
-        # Matplotlib interrupts a line at a NaN.
+        # A NaN interrupts the line where an angle jumps by more than pi.
         jumps = (numpy.abs(numpy.diff(x)) > math.pi) | (numpy.abs(numpy.diff(y)) > math.pi)
         places = numpy.flatnonzero(jumps) + 1
         curve = numpy.insert(x, places, math.nan), numpy.insert(y, places, math.nan)
@@ -66,8 +65,7 @@ def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
         middle = numpy.linspace(-math.pi, math.pi, 2 * ARROWS + 1)[1::2]
         (x, y), states = _states(figure, middle)
         u, v = formulas(source.problem, figure.directions)(states, numpy.zeros(states.shape[1]))
-        # The length of an arrow is proportional to the square root of the length of the field vector.
-        # Therefore short vectors are visible too.
+        # Arrow lengths proportional to the square root of the vector lengths keep short vectors visible.
         size = numpy.sqrt(numpy.hypot(u, v))
         scale = numpy.where(size > 0, size, 1.0)
         axes.quiver(x, y, u / scale, v / scale, color=MUTED, width=0.0028, zorder=2)
@@ -76,7 +74,7 @@ def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
 def _states(figure: TorusCurves, values: numpy.ndarray) -> tuple[list[numpy.ndarray], numpy.ndarray]:
     """Return the points of a grid in the plane of the two angles, and the states at these points.
 
-    The points are returned as two arrays, one for each angle. The states are the columns of a third array.
+    The points are two arrays, one for each angle, and the states are the columns of a third array.
     """
     import sympy
 
