@@ -1,9 +1,8 @@
 """Batches: one emitted module integrates many independent systems.
 
-Each system has its own state, parameters and inputs. The caller passes the N states of a batch as an array
-with one state in each row. Emitted C needs an array of shape (size, N), where row k contains component k of
-each state. In memory, an array of shape (N, size) in Fortran order already has this layout. Therefore the
-array is passed to C without a copy.
+The caller passes the N states of a batch as an array with one state in each row. Emitted C needs an array of
+shape (size, N), where row k contains component k of each state. In memory, an array of shape (N, size) in
+Fortran order already has this layout.
 """
 
 from __future__ import annotations
@@ -43,9 +42,9 @@ class BatchRun:
 def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
     """Return the states of a batch as a new array of shape (size, N) with contiguous rows.
 
-    ``real`` is the number format of the module (``double`` or ``float``). ``states`` is an array of N states
-    with ``size`` real numbers each, or a tuple of arrays. A tuple contains one array for each part (for
-    example q or mu) of the states. ValueError is raised for other values of ``states``, and for N = 0.
+    ``real`` is the number format (``double`` or ``float``). ``states`` is an array of N states with ``size``
+    numbers each, or a tuple with one array for each part (for example q or mu) of the states. ValueError is
+    raised for other values of ``states``, and for N = 0.
 
     >>> columns([[1, 2, 3], [4, 5, 6]], 3, "double").tolist()
     [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]
@@ -70,15 +69,15 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
             f"expected an array of N states with {size} numbers each{parts_text}, "
             f"found arrays of shape {shapes}"
         )
-    # Emitted code overwrites the array. The array must therefore not share memory with ``states``.
+    # The array must not share memory with ``states``, because emitted code overwrites the array.
     return np.array(np.concatenate([part.T for part in flat]), dtype=_format(real), order="C")
 
 
 def in_place(out: object, size: int, real: str) -> Any:
-    """Return the transpose of the array ``out`` without a copy. The transpose has the layout of emitted C.
+    """Return the transpose of the array ``out``, which has the layout of emitted C, without a copy.
 
-    ``out`` must be a writeable array of shape (N, size) in Fortran order, with the number format ``real`` and
-    N > 0. Otherwise ValueError is raised.
+    ValueError is raised unless ``out`` is a writeable array of shape (N, size) in Fortran order, with the
+    number format ``real`` and N > 0.
     """
     import numpy as np
 
@@ -116,9 +115,7 @@ def rows_of(values: Sequence[tuple[str, object]], count: int, real: str) -> Any:
 def chosen(
     known: Sequence[str], defaults: Mapping[str, float], given: Mapping[str, object]
 ) -> list[tuple[str, object]]:
-    """Return the name and the value of each parameter in ``known``.
-
-    A value in ``given`` replaces the default value.
+    """Return the name and the value of each parameter in ``known``, from ``given`` or else from ``defaults``.
 
     TypeError is raised for an unknown name in ``given``, and for a parameter without a value.
     """

@@ -42,9 +42,8 @@ class Lattice(ArrayModule, ABC):
         fails, the result contains the status and the states before the failed step.
 
         ValueError is raised if ``states`` has a wrong shape or contains a number that is not finite, or if
-        the method cannot be used with n1, ..., nd sites. For example, some methods need even numbers.
-        TypeError is raised for arguments of a wrong type and for unknown parameters. InputError is raised if
-        there is not enough memory.
+        the method cannot be used with n1, ..., nd sites. TypeError is raised for arguments of a wrong type
+        and for unknown parameters. InputError is raised if there is not enough memory.
         """
         import numpy as np
 
@@ -98,17 +97,13 @@ class Lattice(ArrayModule, ABC):
         values: Sequence[float],
         work: Any,
     ) -> tuple[Status, int]:
-        """Make the steps of a run. The new states replace the states in ``table``.
-
-        Return the status and the number of completed steps.
+        """Make the steps of a run in ``table``, and return the status and the number of completed steps.
 
         - ``shape``: the numbers of sites (n1, ..., nd) in the d directions.
         - ``table``: the states, an array of shape (size, n1, ..., nd) or (size, n1 x ... x nd).
         - ``moment``: t, h and the number of steps.
         - ``values``: the values of the run-time parameters.
         - ``work``: an array for intermediate results.
-
-        The arguments are not checked.
         """
 
 

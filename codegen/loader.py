@@ -24,9 +24,8 @@ from codegen.spectral import CompiledSpectral, InterpretedSpectral, Spectral
 from orderconds.argument import described
 from orderconds.errors import InputError
 
-# VECTOR_FLAGS allow vector instructions in loops over systems, sites or modes. The flags
-# -fno-math-errno and -fno-trapping-math are safe, because an emitted module reads neither errno nor the
-# flags of floating-point exceptions.
+# In VECTOR_FLAGS, -fno-math-errno and -fno-trapping-math are safe, because an emitted module reads neither
+# errno nor the flags of floating-point exceptions.
 LOOP_FLAGS = (*FLAGS, *VECTOR_FLAGS)
 """The compiler flags for modules that loop over lattice sites, Fourier modes or a batch of systems."""
 
@@ -35,8 +34,8 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
     """Load an emitted module as an integrator.
 
     ``source`` is the result of :func:`codegen.emit`, or a folder of emitted files with a manifest. If the
-    folder contains several modules, ``module`` and ``target`` choose one module. If the cache does not
-    contain the compiled form of a C module, the module is compiled.
+    folder contains several modules, ``module`` and ``target`` choose one module. A C
+    module is compiled if it is not in the cache.
 
     CompilerMissing is raised if there is no C compiler, and CompileError if the compiler fails. InputError is
     raised if the folder does not contain the module, or if the module is for a lattice (:func:`load_lattice`)
@@ -51,8 +50,8 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
 def load_lattice(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Lattice:
     """Load an emitted module for a chain or lattice (:class:`codegen.scene.SiteScene`) as an object.
 
-    The arguments are those of :func:`load`. CompilerMissing and CompileError are raised as by :func:`load`.
-    InputError is raised if ``source`` does not contain the module, or if the module is not for a lattice.
+    The arguments and the errors are those of :func:`load`, but InputError is raised if the module is not for
+    a lattice.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_lattice")
     lattice = known_target(artifact.manifest["target"]).load_lattice(interface, defaults, artifact.files)
@@ -63,9 +62,8 @@ def load_lattice(source: Artifact | str | PathLike[str], module: str = "", targe
 def load_spectral(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Spectral:
     """Load an emitted module for a semilinear equation (:class:`codegen.scene.SemilinearScene`) as an object.
 
-    The arguments are those of :func:`load`. CompilerMissing and CompileError are raised as by :func:`load`.
-    InputError is raised if ``source`` does not contain the module, or if the module is not for a semilinear
-    equation.
+    The arguments and the errors are those of :func:`load`, but InputError is raised if the module is not for
+    a semilinear equation.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_spectral")
     spectral = known_target(artifact.manifest["target"]).load_spectral(interface, defaults, artifact.files)
@@ -86,8 +84,7 @@ def _opened(
 ) -> tuple[Artifact, Interface, dict[str, float]]:
     """Return the artifact of a module, its interface, and the default values of its parameters.
 
-    ``where`` is the name of the calling function, for example ``load``. InputError is raised if the
-    calling function cannot load the module.
+    InputError is raised if the calling function ``where`` (for example ``load``) cannot load the module.
     """
     if not isinstance(source, Artifact | str | PathLike):
         raise InputError(
@@ -126,11 +123,11 @@ def _compiled(
     files: Mapping[str, str],
     flags: tuple[str, ...],
 ) -> C:
-    """Return an object of class ``kind`` for a C module. The module is compiled if it is not in the cache."""
+    """Return an object of class ``kind`` for a C module, which is compiled if it is not in the cache."""
     try:
         return kind(interface, defaults, build(files, flags))
     except (OSError, AttributeError):
-        # The file in the cache is not a library, or it lacks functions. The module is compiled again.
+        # The file in the cache is not a library, or it lacks functions.
         return kind(interface, defaults, build(files, flags, again=True))
 
 

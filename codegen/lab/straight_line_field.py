@@ -1,8 +1,7 @@
 """The right-hand side of the differential equation of a scene as straight-line code (a list of assignments).
 
 The differential equation is y' = f(y).y, where f(y) is in the Lie algebra and the dot is its action on the
-state y. Each common subexpression of the right-hand side is computed only once. The code is printed as
-C statements, or as a Python function for one type of numbers, for example floats or Arb balls.
+state y.
 """
 
 from __future__ import annotations
@@ -77,9 +76,8 @@ def velocity(scene: Problem) -> StraightLine:
 def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) -> StraightLine:
     """Return straight-line code that computes the expressions ``roots``.
 
-    The expressions depend on the coordinates of a state and on the time. ``symbols`` are the names of the
-    coordinates in the expressions. In the code, the coordinates are named ``y[0]``, ``y[1]``, .... ``name``
-    is the name of the scene.
+    ``symbols`` are the names of the coordinates of the state in the expressions. ``name`` is the name of the
+    scene.
     """
     constants: list[Number] = []
     names: dict[int, str] = {}
@@ -114,10 +112,7 @@ def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) ->
 def _multiplied(text: str) -> str:
     """If ``text`` is a power (for example ``v1 ** 2``), return the power as a product.
 
-    Other texts are returned unchanged.
-
-    C has no operator for powers. In python-flint, the power of a ball that contains zero is NaN. A product
-    avoids both problems.
+    In python-flint, the power of a ball that contains zero is NaN, and C has no operator for powers.
     """
     base, power, exponent = text.partition(" ** ")
     return " * ".join([base] * int(exponent)) if power else text

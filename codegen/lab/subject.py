@@ -36,8 +36,7 @@ class Effort:
     """The extent of the measurements on one scene.
 
     - ``budget``: the longest CPU time in seconds of one run in the comparison of CPU times.
-    - ``peers``: the names of the peers (other integrators for comparison). Peers that are not installed are
-      left out.
+    - ``peers``: the names of the peers (other integrators for comparison).
     - ``steps``: the number of steps of a long run.
     - ``back``: True to integrate back to the initial time after each long run.
     - ``rounding``: True to measure the growth of rounding errors.
@@ -58,14 +57,12 @@ class Effort:
     def shared(self, scenes: int, processes: int = 1) -> Effort:
         """Return the effort for one scene of a report on several scenes.
 
-        ``scenes`` is the number of scenes of the report. If ``scenes`` is more than :data:`MANY`, the effort
-        is reduced:
+        If the number ``scenes`` of scenes is more than :data:`MANY`, the effort is reduced:
 
         - ``search`` is multiplied by MANY / ``scenes``.
         - ``rounding`` becomes False, except in full reports (those with ``endurance``).
 
-        ``processes`` is the number of scenes that are measured at the same time. A search on one of several
-        processors is slower. Therefore ``search`` is multiplied by ``processes``.
+        If ``processes`` scenes are measured at the same time, ``search`` is multiplied by ``processes``.
 
         >>> few, many = USUAL.shared(4), USUAL.shared(16)
         >>> few == USUAL, many.search, many.rounding, USUAL.shared(16, processes=2).search
@@ -139,8 +136,7 @@ class Subject:
     - ``methods``: the methods that run with equal steps.
     - ``adaptive``: the methods that run with step-size control.
     - ``peers``: the names of other integrators for comparison with the methods.
-    - ``results``: maps the name of each finished measurement to its result. Other measurements can use the
-      result.
+    - ``results``: maps the name of each finished measurement to its result.
     - ``named``: True if the user chose the methods, False if they are the default methods.
     """
 
@@ -235,10 +231,9 @@ def subject(
 ) -> Subject:
     """Return the subject of a page of the report: a scene, and the methods and peers to measure on it.
 
-    ``methods`` run with equal steps, and ``adaptive`` are methods that run with step-size control. Peers are
-    other integrators for comparison. If no methods are given, the default methods of the report are used. If
-    no peers are given, the installed peers of ``effort.peers`` are used. For unknown names,
-    :func:`codegen.method.parse` and :func:`codegen.lab.peers.find` raise errors.
+    If no methods are given, the default methods of the report are used. If no peers are given, the installed
+    peers of ``effort.peers`` are used. For unknown names, :func:`codegen.method.parse` and
+    :func:`codegen.lab.peers.find` raise errors.
     """
     chosen = tuple(method_for(scene, m) for m in methods)
     controlled = tuple(replace(method_for(scene, m), adaptive=True) for m in adaptive)

@@ -1,13 +1,8 @@
 """Measures the CPU time of a call in one process.
 
-A batch consists of repeated calls that are timed together. The time of a batch divided by its number of calls
-is a measured time of one call. Several batches are timed, and the least measured time is the result. The
-least time is the best estimate, because other processes can only increase a measured time.
-
-The call of an integrator from Python has an overhead: the time before its first step. A run of zero steps
-measures the overhead. Short and long runs can be compared after the overhead is subtracted.
-
-Emitted methods and other integrators are compared by the times that :func:`span_times` returns.
+A batch consists of repeated calls that are timed together. The result is the least time of several batches,
+because other processes can only increase a measured time. A run of zero steps measures the overhead: the time
+of a call before its first step.
 """
 
 from __future__ import annotations
@@ -18,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 BATCH = 0.002
-"""A batch of calls takes at least BATCH seconds. This time is far above the resolution of the clock."""
+"""The least time of a batch of calls in seconds, far above the resolution of the clock."""
 
 BATCHES = 5
 FEWER = 3
@@ -27,40 +22,33 @@ FEWER = 3
 LONG = 0.2
 
 LEAST_STEPS, RESOLVED = 200, 1e-4
-"""Limits for short runs. A run is short if it takes less than RESOLVED seconds.
+"""A run shorter than RESOLVED seconds is timed over several time spans, up to LEAST_STEPS steps in total.
 
-If the total number of steps remains at most LEAST_STEPS, a short run is repeated over further time spans of
-the scene (:func:`spans`). RESOLVED is about a hundred times the overhead of a call.
+RESOLVED is about a hundred times the overhead of a call.
 """
 
 CONFIRMED, MOST = 0.03, 21
-"""Limits for the number of batches that are timed.
+"""Limits for the number of batches (:func:`samples`).
 
 Further batches are timed until the second least time is at most (1 + CONFIRMED) times the least time, or
 until MOST batches have been timed.
 """
 
 SHORT = 1e-3
-"""A run that takes SHORT seconds or longer is not measured again.
-
-A shorter run is measured again if its relative uncertainty exceeds :data:`RESOLUTION`.
-"""
+"""A run shorter than SHORT seconds is measured again if its relative uncertainty exceeds RESOLUTION."""
 
 RESOLUTION = 0.1
 """The largest accepted relative uncertainty of a time from which the overhead is subtracted.
 
-The absolute uncertainty is d + e. Here d is the difference between the two least times of the run, and e is
-the difference between the two least times of the overhead.
+The absolute uncertainty is the difference between the two least times of the run, plus the same difference
+for the overhead.
 """
 
 AGAIN = 3
 """The largest number of repeated measurements of a run whose time is too uncertain."""
 
 LEAST_SHARE = 0.1
-"""The time of a run without the overhead is at least LEAST_SHARE times the measured time.
-
-The lower bound avoids times that are zero or negative.
-"""
+"""The time of a run without the overhead is at least this share of the measured time, to remain positive."""
 
 
 @dataclass(frozen=True)
@@ -80,11 +68,8 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
     """Return CPU times of one call in seconds, one for each batch of calls, in increasing order.
 
     A batch contains enough calls to take ``batch`` seconds or longer. If the first batch takes longer than
-    :data:`LONG` seconds, at most :data:`FEWER` batches are timed.
-
-    If the first batch is shorter, ``batches`` batches are timed. Further batches are timed until the second
-    least time is at most (1 + :data:`CONFIRMED`) times the least time, or until there are :data:`MOST`
-    batches.
+    :data:`LONG` seconds, at most :data:`FEWER` batches are timed. Otherwise at least ``batches`` batches are
+    timed (:data:`CONFIRMED`).
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -105,9 +90,9 @@ def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHE
 def spans(run: Callable[[int], object], steps: int) -> int:
     """Return the number of time spans n such that the time of ``run(n)`` can be measured accurately.
 
-    ``run(n)`` integrates over n time spans of the scene, with ``steps`` steps for each span. The number n
-    begins at 1, and is doubled until ``run(n)`` takes at least :data:`RESOLVED` seconds. If ``run(2 * n)``
-    would have more than :data:`LEAST_STEPS` steps or would fail, n is not doubled.
+    ``run(n)`` integrates over n time spans of the scene, with ``steps`` steps for each span. The number n is
+    doubled until ``run(n)`` takes :data:`RESOLVED` seconds, unless ``run(2 * n)`` would have more than
+    :data:`LEAST_STEPS` steps or would fail.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -126,10 +111,9 @@ def _least(run: Callable[[int], object], count: int) -> float:
 
 @dataclass
 class Overhead:
-    """The overhead of a call: the CPU time of a call that makes no step.
+    """The overhead of a call: the CPU time of ``idle()``, a call that makes no step.
 
-    The function ``idle`` makes a call without steps. If ``idle`` is None, the overhead is zero. If the time
-    of a short run is too uncertain, :func:`net_times` measures the overhead again.
+    If ``idle`` is None, the overhead is zero.
     """
 
     idle: Callable[[], object] | None
@@ -161,8 +145,7 @@ def span_times(
     """Return CPU times in seconds of a run over one time span, without the overhead of a call.
 
     The result contains one time for each batch of runs, in increasing order. ``run(n)`` integrates over n
-    time spans and returns the number of steps. A short run is timed over several time spans (:func:`spans`),
-    and its time is then scaled to one time span.
+    time spans and returns the number of steps.
     """
     steps = run(1)
     count = spans(run, steps)
@@ -174,10 +157,9 @@ def span_times(
 def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list[float]:
     """Return the times of a run in seconds without the overhead of a call, in increasing order.
 
-    ``sample()`` times the run and returns a list of times that include the overhead. A run is short if it
-    takes less than :data:`SHORT` seconds. If the relative uncertainty of a short run exceeds
-    :data:`RESOLUTION`, the run and the overhead are measured again, at most :data:`AGAIN` times. Each
-    returned time is at least :data:`LEAST_SHARE` times the measured time.
+    ``sample()`` times the run and returns a list of times that include the overhead. Short runs with an
+    uncertain time are measured again (:data:`SHORT`). Each returned time is at least :data:`LEAST_SHARE`
+    times the measured time.
     """
     spent = sorted(sample())
     for _ in range(AGAIN):
@@ -191,9 +173,9 @@ def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list
 
 
 def spread(times: Sequence[float]) -> float | None:
-    """Return the relative spread s of a sorted list of times, or None if the smallest time is zero.
+    """Return the relative spread s of a sorted list of times, or None if the smallest time m is zero.
 
-    Let m be the smallest time. About three quarters of the times are at most (1 + s) m.
+    About three quarters of the times are at most (1 + s) m.
 
     >>> spread((1.0, 1.25, 1.5, 9.0)), spread((0.0, 1.0))
     (0.5, None)
@@ -203,8 +185,7 @@ def spread(times: Sequence[float]) -> float | None:
 
 def _batch(call: Callable[[], object], calls: int) -> float:
     # If the CPU time of the process is limited (``ulimit -t``), its CPU clock lags by a few milliseconds.
-    # The CPU clock of the thread is accurate, but omits other threads. The larger of the two measured times
-    # avoids both problems.
+    # The CPU clock of the thread is accurate, but omits other threads.
     start, own = time.process_time(), time.thread_time()
     for _ in range(calls):
         call()

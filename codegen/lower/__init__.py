@@ -1,11 +1,7 @@
 """A lowering translates a method and a scene into the program of one step.
 
-A method is a tableau together with a family such as ``rkmk``. A scene describes the differential equation.
-A lowering is an object of a subclass of :class:`Lowering`. Each family has one lowering. The function
-:func:`register` adds the lowering of a new family.
-
-The stages of implicit methods are solutions of equations. In the program, these equations form one system,
-called a block.
+A method is a tableau together with a family such as ``rkmk``. Each family has one lowering, an object of a
+subclass of :class:`Lowering`.
 """
 
 from __future__ import annotations
@@ -56,7 +52,7 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     """Return ``given`` as a method for a scene (:func:`codegen.method.method_of`).
 
     ``given`` or ``family`` can name the family of the method. :class:`MethodError` is raised if the family
-    does not accept the scene. The message gives the reason.
+    does not accept the scene.
     """
     stated = _stated_step(scene, given)
     if stated is not None:
@@ -81,8 +77,7 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
 def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None:
     """Return the method for a text ``step:NAME``, or None if ``given`` is not such a text.
 
-    The method uses the step NAME of the scene. :class:`MethodError` is raised if the scene does not define
-    the step NAME.
+    :class:`MethodError` is raised if the scene does not define the step NAME.
     """
     word, colon, name = given.strip().partition(":") if isinstance(given, str) else ("", "", "")
     if word != STEP or not colon:
@@ -98,10 +93,7 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
 
 
 def _check(scene: Problem, own: Lowering) -> None:
-    """Raise :class:`MethodError` if the family of the lowering ``own`` does not accept a scene.
-
-    The message gives the reason.
-    """
+    """Raise :class:`MethodError` if the family of the lowering ``own`` does not accept a scene."""
     objection = own.objection(scene)
     if objection is not None:
         raise MethodError(
@@ -117,12 +109,9 @@ def lower(scene: Problem, method: Method) -> Program:
 
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
-    """Return the program of one substep of a composition.
+    """Return the program of one substep of a composition, or None if a step cannot be divided into substeps.
 
-    All substeps are steps of one method, called the base method. The program lists the length and the initial
-    time of each substep.
-
-    The result is None if a step of ``method`` is not a sequence of substeps.
+    The program lists the length and the initial time of each substep.
     """
     # Some families cannot divide a step. A step of a VRKMK method, for example, is one exponential.
     if not lowering(method.family).repeats_substeps:

@@ -1,8 +1,7 @@
-"""The base class of lowerings. A lowering turns a tableau and a problem into a step program.
+"""The base class of lowerings, which turn a tableau and a problem into a step program.
 
-Each family of methods has two objects. A :class:`orderconds.families.Family` defines the order conditions. A
-:class:`Lowering` decides which scenes the family accepts, and makes the step programs. The function
-:func:`codegen.lower.register` makes a family available to all commands.
+A :class:`orderconds.families.Family` defines the order conditions of a family of methods. A :class:`Lowering`
+decides which scenes the family accepts, and makes the step programs.
 """
 
 from __future__ import annotations
@@ -25,8 +24,8 @@ class Objection:
     """The reason why a family does not accept a scene.
 
     In the error message, ``reason`` follows the words "the family FAMILY cannot be used on SCENE".
-    ``expected`` describes the scenes that the family accepts. ``hint`` is a suggestion for the user. If
-    ``hint`` is empty, the error message lists the families that accept the scene.
+    ``expected`` describes the scenes that the family accepts. If ``hint`` (a suggestion for the user) is
+    empty, the error message lists the families that accept the scene.
     """
 
     reason: str
@@ -57,8 +56,8 @@ def without_formulas(scene: Problem) -> Objection | None:
 class Lowering(ABC):
     """The translation of the methods of one family to step programs.
 
-    A subclass sets :attr:`family` and implements :meth:`problem` and :meth:`lower`. All other members have
-    defaults. Usually the subclass derives from a class that implements :meth:`problem`:
+    A subclass sets :attr:`family` and implements :meth:`problem` and :meth:`lower`. Usually the subclass
+    derives from a class that implements :meth:`problem`:
 
     - :class:`codegen.lower.field.FieldLowering` (vector fields),
     - :class:`codegen.lower.linear.LinearLowering` (y' = A(t).y),
@@ -69,34 +68,21 @@ class Lowering(ABC):
     family: ClassVar[str] = ""
     """The name of the family in :mod:`orderconds.families` and in method names such as ``vcg:midpoint``."""
     hamiltonian: ClassVar[bool] = False
-    """True if the methods compute the position q and the momentum mu of a Hamiltonian scene.
-
-    If False, the methods solve the differential equation of a vector field.
-    """
+    """True if the methods compute the position q and the momentum mu of a Hamiltonian scene."""
     preference: ClassVar[int] = 0
     """The preference for this family, used if the user names a tableau without a family.
 
-    A tableau file states an order of accuracy for one or more families. The compiler chooses the family with
-    the highest stated order. If orders are equal, it chooses the family with the largest preference.
+    Of the families with the highest stated order in the tableau file, the one with the largest preference is
+    chosen.
     """
     repeats_substeps: ClassVar[bool] = False
-    """True if a step of a composition can be computed as a sequence of substeps.
-
-    For VRKMK methods, the value is False, because one exponential computes the whole step.
-    """
+    """True if a step of a composition can be computed as a sequence of substeps."""
 
     reads_coordinates: ClassVar[bool] = False
-    """True if the methods use the coordinate map of the scene (:mod:`codegen.groups.coordinate_maps`).
-
-    If False, most of the methods use the exponential map.
-    """
+    """True if the methods use the coordinate map of the scene (:mod:`codegen.groups.coordinate_maps`)."""
 
     in_coordinates: ClassVar[bool] = False
-    """True if the methods solve an equation in R^n for the coordinates of the state.
-
-    For such a method, the state can have other coordinates, for example quaternions
-    (:mod:`codegen.scene.classical_forms`).
-    """
+    """True if the methods solve an equation in R^n for the coordinates of the state."""
 
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if the computed states are on the manifold of the scene, up to rounding errors.
@@ -112,10 +98,7 @@ class Lowering(ABC):
         return None
 
     def storage(self, method: Method) -> str:
-        """Return a line for the header of the emitted file. The line lists the values that a step stores.
-
-        If the result is '', the header does not contain the line.
-        """
+        """Return a line for the header of the emitted file with the values that a step stores, or ''."""
         return ""
 
     @abstractmethod
@@ -151,8 +134,6 @@ class Lowering(ABC):
     def degree(self, method: Method) -> int:
         """Return the degree of a Taylor method, or 0 for all other methods.
 
-        A Taylor method computes a step from the Taylor polynomial of the solution.
-
         :class:`codegen.errors.MethodError` is raised if step-size control needs a higher degree.
         """
         return 0
@@ -160,17 +141,16 @@ class Lowering(ABC):
     def extension(self, problem: Problem, method: Method) -> Program | None:
         """Return a program for the continuous extension of a method, or None if the method has none.
 
-        The continuous extension gives the solution inside a step of size h from the state y at time t. At the
-        time t + theta h, the solution is exp(sigma(theta)).y. Here sigma is a polynomial with values in the
-        Lie algebra. The program returns the coefficients of theta, theta^2, ... in sigma.
+        In a step of size h from the state y at time t, the solution at the time t + theta h is
+        exp(sigma(theta)).y. Here sigma is a polynomial with values in the Lie algebra. The program returns
+        the coefficients of theta, theta^2, ... in sigma.
         """
         return None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the :class:`Family` with the order conditions of a method.
 
-        In some families the order conditions depend on the scene. If ``scene`` is None, return the
-        conditions for a general scene.
+        If ``scene`` is None, return the conditions for a general scene.
         """
         from orderconds import families
 

@@ -3,7 +3,7 @@
 A step of size h starts at the state y0. Let k_j be the value of the field at stage j. To compute the point of
 a stage, exponentials are applied to y0 or to the point of an earlier stage. The exponents are linear
 combinations h sum_j beta_j k_j, each with its own coefficients beta_j. The new state is computed like the
-point of a stage. If the method is implicit, the stage equations are solved for the k_j.
+point of a stage.
 """
 
 from __future__ import annotations
@@ -67,11 +67,9 @@ STORAGE_OF_PAIR = (
 def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
     """Return a low-storage scheme for ``method``, and the coefficients D_i of its embedded method.
 
-    Let k_i be the value of the field at stage i. The embedded method applies exp(h sum_i D_i k_i) to the
-    result of ``method``. Without an embedded method, the second result is None.
-
-    The function returns None if ``method`` has no low-storage scheme, or if the embedded method does not have
-    this form.
+    If k_i is the value of the field at stage i, the embedded method applies exp(h sum_i D_i k_i) to the
+    result of ``method``. The function returns None if ``method`` has no low-storage scheme, or if the
+    embedded method does not have this form.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None
@@ -93,12 +91,9 @@ def two_registers(
 ) -> Program:
     """Return the program of a low-storage scheme: K_i = A_i K_{i-1} + k_i, Y_{i+1} = exp(h B_i K_i) Y_i.
 
-    Here k_i is the value of the field at Y_i. A step stores only the state and one element K of the Lie
-    algebra.
-
-    ``estimate`` contains the coefficients (D_1, ..., D_s) of the embedded method, or None if there is no
-    embedded method. With an embedded method, a step also stores the sum E of the D_i k_i. The embedded method
-    applies exp(h E) to the new state.
+    Here k_i is the value of the field at Y_i. ``estimate`` contains the coefficients (D_1, ..., D_s) of the
+    embedded method, or None if there is no embedded method. The embedded method applies exp(h E) to the new
+    state, where E is the sum of the D_i k_i.
     """
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -122,8 +117,7 @@ def two_registers(
         x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
         state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))
 
-    # The time of stage i is t + times[i] h. The number times[i] is the sum of the coefficients in the
-    # exponents of all earlier stages.
+    # Stage i is at the time t + times[i] h, and times[i] sums the coefficients of all earlier exponents.
     steps = [reduce(add, row) for row in scheme.increments(method.ring)]
     times = list(accumulate(steps, initial=method.ring.zero))
 
@@ -174,8 +168,8 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # The time of stage i is t + times[i] h. The number ``own`` is the sum of the coefficients in the
-            # exponents. If stage i begins at the point of stage j, its time also contains times[j] h.
+            # The time of stage i is t + times[i] h. If stage i begins at the point of stage j, its time
+            # also contains times[j] h.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))

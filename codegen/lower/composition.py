@@ -29,7 +29,7 @@ class CompositionLowering(FlowLowering):
         # The family cannot use tableaux of other classes.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
-        # A Strang step of length gamma h is a step of Phi*, followed by a step of Phi. Each has the length
-        # gamma h/2. Phi is a product of the flows, and Phi* applies them in the opposite order.
+        # A Strang step of length gamma h is a step of Phi*, then a step of Phi, each of length gamma h/2.
+        # Phi is a product of the flows, and Phi* applies the flows in the opposite order.
         halves = [method.number(x) * HALF for x in tableau.gamma]
         return pairs(parts.arranged, [(x, x) for x in halves]), self.family

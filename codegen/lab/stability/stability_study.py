@@ -123,8 +123,7 @@ def stability(
     """Test the stability of each method on a scene, and yield the results of one method at a time.
 
     If ``endurance`` is True, runs of many steps are included. For a method that cannot be tested, the result
-    is a :class:`NotTested` with the reason. If the scene has no reference solution, the largest usable step
-    is not measured.
+    is a :class:`NotTested` with the reason.
     """
     progress(f"{scene.name}: reference solution")
     exact = reference_or_reason(scene)
@@ -173,8 +172,7 @@ def findings(
 ) -> Findings:
     """Run the stability tests of one compiled method on its scene and on the stiff variants ``stiff``.
 
-    ``exact`` is the reference solution of the scene, or the reason why it could not be computed. If
-    ``endurance`` is True, runs of many steps are included.
+    ``exact`` is the reference solution of the scene, or the reason why it could not be computed.
     """
     method = compiled.method
     name = f"{compiled.scene.name}, {method.label}"
