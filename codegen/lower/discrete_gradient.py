@@ -1,13 +1,12 @@
 """Discrete gradient methods on groups. The methods preserve the energy exactly.
 
-The source is section 2.6 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds*.
-A step of size h from x0 to x1 is x1 = exp(eta).x0 with eta = h xi. The unknown is the element xi of the Lie
+The source is section 2.6 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds*. A
+step of size h from x0 to x1 is x1 = exp(eta).x0 with eta = h xi. The unknown is the element xi of the Lie
 algebra.
 
-Let H be the energy. The differential gamma(x) of H at a point x is an element of the dual of the Lie algebra.
-For each element e of the Lie algebra, <gamma(x), e> is the derivative of H(exp(s e).x) with respect to s at
-s = 0. The mean of gamma over the step is approximated by quadrature. The nodes c_i and the weights b_i are
-those of the tableau:
+The differential gamma(x) of the energy H is an element of the dual of the Lie algebra. For each element e of
+the Lie algebra, <gamma(x), e> is the derivative of H(exp(s e).x) with respect to s at s = 0. The quadrature
+with the nodes c_i and the weights b_i of the tableau approximates the mean of gamma over the step:
 
     g = sum_i b_i gamma(exp(c_i eta).x0).
 
@@ -16,13 +15,12 @@ A discrete differential is an element D of the dual with <D, eta> = H(x1) - H(x0
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
 The last factor eta denotes the element of the dual that has the coordinates of eta. The number |eta| is the
-Euclidean norm of the coordinates of eta. The second term corrects the error of the quadrature. With the
-single node 1/2, D is equation (2.31) of the thesis with gamma at the midpoint. With Gauss nodes, g
-approximates the mean of gamma that section 2.6 uses.
+Euclidean norm of the coordinates of eta. With the single node 1/2, D is equation (2.31) of the thesis with
+gamma at the midpoint.
 
 The step solves the equation xi = omega(D, .). Here omega is the bivector of the scene at the midpoint
-exp(eta/2).x0 (:mod:`codegen.scene.energy`). Since omega is skew, <D, xi> = 0. Therefore H(x1) = H(x0) for
-every tableau. The order is two if sum_i b_i c_i = 1/2, otherwise one.
+exp(eta/2).x0 (:mod:`codegen.scene.energy`). Since omega is skew, <D, xi> = 0, so H(x1) = H(x0). The order is
+two if sum_i b_i c_i = 1/2, otherwise one.
 
 On a lattice, H is the total energy. The pairing <g, eta> and |eta|^2 are sums over all sites
 (:mod:`codegen.kernel.site_sums`).
@@ -60,8 +58,7 @@ class DiscreteGradient(FieldLowering):
         expected = f"a Hamiltonian that does not depend on time, or a field with an invariant called {ENERGY}"
         if scene.sites is not None and not scene.sites.force:
             expected = 'the arguments "energy" and "bonds" in a lattice scene that does not depend on time'
-        # If H depends on time, the exact solution does not preserve H. A method that preserves H would not
-        # converge to this solution.
+        # If H depends on time, the exact solution does not preserve H.
         if not scene.autonomous:
             return Objection(", which depends on time", expected)
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
@@ -73,8 +70,7 @@ class DiscreteGradient(FieldLowering):
         where the field is not zero. The error is also raised if a force at the open boundary of a lattice is
         not a derivative of the energy.
         """
-        # The energy of a single site is not constant, because neighbours exchange energy. Therefore _agrees
-        # tests the equation on all sites of a small lattice.
+        # The energy of a single site is not constant, because neighbours exchange energy.
         if not _agrees(problem if problem.sites is None else small(problem)):
             if problem.sites is not None and problem.sites.outside:
                 raise MethodError(
@@ -113,7 +109,7 @@ def _program(scene: Problem, method: Method) -> Program:
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
-        # The bivector is evaluated at the midpoint. If it were evaluated at y, the method would have order 1.
+        # With the bivector at y instead of the midpoint, the method would have order 1.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # H(x1) depends on the unknown xi, so the energies are part of the equation for xi.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
@@ -124,18 +120,14 @@ def _program(scene: Problem, method: Method) -> Program:
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
-        # The solver computes xi from the equation xi = f(xi). If xi has the error e, f(xi) has the smaller
-        # error O(h e). The update uses f(xi), because the energy errors of all steps add up.
+        # The update uses f(xi), because f(xi) has the error O(h e) if xi has the error e.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
 
 
 def _agrees(scene: Problem) -> bool:
-    """Return True if omega(gamma, .) = f at sample points.
-
-    Here omega is the bivector, gamma is the differential of the energy, and f is the field.
-    """
+    """Return True if the bivector maps the differential of the energy to the field at sample points."""
     # A solution stays on its orbit, so all sample points are on the orbit.
     orbit = orbit_of(scene)
     for point in orbit.points:
@@ -143,7 +135,7 @@ def _agrees(scene: Problem) -> bool:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # If gamma is zero, ``image`` is zero. The result is then False if f is not zero.
+        # If gamma is zero and f is not zero, the result is False.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

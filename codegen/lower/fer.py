@@ -12,8 +12,7 @@ from codegen.lower.magnus import MagnusLowering
 class FerLowering(MagnusLowering):
     """Fer methods.
 
-    A step applies several exponentials to y0. The last exponent contains no brackets. All other exponents
-    are sums of brackets.
+    The last exponent of a step contains no brackets. All other exponents are sums of brackets.
     """
 
     # Fer tableaux and Magnus tableaux list exponents, so the lowering of Magnus methods is used.

@@ -15,14 +15,9 @@ class FieldLowering(Lowering):
     """
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene as an equation y' = f(y).y, where f(y) is in the Lie algebra and acts on y.
-
-        The field of a sum of Hamiltonians is the sum of their fields. If this sum needs fewer operations than
-        the field of the whole Hamiltonian, the equation contains the sum.
-        """
+        """Return the scene as an equation y' = f(y).y, where f(y) is in the Lie algebra and acts on y."""
         # The derived scene is stored, because several methods may be used on one scene.
         if "field" not in scene.derived:
-            # ``with_field_by_parts`` needs formulas in q and mu. ``as_field`` replaces q and mu by one point
-            # y, so ``with_field_by_parts`` is called first.
+            # ``with_field_by_parts`` is called before ``as_field``, because it needs formulas in q and mu.
             scene.derived["field"] = with_field_by_parts(scene).as_field()
         return scene.derived["field"]

@@ -1,8 +1,8 @@
 """Lowerings of splitting methods: a step on T*G is a sequence of exact flows of parts of a Hamiltonian.
 
 The sequence is called a word. A part is a sum of summands with exact flows. If the Hamiltonian depends on
-time, one summand that does not depend on time is chosen. The flow of the chosen summand also advances the
-time. During all other flows the time is constant.
+time, the flow of one summand that does not depend on time also advances the time. During all other flows the
+time is constant.
 """
 
 from __future__ import annotations
@@ -57,13 +57,9 @@ class Parts:
     def arranged(self) -> list[Summand]:
         """The summands in the order of their flows in Phi*, the adjoint of a method Phi.
 
-        A composition applies Phi* and Phi alternately, and begins with Phi*. Phi applies the flows in reverse
-        order. A kick is a flow that changes only the momentum. If the scene is not a lattice, kicks come
-        first. A step then begins and ends with a kick, and the kicks of two successive steps can be joined.
-
-        On a lattice, flows of different steps are not joined, so kicks come last. Phi* then ends with a
-        kick, and Phi begins with a kick. These two kicks are joined into one flow. Joining kicks saves time,
-        because a kick on a lattice reads all neighbours of a site.
+        A kick is a flow that changes only the momentum. If the scene is not a lattice, kicks come first,
+        because the kicks of two successive steps can be joined. On a lattice, kicks come last, because flows
+        of different steps are not joined.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -96,8 +92,7 @@ class FlowLowering(Lowering):
         """Return the reason why the family does not accept a scene, or None if the family accepts it."""
         if scene.sites is not None:
             hint = 'list the parts of the field in the argument "parts" of the scene'
-            # On a Hamiltonian lattice, the parts are summands of the Hamiltonian. On any other lattice, the
-            # parts are summands of the field.
+            # On a Hamiltonian lattice, the parts are summands of the Hamiltonian, otherwise of the field.
             listed = scene.parts if scene.paired else scene.sites.parts
             expected = "a field that is a sum of parts with exact flows"
             return None if listed else Objection(", a lattice without parts", expected, hint)
@@ -120,7 +115,7 @@ class FlowLowering(Lowering):
         word = self.read(scene, method).word
         # Only flows of the step are included, because other flows would be emitted as unused functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
-        # The flows are sorted by name. The order of emitted functions then does not depend on the step.
+        # The flows are sorted by name, so the order of emitted functions does not depend on the step.
         return replace(scene, flows=dict(sorted(flows.items())))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -148,12 +143,8 @@ class FlowLowering(Lowering):
     def read(self, scene: Problem, method: Method) -> Reading:
         """Return the flows of one step for a scene whose Hamiltonian is a sum of parts.
 
-        :class:`codegen.errors.MethodError` is raised in four cases:
-
-        - A part has no exact flow.
-        - The format of the tableau does not fit the scene.
-        - The number of parts in the tableau does not fit the scene.
-        - All parts depend on time.
+        :class:`codegen.errors.MethodError` is raised if a part has no exact flow, if the tableau does not fit
+        the scene, or if all parts depend on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
@@ -164,7 +155,7 @@ class FlowLowering(Lowering):
         """Return the program: one operation for each flow."""
         reading = self.read(problem, method)
         q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
-        # The flow of one summand, the carrier, advances t. All other flows keep t constant.
+        # The flow of one summand, the carrier, advances t.
         time = None if problem.autonomous else Var("t", Kind.REAL)
         inputs = (q, mu) if time is None else (q, mu, time)
         # The names t and h are reserved, because they are arguments of emitted code.
@@ -201,8 +192,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
     """Return the sequence of flows of a composition, and the label of the family of its order conditions.
 
-    The composition applies a method Phi and its adjoint Phi* alternately. Phi is the product of the flows of
-    all summands.
+    The composition alternates the product Phi of the flows of all summands and its adjoint Phi*.
     """
     # Phi* with the duration beta_i h acts before Phi with the duration alpha_i h.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
@@ -237,12 +227,11 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
     """Return the flows of a composition of a method Phi and its adjoint Phi*.
 
     For each pair (beta, alpha) in ``both``, Phi* with the duration beta h acts before Phi with the duration
-    alpha h. Phi* applies the flows of ``summands`` in the given order. Phi applies them in reverse order.
+    alpha h. Phi* applies the flows of ``summands`` in the given order.
     """
     word: Word = []
     for beta, alpha in both:
-        # Phi* ends with a flow of the last summand, and Phi begins with a flow of the last summand. The
-        # function _joined adds the durations of these two flows.
+        # The last flow of Phi* and the first flow of Phi belong to one summand, so ``_joined`` merges them.
         word += [(summand, beta) for summand in summands] + [
             (summand, alpha) for summand in reversed(summands)
         ]
@@ -250,13 +239,10 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
 
 
 def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
-    """Yield the flows of ``word``, after neighbouring flows of one summand have been joined.
-
-    Flows of duration zero are left out.
-    """
+    """Yield the flows of ``word`` with neighbouring flows of one summand joined."""
     joined: Word = []
     for summand, x in word:
-        # A flow of duration zero is dropped. The flows before and after it may then be joined.
+        # A flow of duration zero is dropped, so that the flows before and after it can be joined.
         if x.is_zero:
             continue
         if joined and joined[-1][0] is summand:
@@ -271,15 +257,11 @@ def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
 
 
 def _carrier(parts: Parts) -> Summand | None:
-    """Return the carrier: the summand whose flow advances the time.
-
-    If the scene does not depend on time, return None.
-    """
+    """Return the summand whose flow advances the time, or None if the scene does not depend on time."""
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The carrier is the first summand that does not depend on t. The order of the method does not depend
-        # on this choice.
+        # The order of the method does not depend on which summand without t is the carrier.
         if not summand.timed:
             return summand
     raise MethodError(

@@ -1,11 +1,10 @@
-"""The exponents of methods for y' = A(t).y. The exponents are elements of the Lie algebra.
+"""The exponents of methods for y' = A(t).y.
 
-A tableau of format ``magnus`` defines the exponents as combinations of brackets. The innermost
-arguments of the brackets are the values h A(t + c_i h) at the nodes c_i.
+A tableau of format ``magnus`` defines the exponents as combinations of brackets. The innermost arguments of
+the brackets are the values h A(t + c_i h) at the nodes c_i.
 
 An element h^p x is stored as the variable x and the power p. For a bracket, the powers of both arguments are
-added, so the program does not multiply the arguments by h. For example, the bracket of the values at two
-nodes has the power 2.
+added, so the program does not multiply the arguments by h.
 """
 
 from __future__ import annotations
@@ -31,9 +30,9 @@ class Scaled:
 
 @dataclass
 class LieElements:
-    """Appends statements to a program. The statements compute the Lie algebra elements of a method.
+    """Appends statements for the Lie algebra elements of a method to a program.
 
-    A bracket or product that occurs several times is computed once. The attributes are:
+    The attributes are:
 
     - ``build``: the builder of the program.
     - ``nodes``: the variables that contain A(t + c_i h) for the nodes c_i.
@@ -62,7 +61,7 @@ class LieElements:
         """
         terms = [(self.method.number(x), self._value(term)) for term, x in combination]
         terms = [(x, value) for x, value in terms if not x.is_zero]
-        # A sum without terms is zero. The power of h is then arbitrary, here 1.
+        # A sum without terms is zero, so its power of h is arbitrary.
         least = min((value.power for _, value in terms), default=1) if power is None else power
         # A single term with the coefficient 1 needs no new variable.
         if power is None and len(terms) == 1 and terms[0][0].is_one:
@@ -72,13 +71,13 @@ class LieElements:
         return Scaled(self.build.lin(target, Kind.ALG, scaled), least)
 
     def _value(self, term: Term) -> Scaled:
-        # A term may occur in several brackets. The value of each term is computed only once.
+        # A term may occur in several brackets, so its value is stored.
         if term not in self.known:
             self.known[term] = self._new(term)
         return self.known[term]
 
     def _new(self, term: Term) -> Scaled:
-        # A term of type int is the index i of a node. The value h A(t + c_i h) contains one factor h.
+        # A term of type int is the index i of a node with the value h A(t + c_i h).
         if isinstance(term, int):
             return Scaled(self.nodes[term], 1)
         # A term of type str is the name of an element that the tableau defines.
@@ -106,7 +105,7 @@ class LieElements:
             )
         middle = len(factors) // 2
         result = self._value(factors[middle])
-        # The product starts with the middle factor. Each iteration multiplies by one factor x on both sides.
+        # The product is computed from the middle factor outwards.
         for outer in reversed(factors[:middle]):
             x = self._value(outer)
             var = self.build.add(Sandwich(), "product", x.var, result.var)

@@ -36,15 +36,11 @@ class LinearLowering(FieldLowering):
     """A family of methods y1 = tau(X_m).(... tau(X_1).y0) for y' = A(t).y.
 
     Here tau is a map from the Lie algebra to the group, for example exp. The exponents X_j are combinations
-    of the values h A(t + c_i h) and of brackets of these values. The values do not depend on y, so there are
-    no stage equations to solve.
+    of the values h A(t + c_i h) and of brackets of these values.
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if A depends on coordinates that change in time. Otherwise return None.
-
-        On a lattice, A may depend on coordinates of a site and of its neighbours.
-        """
+        """Return an objection if A depends on coordinates that change in time, otherwise None."""
         if scene.linear or scene.carries_momentum or reads_only_static(scene):
             return None
         if scene.sites is not None:
@@ -75,11 +71,7 @@ class LinearLowering(FieldLowering):
         """
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a step.
-
-        The program evaluates A at the nodes. From these values of A it computes the exponents X_1, X_2, ...
-        The method :meth:`move` then applies tau(X_1), tau(X_2), ... to the point, in this order.
-        """
+        """Return the program of a step."""
         if method.step:
             return self._stated(problem, method)
         family = family_class(self.family)
@@ -90,7 +82,7 @@ class LinearLowering(FieldLowering):
                 f"{method.tableau.family}",
                 expected="a tableau of format magnus",
             )
-        # Some families reject certain tableaux. For example, ``cf_magnus`` accepts no brackets.
+        # For example, the family ``cf_magnus`` rejects tableaux with brackets.
         family().require(tableau, method.ring)
         y = Var("y", Kind.POINT)
         stages = Stages(problem, method, (y,))
@@ -115,7 +107,7 @@ class LinearLowering(FieldLowering):
                 where=problem.name,
                 expected="a step matrix in the scene's group, for example exp(X) with X in the Lie algebra",
             )
-        # A step multiplies y by a matrix. The scene gives a formula for the matrix.
+        # The scene gives a formula for the matrix of the step.
         y, t, end = Var("y", Kind.POINT), Var("t", Kind.REAL), Var("y1", Kind.POINT)
         body = (Assign((end,), StatedStep(method.step), (y, t)),)
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
@@ -123,8 +115,7 @@ class LinearLowering(FieldLowering):
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the order of the method.
 
-        If the scene itself defines the step of the method, the scene also states the order. Otherwise the
-        order is computed from order conditions.
+        If the scene itself defines the step of the method, the scene also states the order.
         """
         if not method.step:
             return super().order(method, scene)
@@ -141,21 +132,20 @@ class LinearLowering(FieldLowering):
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if the group is abelian.
 
-        On an abelian group all brackets are zero. A step is the exact flow of a weighted sum of the
-        Hamiltonians at the times of the nodes. Exact flows of Hamiltonians are symplectic.
+        On an abelian group, a step is the exact flow of a weighted sum of the Hamiltonians at the nodes.
         """
         return bool(scene.group.abelian)
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """Return ``step``. If the state contains a momentum conjugate to time, add the momentum's update."""
+    """Return ``step``, with the update of the momentum conjugate to time if the state contains one."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     # If the step does not depend on time, the momentum conjugate to time does not change.
     if not problem.carries_momentum or time is None:
         return step
     # The momentum is updated last, because the update needs the whole step.
     ((_, point),) = step.outputs
-    # ``point`` contains the old momentum. In ``moved``, the new momentum replaces it.
+    # In ``moved``, the new momentum replaces the old momentum.
     moved = Var("y_with_u", Kind.POINT)
     last = Assign((moved,), TimeMomentum(step), (step.inputs[0], point, time))
     return verify(replace(step, body=(*step.body, last), outputs=(("y", moved),)))

@@ -18,10 +18,9 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""The bracket programs of earlier searches. Each tableau has one bracket program.
+"""The bracket programs of earlier searches.
 
-A bracket program lists the brackets and the exponents of a step. A key contains the ring of the coefficients
-and the coefficients of the tableau as strings.
+A key contains the ring of the coefficients and the coefficients of the tableau as strings.
 """
 
 
@@ -46,17 +45,16 @@ def bracket_program(method: Method) -> BracketProgram:
             expected="an explicit tableau with exact coefficients, or a cut-off (the number of brackets)",
             hint=f"write rkmk(2):{name}",
         )
-    # ``order`` is the order of the Runge-Kutta method on R^n. The method on the group must have this order.
+    # The method on the group must have the order of the Runge-Kutta method on R^n.
     order = family_order(method.tableau, families.get("rk")).order
     highest = method.kind.minimal_brackets
     if order > highest:
         raise MethodError(
             f"the search for the fewest brackets does not support the order {order} of {name}",
             expected=f"an order of at most {highest}, or a cut-off (the number of brackets)",
-            # Let u be the exponent of a stage, and k the field at the stage. The series of dexp^{-1} has the
-            # terms ad_u^j k. The exponent u is a multiple of h k, up to an error O(h^2), and [k, k] = 0.
-            # Hence ad_u^j k = O(h^{j+1}) for j >= 1. The update multiplies this term by h. Terms with
-            # j > order - 2 therefore do not change the order.
+            # Let u be the exponent of a stage, and k the field at the stage. Since [k, k] = 0 and u is a
+            # multiple of h k up to an error O(h^2), ad_u^j k = O(h^{j+1}) for j >= 1. The update multiplies
+            # the term ad_u^j k of dexp^{-1} by h. Terms with j > order - 2 therefore do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
     # The bracket program is stored, because the search takes a long time and the certificate also needs the
@@ -84,8 +82,7 @@ def lower(scene: Problem, method: Method) -> Program:
 
     def combination(name: str, row: Row) -> Var:
         terms = [
-            # The value of a bracket already contains the factors h, because its two arguments contain them.
-            # Only the stage values k_i are multiplied by h.
+            # The value of a bracket already contains the factors h of its arguments.
             (stages.times_h(x) if key[0] == "k" else Coefficient(stages.number(x)), values[key])
             for key, x in row.items()
         ]

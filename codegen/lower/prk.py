@@ -7,13 +7,12 @@ Numerical Integration* (HLW):
     (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h),   c_i = sum_j a_ij,
     q1 = q0 + h sum_i b_i xi_i,     p1 = p0 + h sum_i bhat_i n_i.
 
-The tableau for the positions has the coefficients a_ij and b_i. The tableau for the momenta has the
-coefficients ahat_ij and bhat_i. The pair f(q, p, t) consists of the velocity and the force. The unknowns
-are the velocities xi_i and the forces n_i.
+The tableau for the positions has the coefficients a_ij and b_i, the other tableau ahat_ij and bhat_i. The
+pair f(q, p, t) consists of the velocity and the force. The unknowns are the velocities xi_i and the forces
+n_i.
 
-If the velocity does not depend on q, it is evaluated at q0 in place of Q_i. If the force does not depend on
-p, it is evaluated at p0 in place of P_i. With these substitutions, the compiler can detect explicit stages,
-for example in the Stoermer-Verlet method.
+A velocity that does not depend on q is evaluated at q0, and a force that does not depend on p at p0. The
+compiler can then detect explicit stages, for example in the Stoermer-Verlet method.
 """
 
 from __future__ import annotations
@@ -61,8 +60,7 @@ class PartitionedLowering(Lowering):
         also have the same weights (HLW Theorem VI.4.6).
         """
         tableau, zero = _pair(method), method.ring.is_zero
-        # If the ring cannot decide whether a difference is zero, ``zero`` returns None. In this case, the two
-        # weights count as different.
+        # If the ring cannot decide whether a difference is zero, the two weights count as different.
         same = all(zero(x - y) is True for x, y in zip(tableau.b, tableau.b_hat, strict=True))
         return symplectic_pair(tableau, method.ring) is True and (same or separable(scene))
 
@@ -70,7 +68,6 @@ class PartitionedLowering(Lowering):
         """Return the order conditions.
 
         For a symplectic pair of tableaux and H = T(p) + V(q, t), the result is the family ``sprk_separable``.
-        This family has fewer conditions than ``prk``.
         """
         from orderconds import families
 
@@ -98,8 +95,8 @@ class PartitionedLowering(Lowering):
                     *((stages.times_h(a), f) for a, f in zip(tableau.A_hat[i], n, strict=True)),
                 ]
                 P = build.lin(f"P{number}", Kind.DUAL, terms)
-                # The node c_i is the sum of row i of A. The sum starts with the first entry of the row,
-                # because the integer 0 is not an element of the ring.
+                # The sum starts with the first entry of the row, because the integer 0 is not an element of
+                # the ring.
                 time = stages.at(sum(tableau.A[i][1:], tableau.A[i][0]))
                 v, f = build.hamilton(f"v{number}", f"f{number}", Q, P, *time)
                 # If the velocity does not depend on positions, it is evaluated at the old position.

@@ -13,7 +13,7 @@ _registered: dict[str, Lowering] = {}
 
 def _built_in() -> tuple[type[Lowering], ...]:
     """Return the lowerings of this package, in the order in which commands list them."""
-    # The modules below import the package codegen.lower. Imports at the top of this file would be circular.
+    # Imports at the top of this file would be circular.
     from codegen.lower.ambient import Ambient
     from codegen.lower.cayley import CayleyLowering
     from codegen.lower.cf import CommutatorFreeLowering
@@ -58,10 +58,10 @@ def _built_in() -> tuple[type[Lowering], ...]:
 
 
 def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
-    """Register a lowering for all commands, and return its class. The function can be used as a decorator.
+    """Register a lowering for all commands, and return its class.
 
-    The class ``family`` defines the order conditions of the family. If this class is given, the function
-    registers it, too (:func:`orderconds.families.register`).
+    If the class ``family`` with the order conditions is given, the function also registers this class
+    (:func:`orderconds.families.register`).
 
     :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and for a
     family that has a lowering of another class.
@@ -137,7 +137,7 @@ def families_for(scene: Problem) -> tuple[str, ...]:
 
 
 def _lowerings() -> dict[str, Lowering]:
-    """Return the lowerings of all families. The keys are the names of the families."""
+    """Return the lowerings of all families, with the names of the families as keys."""
     # The first call adds the built-in lowerings, because an earlier import would be circular.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())

@@ -19,7 +19,7 @@ class RungeKuttaLowering(FieldLowering):
     def objection(self, scene: Problem) -> Objection | None:
         """Return an objection if the scene is not on R^n, and None otherwise."""
         group = scene.as_field().group
-        # On R^n, every group element acts as a translation: exp(u).y = y + u. All brackets vanish.
+        # On R^n, every group element acts as a translation: exp(u).y = y + u.
         if group.abelian:
             return None
         hint = "use rkmk, cg or cf; or use ambient, whose steps leave the manifold"

@@ -58,12 +58,8 @@ class MuntheKaas(FieldLowering):
     def extension(self, problem: Problem, method: Method) -> Program | None:
         """Return the program of the continuous extension.
 
-        The result is None in four cases:
-
-        - The method has no cut-off.
-        - The tableau is implicit.
-        - The tableau has no continuous extension.
-        - The scene has a coordinate map other than exp.
+        The result is None if the method has no cut-off, or if the scene has a coordinate map other than exp.
+        The result is also None if the tableau is implicit or has no continuous extension.
         """
         exact = problem.coordinates is None and method.cutoff is not None
         return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
@@ -109,7 +105,7 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
         # The series is dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... With the cut-off 0, only the term
-        # k remains. On a group that is not abelian, the order is then at most two.
+        # k remains.
         return build.dexpinv(target, u, k, cutoff)
 
     return _program(problem, method, Exp(), inverse)
@@ -150,11 +146,10 @@ def _program(
     inverse: Callable[[Builder, str, Var, Var], Var],
     extension: Extension | None = None,
 ) -> Program:
-    """Return the program of a step with the coordinate map ``element``, for example exp.
+    """Return a step's program with the coordinate map ``element`` and its inverse differential ``inverse``.
 
-    The function ``inverse`` appends a statement with the inverse differential of ``element``. If
-    ``extension`` is given, the program computes the coefficients of the continuous extension instead of the
-    new state.
+    If ``extension`` is given, the program computes the coefficients of the continuous extension instead of
+    the new state.
     """
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
@@ -178,8 +173,7 @@ def _program(
 
     def powers() -> dict[str, Var]:
         assert extension is not None
-        # The extension gives the state at the time t + theta h. The weights of the extension are polynomials
-        # b_i(theta). Each row contains the coefficients of one power theta^p.
+        # Each row contains the coefficients of one power theta^p in the weights b_i(theta) of the extension.
         rows = {f"{POWERS}{p}": extension.power(p) for p in range(1, extension.degree + 1)}
         return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
 
@@ -189,7 +183,6 @@ def _program(
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more
 
-    # Without an extension, the program returns the new state. With an extension, it returns a polynomial in
-    # theta, whose coefficients are elements of the Lie algebra.
+    # With an extension, the program returns a polynomial in theta with coefficients in the Lie algebra.
     ends = update if extension is None else powers
     return stages.program(v, images, lambda: [stages.f("k0", y, None)] * tableau.s, ends)

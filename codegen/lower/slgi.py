@@ -40,11 +40,10 @@ class SymplecticIntegrator(VariationalLowering):
         return _program(problem, method)
 
 
-# The operation dexp*_{-Y} replaces the two operations dexp*_Y Ad*_{exp(-Y)}. All M_i together need s + 1
-# evaluations of dexp*: one for -Y and one for each X_j.
+# The operation dexp*_{-Y} replaces the two operations dexp*_Y Ad*_{exp(-Y)}.
 #
-# With one stage, the formula of M has two terms with the force n. Let a = a_11, b = b_1 and x = h xi. The
-# following identity merges the two terms into one:
+# Let a = a_11, b = b_1 and x = h xi. With one stage, the following identity merges the two terms of M with
+# the force n:
 #
 #     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x}.
 def _program(scene: Problem, method: Method) -> Program:
@@ -80,7 +79,7 @@ def _program(scene: Problem, method: Method) -> Program:
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # ``after`` is X - Y. X and Y commute, so Ad*_{exp(after)} is Ad*_{exp(-Y)} Ad*_{exp X}.
+        # ``after`` is X - Y, and X and Y commute, so Ad*_{exp(after)} = Ad*_{exp(-Y)} Ad*_{exp X}.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

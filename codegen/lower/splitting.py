@@ -47,8 +47,7 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # ``exact`` is True if each part has a single summand. Otherwise each summand counts as a separate
-        # part.
+        # If some part has several summands, each summand counts as a separate part.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
@@ -71,8 +70,8 @@ def _in_order(
     """Return the flows of a splitting, and the label of the family whose order conditions apply.
 
     If the parts of the tableau and of the scene have the same names, the parts are matched by name. Otherwise
-    the parts are matched by position, except in a Runge-Kutta-Nystroem splitting of a Hamiltonian. There the
-    part V of the tableau is matched with the kick. A kick is a flow that changes only the momentum.
+    the parts are matched by position. In a Runge-Kutta-Nystroem splitting of a Hamiltonian, V is then matched
+    with the kick.
     """
     chosen = summands
     names = [part.name for part in own.parts]
@@ -80,7 +79,7 @@ def _in_order(
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None and own.scene.paired:
-        # ``rkn`` is the index of the part V in the tableau, 0 or 1. The sort moves the kick to this index.
+        # ``rkn`` is the index of the part V in the tableau, 0 or 1.
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
@@ -90,7 +89,6 @@ def _in_order(
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
         # Since [V, [V, [V, T]]] = 0, the order conditions of Runge-Kutta-Nystroem splittings are sufficient.
-        # General splittings have more order conditions.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
@@ -106,8 +104,7 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
     (T,) = [scene.parts[p.name] for p in parts if p.summands[0] is not summand]
     qs, mus = (block.symbols for block in scene.state)
     nested = T
-    # Suppose, for example, that V depends only on q, and T is quadratic in mu. Each bracket with V lowers the
-    # degree in mu by one, so the nested bracket is zero.
+    # If V depends only on q, and T is quadratic in mu, each bracket with V lowers the degree in mu by one.
     for _ in range(3):
         # The sign convention of the bracket does not matter, because the result is only compared with zero.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)
@@ -127,30 +124,27 @@ def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
     """Return the composition of Phi and Phi* that is equal to a splitting in two parts.
 
-    The result contains the pairs (beta_i, alpha_i). Phi* has the duration beta_i h, and Phi has the duration
-    alpha_i h.
+    Each pair (beta_i, alpha_i) contains the durations of Phi* and Phi in units of the step size.
     """
-    # Let A be the part whose flow acts first, and B the other part. The splitting applies the flows A_{x1},
-    # B_{x2}, A_{x3}, ... in this order. Phi* applies first A and then B. Phi applies first B and then A. The
-    # composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... is the splitting if x1 = beta_1,
-    # x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. The equations, in this order, give beta_1,
-    # alpha_1, beta_2, ...
+    # Let A be the part whose flow acts first, and B the other part. Phi* applies first A and then B. Phi
+    # applies first B and then A. The composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... is the
+    # splitting A_{x1}, B_{x2}, A_{x3}, ... if x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and
+    # so on.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
-        # In the equations above, the flows of A and B alternate. Consecutive flows of one part are joined.
+        # In the equations above, the flows of A and B alternate.
         if joined and joined[-1][0] == k:
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
     durations = [x for _, x in joined]
-    # The loop below requires an odd number of flows. A flow of duration zero changes nothing.
+    # The loop below requires an odd number of flows.
     if len(durations) % 2 == 0:
         durations.append(zero)
     composed, carried = [], durations[0]
     for inner, outer in zip(durations[1::2], durations[2::2], strict=True):
-        # In the equations above, ``carried`` is beta_i. The sum beta_i + alpha_i is ``inner``, and the sum
-        # alpha_i + beta_{i+1} is ``outer``.
+        # Here ``carried`` is beta_i, ``inner`` is beta_i + alpha_i, and ``outer`` is alpha_i + beta_{i+1}.
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha

@@ -1,4 +1,4 @@
-"""Compositions: methods whose step consists of substeps of one method. Only one substep is compiled.
+"""Compositions: methods whose step consists of substeps of one method.
 
 Suppose that the stages of a tableau form consecutive groups with two properties:
 
@@ -9,8 +9,7 @@ Let gamma_k be the sum of the b_j of group k. Then the method is a composition, 
 length gamma_k h (Lemma 3.5.4 of Bogfjellmo and Marthinsen). The coefficients of group k, divided by gamma_k,
 are the tableau of the substep. If all substeps have the same tableau, one program computes all substeps.
 
-Only implicit methods are split into substeps. The substeps of an explicit method have common subexpressions.
-A separate program for one substep would compute these subexpressions again in every substep.
+Only implicit methods are split, because the substeps of an explicit method have common subexpressions.
 """
 
 from __future__ import annotations
@@ -29,11 +28,9 @@ from orderconds.tableau import Composition, RungeKutta
 def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     """Return the base method of a composition, and the substeps of one step.
 
-    Each substep is a step of the base method. The substeps can have different lengths. The result is None if
-    the tableau is not a composition of implicit substeps, or if the step also computes an embedded solution.
-
-    Some families cannot divide a step into substeps. The caller must check the attribute
-    ``repeats_substeps`` of :class:`codegen.lower.Lowering` first.
+    The result is None if the tableau is not a composition of implicit substeps, or if the step also computes
+    an embedded solution. The caller must check the attribute ``repeats_substeps`` of
+    :class:`codegen.lower.Lowering` first.
 
     >>> from codegen.method import parse
     >>> base, steps = substeps(parse("vcg:suzuki4", ("vcg",)))
@@ -48,8 +45,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     tableau = method.tableau
     repetition: tuple[RungeKutta, tuple[Number, ...]] | None
     if isinstance(tableau.method, Composition):
-        # A tableau of the class Composition lists only the lengths of the substeps. Each substep is a step of
-        # the midpoint rule.
+        # Each substep of a tableau of the class Composition is a step of the midpoint rule.
         half = tableau.ring.rational(1, 2)
         repetition = (
             RungeKutta(((half,),), (tableau.ring.one,)),
@@ -82,26 +78,22 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
     """Return the common tableau of the substeps, and their lengths gamma_k in units of the step size.
 
-    The function divides a step into as many substeps with a common tableau as possible. The result is None if
-    the step cannot be divided, or if the common tableau is explicit.
+    The result is None if the step cannot be divided, or if the common tableau is explicit.
     """
-    # A coefficient can be a ball, that is, an interval that contains the number. The class Number can
-    # compare balls.
+    # The class Number can also compare balls, which are intervals that contain the number.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a stage before which the step can be divided. A section consists of the stages between two
-    # neighbouring cuts. A group consists of ``wide`` neighbouring sections.
+    # A cut is a stage before which the step can be divided. A group contains the stages from one cut to the
+    # cut ``wide`` places later.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # Small groups give the most substeps, so small values of ``wide`` are tried first.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # The number of sections is a multiple of ``wide``, so the last group is complete.
+        # The number of cuts minus one is a multiple of ``wide``, so the last group is complete.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
-        # A step with weights b_j advances the time by h sum_j b_j. Therefore the length gamma_k h of substep
-        # k is h times the sum of the weights of its stages.
+        # A step with weights b_j advances the time by h sum_j b_j.
         sums = [_sum([b[j] for j in group]) for group in groups]
-        # A group whose weights add up to zero does not advance the time, so it is no substep. In this case,
-        # larger groups are tried.
+        # A group whose weights add up to zero does not advance the time, so it is no substep.
         if any(x.is_zero for x in sums):
             continue
         scaled = [
@@ -109,7 +101,6 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
             for g, total in zip(groups, sums, strict=True)
         ]
         # ``scaled`` contains one tableau for each group k: the coefficients of the group, divided by gamma_k.
-        # Substep k is a step of size gamma_k h with the tableau of group k.
         first = scaled[0]
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]
@@ -120,16 +111,14 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
     """Return True if a step can be divided into two substeps, the first with k stages."""
     s = len(b)
-    # Lemma 3.5.4 of Bogfjellmo and Marthinsen has two conditions. If i >= k, stage i starts from the result
-    # of the stages j < k, so a_ij = b_j. If i < k, stage i does not depend on the stages j >= k, so a_ij = 0.
+    # Lemma 3.5.4 of Bogfjellmo and Marthinsen: a_ij = b_j for j < k <= i, and a_ij = 0 for i < k <= j.
     return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
         A[i][j].is_zero for i in range(k) for j in range(k, s)
     )
 
 
 def _implicit(rows: Sequence[Sequence[Number]]) -> bool:
-    # ``rows`` contains the rows of A, followed by b. A non-zero entry of A on or above the diagonal means
-    # that a stage depends on itself or on a later stage.
+    # ``rows`` contains the rows of A, followed by b.
     return any(not x.is_zero for i, row in enumerate(rows[:-1]) for x in row[i:])
 
 
@@ -142,7 +131,7 @@ def _sum(numbers: Sequence[Number]) -> Number:
 
 def _element(method: Method, x: Number) -> Element:
     """Return a number as an element of the tableau's ring."""
-    # A Number stores a rational value as an element of the ring QQ. A tableau needs elements of its own ring.
+    # A tableau needs elements of its own ring, but a Number stores rational values as elements of QQ.
     if x.is_rational:
         fraction = x.fraction()
         return method.ring.rational(fraction.numerator, fraction.denominator)
