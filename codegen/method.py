@@ -1,7 +1,7 @@
 """A method: a family with a tableau, such as ``vcg:triple_jump`` or ``rkmk(2):rk4``.
 
-The label of a method may contain only the tableau, as in ``cf4``. Some families have no tableau. The label of
-a method without a tableau contains only the family, as in ``taylor(12)``.
+The label of a method may contain only the tableau, as in ``cf4``. The label of a method without a tableau
+contains only the family, as in ``taylor(12)``.
 """
 
 from __future__ import annotations
@@ -44,8 +44,7 @@ class Method:
     - ``cutoff`` is the number of brackets after which the series of dexp^{-1} or dexp is truncated. For a
       family without tableau, ``cutoff`` is the number in the label, for example 12 in ``taylor(12)``.
     - ``adaptive`` is True if the emitted code controls the step size.
-    - ``step`` is the name of a step y1 = M y0, where the scene defines the matrix M by a formula. A method
-      with a named step has no tableau. For all other methods, ``step`` is ''.
+    - ``step`` is '', or the name of a step y1 = M y0 with a matrix M that the scene defines by a formula.
     """
 
     family: str
@@ -148,20 +147,16 @@ class Method:
     def embedded(self) -> Method | None:
         """Return the embedded method, or None if the method needs no embedded method.
 
-        If ``adaptive`` is False, no embedded method is needed. Some families control the step size without an
-        embedded method, for example ``taylor``. :class:`MethodError` is raised if a needed embedded method
-        does not exist.
-
-        An embedded method has the stages of the method, but other weights. The stages must therefore not
-        depend on the weights. For a method of the family ``rkmk`` without a cut-off, the compiler chooses the
-        brackets in the stages. The chosen brackets depend on the weights, so there is no embedded method.
+        The result is None if ``adaptive`` is False, or if the family needs no embedded method, for example
+        ``taylor``. An embedded method has the stages of the method, but other weights. :class:`MethodError`
+        is raised if a needed embedded method does not exist.
         """
         if not self.adaptive or self.kind.controls_steps:
             return None
         lower = self.tableau.lower()
         if not self.kind.fixed_stages:
             # Variable step sizes destroy the good long-time energy behaviour of symplectic and variational
-            # methods. Step-size control is therefore not useful for these methods.
+            # methods.
             raise MethodError(
                 f"no error estimate for {self.label}: embedded methods exist only in families whose stages "
                 "do not depend on the weights",
@@ -191,19 +186,15 @@ class Method:
 
 
 def _file(name: str) -> Path:
-    """Return the path of a tableau file.
-
-    A ``name`` that ends in ``.toml`` is the path itself. All other names denote tableaux of the library.
-    """
+    """Return the path ``name`` if ``name`` ends in ``.toml``, and otherwise the path of a library tableau."""
     path = Path(name)
     return path if path.suffix == ".toml" else find(name)
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return the tableau with balls (small intervals) instead of decimal coefficients.
+    """Return the tableau with balls (small intervals) that contain exact coefficients, instead of decimals.
 
-    A tableau file may contain a proof that exact coefficients exist near the decimals. Each ball contains an
-    exact coefficient. A tableau without a valid proof is returned unchanged.
+    A tableau without a valid proof that exact coefficients exist is returned unchanged.
     """
     if tableau.proof is None:
         return tableau
@@ -263,14 +254,10 @@ def _claimed(tableau: Tableau) -> tuple[str, ...]:
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
 ) -> UnclaimedTableau:
-    """Return the error for a tableau that claims no order in the families ``readable``.
-
-    The families ``readable`` can use the format of the tableau.
-    """
+    """Return the error for a tableau that claims no order in the families ``readable``."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
-    # Without a claimed order, the parser cannot choose a cut-off. If the family has a cut-off, the hint
-    # therefore contains one.
+    # Without a claimed order, the parser cannot choose a cut-off.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order in these families: {family or ', '.join(families)}",
@@ -328,7 +315,7 @@ def _library() -> Iterator[Tableau]:
 
 @cache
 def _of_library(name: str) -> Tableau:
-    # Loading all tableaux takes half a second. The search for an example may need them for several families.
+    # Loading all tableaux takes half a second.
     return Tableau.load(find(name))
 
 
@@ -359,11 +346,9 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
-    """Compute the order of the tableau in each suitable family, and yield the orders as claims.
+    """Yield the order of the tableau in each suitable family as a claim, computed from the order conditions.
 
-    The orders follow from the order conditions. For the family ``rkmk``, there is one claim for each of
-    several cut-offs: ``rkmk(1)`` and so on. If ``family`` is not empty, only its claims are computed, for all
-    cut-offs.
+    If ``family`` is not empty, only its claims are computed, for all cut-offs.
     """
     from orderconds.checking import check, claimable_families
 
@@ -399,9 +384,8 @@ def parse(text: str, families: Sequence[str]) -> Method:
     If the family needs a cut-off and the text contains none, the cut-off with the highest claimed order is
     chosen. Among cut-offs of equal order, the smallest is chosen.
 
-    The family ``rkmk`` has an exception. If the tableau is explicit with exact coefficients, and the claimed
-    order is at most 6, no cut-off is chosen. The compiler then searches for the fewest brackets that preserve
-    the order.
+    For the family ``rkmk``, no cut-off is chosen if the tableau is explicit with exact coefficients and the
+    claimed order is at most 6. The compiler then searches for the fewest brackets that preserve the order.
 
     :class:`MethodError` is raised if the text cannot be read, or if the scene or the tableau does not fit the
     family. MethodError is also raised if a family or a cut-off is missing, and the claims of the tableau do
@@ -421,10 +405,7 @@ def parse(text: str, families: Sequence[str]) -> Method:
 
 
 def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
-    """Return the method with the given tableau in the family that ``text`` names.
-
-    If ``text`` names no family, the orders that the tableau claims determine the family.
-    """
+    """Return the method with the given tableau in the family that ``text`` names or the claims determine."""
     assert match is not None
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
@@ -444,15 +425,14 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"no cut-off, or a family with a cut-off: {' or '.join(cutting)}",
         )
-    # The sums of the coefficients of a commutator-free tableau over the exponentials define a Runge-Kutta
-    # method. A claim for the family rk is about this Runge-Kutta method, not about the commutator-free
-    # method, and is therefore ignored.
+    # For a commutator-free tableau, a claim for the family rk is about the sums of coefficients over the
+    # exponentials.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]
     if not readable or (family is not None and family not in readable):
         raise _unreadable(text, tableau, families if family is None else (family,))
-    # A claim may name a family with a number, for example ``splitting(3)``. The number is removed.
+    # A claim may name a family with a number, for example ``splitting(3)``.
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:

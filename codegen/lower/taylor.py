@@ -31,8 +31,7 @@ class Taylor(Lowering):
     """Taylor's method for y' = F(y) in R^n. The vector y contains the coordinates of the state.
 
     Each step evaluates a Taylor polynomial of degree P in the step size, so the order is P. If the manifold
-    is not R^n, the value of the polynomial is projected onto the manifold. The projection changes the value
-    by O(h^(P+1)).
+    is not R^n, the value of the polynomial is projected onto the manifold.
     """
 
     family = "taylor"
@@ -41,8 +40,8 @@ class Taylor(Lowering):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if the computed states are on the manifold of the scene.
 
-        The result is True if the manifold is an open subset of R^n. For any other manifold, the result is
-        True if the projection maps points near the manifold onto the manifold.
+        If the manifold is not an open subset of R^n, the projection must map points near the manifold onto
+        the manifold.
         """
         return reaches_orbit(scene)
 
@@ -68,8 +67,7 @@ class Taylor(Lowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step. A step evaluates the Taylor polynomial and projects the value."""
         degree = self.conditions(method).degree_of_step()
-        # ``y`` is the old state, and ``moved`` is the value of the Taylor polynomial. ``end`` is the
-        # projection of ``moved`` onto the manifold.
+        # ``moved`` is the value of the Taylor polynomial, and ``end`` is the projection of ``moved``.
         y, moved, end = (Var(name, Kind.POINT) for name in ("y", "moved", "end"))
         # If the field does not depend on time, the operation TaylorStep has no time argument.
         time = () if problem.autonomous else (Var("t", Kind.REAL),)

@@ -30,8 +30,8 @@ class VariationalLowering(Lowering):
     """
 
     hamiltonian = True
-    # Hamiltonian scenes are often integrated over long times. Symplectic methods then usually have smaller
-    # errors than other methods of equal order. The compiler therefore prefers variational families.
+    # The compiler prefers variational families, because symplectic methods usually have smaller errors over
+    # long times.
     preference = 1
 
     def objection(self, scene: Problem) -> Objection | None:
@@ -55,16 +55,14 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
     tableau = method.runge_kutta()
     stages = Stages(scene, method, (Var("q", Kind.GROUP), Var("mu", Kind.DUAL)))
     A = [[stages.number(x) for x in row] for row in tableau.A]
-    # Let M_i be the momentum of stage i. Hamilton's equations for the discrete Lagrangian are equations for
-    # the products b_i M_i. The program divides by b_i to compute M_i, so no b_i may be zero.
+    # The program divides by b_i to compute the momentum M_i of stage i, so no b_i may be zero.
     return stages, tableau, A, nonzero(method, [stages.number(x) for x in tableau.b])
 
 
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
     """Return the weights b_i, or raise ZeroWeight for the first weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
-        # If a weight is a ball (an interval) that contains zero, ``is_zero`` returns None. The program cannot
-        # divide by such a ball.
+        # If a weight is a ball (an interval) that contains zero, ``is_zero`` returns None.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(
@@ -82,8 +80,7 @@ def brackets(method: Method) -> int:
     MethodError is raised for a method without a cut-off.
     """
     if method.cutoff is None:
-        # A search for the fewest brackets exists only for dexp^{-1}. A variational step also needs the dual
-        # and the derivative of the series, so the user must choose the cut-off.
+        # A search for the fewest brackets exists only for dexp^{-1}, not for its dual and its derivative.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} needs a cut-off", expected=f"the number of brackets, as in {family}(2):{name}"
@@ -92,11 +89,10 @@ def brackets(method: Method) -> int:
 
 
 class ExpandedStep(ABC):
-    """A step with a truncated series of dexp^{-1} or dexp.
+    """A step with a truncated series of dexp^{-1} or dexp, for a tableau with coefficients a_ij and b_j.
 
     The stages are Q_i = exp(X_i) q0 with X_i = h sum_j a_ij v_j. The result is q1 = exp(Y) q0 with
-    Y = h sum_j b_j v_j. The coefficients of the tableau are a_ij and b_j. Subclasses define the equations for
-    the v_j and for the momenta.
+    Y = h sum_j b_j v_j. Subclasses define the equations for the v_j and for the momenta.
     """
 
     unknowns: list[Var]
@@ -108,9 +104,7 @@ class ExpandedStep(ABC):
     nu: list[Var]
     """Ad*_{exp X_j} n_j: the force n_j of each stage, transported to q0."""
     mubar: Var
-    """mu0 + h sum_j b_j nu_j. Here mu0 is the momentum at the beginning of the step, and nu_j is entry j of
-    ``nu``.
-    """
+    """mu0 + h sum_j b_j nu_j, where mu0 is the momentum at the beginning of the step."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
         # No term of the truncated series has more than ``self.r`` brackets.

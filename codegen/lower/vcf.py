@@ -1,9 +1,7 @@
 """Variational commutator-free methods on T*G.
 
-In variational Crouch-Grossman methods (VCG), each exponent contains the velocity xi_j of one stage. In a
-commutator-free method, an exponent is a linear combination of the velocities of several stages. The
-coefficients are alpha_iJ^j in exponent J of stage i, and beta_J^j in exponent J of the update. The products
-of exponentials are
+Each exponent is a linear combination of the velocities xi_j of the stages. The coefficients are alpha_iJ^j in
+exponent J of stage i, and beta_J^j in exponent J of the update. The products of exponentials are
 
     X_iJ = h sum_j alpha_iJ^j xi_j,   E_i^J = exp(X_iJ) E_i^{J-1},   Q_i = E_i q0,
     Y_J = h sum_j beta_J^j xi_j,      e^J = exp(Y_J) e^{J-1}.
@@ -17,10 +15,8 @@ equations for the discrete Lagrangian, transported to q0, are
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
-The subscripts of Ad* contain e^{J-1} and E_j^{J-1}, the products of the factors before factor J. Factor J
-does not occur there, because dexp*_x Ad*_{exp(-x)} = dexp*_{-x} for each x in the Lie algebra. In M_i, the
-program expands mubar into one term for mu0 and one term for each nu_j. Some terms of this expansion may
-cancel terms of the double sum. Later passes of the compiler remove terms that cancel.
+Factor J does not occur in the subscripts of Ad*, because dexp*_x Ad*_{exp(-x)} = dexp*_{-x} for each x in the
+Lie algebra.
 """
 
 from __future__ import annotations
@@ -62,8 +58,7 @@ class _Product:
             scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
             return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
 
-        # The momenta contain the products of all factors before factor J. Before the first factor, this
-        # product is the identity.
+        # The momenta contain the products of all factors before factor J.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
             g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
@@ -74,10 +69,9 @@ class _Product:
         return cls(rows, tuple(minus), tuple(partial))
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
-        """Append the covector dexp*_{-x} Ad*_{p^-1} m.
+        """Append the covector dexp*_{-x} Ad*_{p^-1} m with the exponent x of factor J = 0, 1, ...
 
-        The Lie algebra element x is the exponent of factor J. The group element p is the product of all
-        factors before factor J. The index J begins at 0. The index i occurs only in variable names.
+        The group element p is the product of all factors before factor J.
         """
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
@@ -118,7 +112,7 @@ def _program(scene: Problem, method: Method) -> Program:
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
                 # mubar is expanded, because some of its terms may cancel terms of the double sum.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
-        # The points Q_j depend on xi_i. The equation for M_i therefore contains the double sum.
+        # The points Q_j depend on xi_i, so the equation for M_i contains the double sum.
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
@@ -128,7 +122,7 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         e = _Product.of(stages, "e", update, xi)
-        # The products E_i of two stages may begin with equal factors. A later pass removes the repetitions.
+        # A later pass merges equal factors at the beginning of the products E_i.
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         evaluations = []
@@ -155,10 +149,7 @@ def _program(scene: Problem, method: Method) -> Program:
 
 
 def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
-    """Return the rows of coefficients for each stage, and the rows for the update.
-
-    If a stage starts from an earlier stage, the rows of the earlier stage come first.
-    """
+    """Return the rows of coefficients for each stage, and the rows for the update."""
     tableau = method.commutator_free()
     # The update has rows of coefficients like a stage, so the loop includes it as the last stage.
     *stages, update = (
@@ -169,7 +160,7 @@ def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
 
 
 def _weights(method: Method, update: Rows, s: int) -> list[Number]:
-    """Return the weights b_i. The weight b_i is the sum of the coefficients of xi_i in the update.
+    """Return the weights b_i, the sums of the coefficients of xi_i in the update.
 
     ZeroWeight is raised if a weight may be zero.
     """

@@ -2,8 +2,7 @@
 
 A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau with s stages are a_ij and b_i. Let
 (xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i, and let e^0 = E_i^0 = 1 and E_i = E_i^s.
-The vector nu_j is the force n_j, transported to q0, where the forces of all stages can be added. The
-equations are
+The equations are
 
     e^j = exp(h b_j xi_j) e^{j-1},   E_i^j = exp(h a_ij xi_j) E_i^{j-1},
     Q_i = E_i q0,   nu_j = Ad*_{E_j} n_j,
@@ -11,11 +10,9 @@ equations are
           - h sum_j (b_j a_ji/b_i) dexp*_{-h a_ji xi_i} Ad*_{(E_j^{i-1})^-1} nu_j,
     q1 = e^s q0,   mu1 = Ad*_{(e^s)^-1} (mu0 + h sum_j b_j nu_j).
 
-The equation for M_i follows from (3.19) and the identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. In M_i, the
-program expands mu0 + h sum_j b_j nu_j into separate terms. Two terms of M_i then contain nu_j. If
-a_ji = b_i and E_j^{i-1} = e^{i-1}, these two terms cancel (Lemma 3.5.4 of Bogfjellmo and Marthinsen). In a
-composition of substeps, they cancel if stage j is in a later substep than stage i. Later passes of the
-compiler remove terms that cancel. A substep is then independent of the later substeps.
+The equation for M_i follows from (3.19) and the identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. If a_ji = b_i
+and E_j^{i-1} = e^{i-1}, the two terms of M_i with nu_j cancel (Lemma 3.5.4 of Bogfjellmo and Marthinsen). In
+a composition of substeps, the two terms cancel if stage j is in a later substep than stage i.
 """
 
 from __future__ import annotations
@@ -42,12 +39,8 @@ class VariationalCrouchGrossman(VariationalLowering):
         return _program(problem, method)
 
 
-# M_i contains products of the factors before factor i, so all partial products e^j and E_i^j are stored. A
-# zero coefficient gives the factor exp(0) = 1. A later pass removes this factor.
-#
 # In a composition of substeps, two terms of M_i with nu_j must cancel exactly, even if the coefficients are
-# balls (intervals). The quotient a_ji/b_i is therefore computed before the product with b_j. If a_ji = b_i,
-# the quotient is exactly one.
+# balls (intervals). The quotient a_ji/b_i is therefore computed before the product with b_j.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs

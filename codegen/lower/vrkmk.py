@@ -11,10 +11,8 @@ stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-In general, the unknowns are v_i and m_i. There is one exception: if a_ji = 0 for all j <= i, m_i depends only
-on Lambda and on later stages. The program then computes this m_i from Lambda, and Lambda is an unknown. In
-the equation for an unknown m_i, the formulas for Lambda and the lambda_j are inserted. On an abelian group,
-some of the resulting terms cancel.
+In general, the unknowns are v_i and m_i. If a_ji = 0 for all j <= i, Lambda is an unknown instead of m_i. The
+program then computes m_i from Lambda and from later stages.
 """
 
 from __future__ import annotations
@@ -50,8 +48,7 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # The keys of both dictionaries are stage indices i. ``forces`` contains n_i, and ``slopes`` contains
-        # P*_(r)(X_i, xi_i) m_i. The docstring of this module defines P*_(r).
+        # For each stage i, ``forces`` contains n_i, and ``slopes`` contains P*_(r)(X_i, xi_i) m_i.
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}
 
@@ -82,11 +79,10 @@ class _Step(ExpandedStep):
             M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
             Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
-            # The series for v_i and M_i have one common cut-off r. Otherwise v_i and M_i would not follow
-            # from one discrete Lagrangian, and the step would not be symplectic.
+            # With different cut-offs in v_i and M_i, the step would not be symplectic.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # For r > 0, dexp^{-1}_{(r),X_i} depends on X_i. Let P* be the dual of the derivative of
-            # dexp^{-1}_{(r),X_i} xi_i with respect to X_i. Then lambda_i contains the slope P* m_i.
+            # For r > 0, dexp^{-1}_{(r),X_i} depends on X_i, so lambda_i contains the slope P*_(r)(X_i, xi_i)
+            # m_i.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
             # A small change d of X_i moves Q_i = exp(X_i) q0 by dexp_{X_i} d. Hence the force n_i occurs in
@@ -94,7 +90,7 @@ class _Step(ExpandedStep):
             direct = build.dual_dexp(f"d{i + 1}", self.X[i], n)
             terms = [(self.stages.times_h(-b[i]), direct), (self.stages.times_h(ONE.value), slope)]
             lagrange[i] = build.lin(f"lambda{i + 1}", Kind.DUAL, terms)
-        # The loop begins with the last stage. The result begins with the first stage.
+        # The result begins with the first stage.
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
@@ -102,9 +98,8 @@ class _Step(ExpandedStep):
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
-            # On an abelian group, nu_j and dexp*_{X_j} n_j are equal to n_j, and the slope is zero. Then the
-            # coefficient of n_j in m_i is h b_j (b_i - a_ji), as in a symplectic partitioned Runge-Kutta
-            # method.
+            # On an abelian group, the coefficient of n_j in m_i is h b_j (b_i - a_ji), as in a symplectic
+            # partitioned Runge-Kutta method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
             terms.append((times_h(-(A[j][i] * b[j])), direct))
@@ -114,9 +109,7 @@ class _Step(ExpandedStep):
     def starts(self) -> list[Var]:
         """Return the initial guesses of the unknowns.
 
-        - The guess of v_i is the velocity xi at the start of the step.
-        - The guess of m_i is b_i mu0.
-        - The guess of Lambda is mu0.
+        The guesses are the velocity xi at the start of the step for v_i, b_i mu0 for m_i, and mu0 for Lambda.
         """
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))

@@ -2,20 +2,16 @@
 
 The source is section 3.4.1 of Marthinsen's thesis. The truncated series of dexp is
 dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)!. Let (xi_i, n_i) = f(exp(X_i) q0, M_i) be the velocity and the force
-of stage i. The vectors v_i satisfy dexp_{(r),X_i} v_i = xi_i with X_i = h sum_j a_ij v_j. Thus the xi_i are
-explicit functions of the v_j. The discrete Lagrangian is a function of q0 and the v_j without constraints, so
-no Lagrange multipliers are needed. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with
-respect to x. The other equations are
+of stage i. The vectors v_i satisfy dexp_{(r),X_i} v_i = xi_i with X_i = h sum_j a_ij v_j. Let R*_(r)(x, v) be
+the dual of the derivative of dexp_{(r),x} v with respect to x. The other equations are
 
     Y = h sum_j b_j v_j,   Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 With Q_i = exp(X_i) q0 and the Lagrangian l, these are Hamilton's equations for the discrete Lagrangian
-h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are v_i and M_i for all stages i. The program solves the
-equations by a fixed-point iteration. Each iteration solves for the terms with k = 0: v_i in
-dexp_{(r),X_i} v_i, and M_i in dexp*_{(r),X_i} M_i. The exponent Y uses the new v_j. All other terms use the
-values of the previous iteration.
+h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are v_i and M_i for all stages i. Each fixed-point
+iteration solves for the terms with k = 0: v_i in dexp_{(r),X_i} v_i, and M_i in dexp*_{(r),X_i} M_i.
 """
 
 from __future__ import annotations
@@ -55,8 +51,7 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # Each list has one entry for each stage i. ``forces`` contains the forces n_i. ``slopes`` contains
-        # the vectors R*_(r)(X_i, v_i) M_i. ``corrections`` contains the terms k >= 1 of -dexp*_{(r),X_i} M_i.
+        # The entries for stage i are n_i, R*_(r)(X_i, v_i) M_i, and the terms k >= 1 of -dexp*_{(r),X_i} M_i.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
@@ -75,8 +70,7 @@ class _Step(ExpandedStep):
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
         # With X = X_i, ``brackets`` contains ad_X^k v_i, and ``momenta`` contains (ad*_X)^k M_i.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
-        # In dexp_{(r),X} v = xi, the term k = 0 is v. The new value of v is xi minus all terms with k >= 1,
-        # computed from the previous v. For small h, this map is a contraction, so the iteration converges.
+        # The new value of v is xi minus the terms k >= 1 of dexp_{(r),X} v, computed from the previous v.
         velocity = build.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *_rest(brackets)])
         self.forces.append(n)
         self.slopes.append(self._slope(f"R{i + 1}", brackets, momenta))
@@ -84,27 +78,22 @@ class _Step(ExpandedStep):
         return velocity
 
     def _powers(self, x: Var, first: Var) -> list[Var]:
-        """Append and return the vectors ad_x^k v for k = 0, ..., r, where v is ``first``.
-
-        If ``first`` is a covector, ad*_x replaces ad_x.
-        """
+        """Append and return ad_x^k v for k = 0, ..., r, or (ad*_x)^k v if v = ``first`` is a covector."""
         powers = [first]
         for k in range(self.r):
             powers.append(self.build.bracket(f"{first.name}_{k + 1}", x, powers[-1]))
         return powers
 
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
-        """Append the vector R*_(r)(x, v) M. The docstring of this module defines R*_(r).
+        """Append the vector R*_(r)(x, v) M.
 
         ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. With the cut-off r
         and z_i = -sum_{i<k<=r} ad_x^{k-1-i} v/(k+1)!, the result is sum_{0<=i<r} ad*_{z_i} (ad*_x)^i M.
         """
         terms: Terms = []
-        # Let w_ki = ad_x^{k-1-i} v. The derivative of ad_x^k v with respect to x in a direction d is
-        # -sum_{i<k} ad_x^i ad_{w_ki} d. The dual of this derivative maps a covector M to
-        # sum_{i<k} ad*_{-w_ki} (ad*_x)^i M. In dexp_{(r),x} v, the term ad_x^k v has the factor 1/(k+1)!.
-        # The vectors -w_ki/(k+1)! with equal i are first added to z_i. Thus r brackets are sufficient instead
-        # of r (r + 1)/2.
+        # With w_ki = ad_x^{k-1-i} v, the dual of the derivative of ad_x^k v with respect to x maps a covector
+        # M to sum_{i<k} ad*_{-w_ki} (ad*_x)^i M. The vectors -w_ki/(k+1)! with equal i are added to z_i, so r
+        # brackets are sufficient instead of r (r + 1)/2.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             subscript = self.build.lin("z", Kind.ALG, inner)
@@ -114,8 +103,8 @@ class _Step(ExpandedStep):
     def _momentum(self, i: int) -> Var:
         """Append the new value of the momentum M_i of stage i."""
         build, times_h = self.build, self.stages.times_h
-        # The equation for M_i contains the series dexp*_{(r),X_i} M_i. The term k = 0 of the series is M_i.
-        # ``corrections`` contains all other terms, multiplied by -1.
+        # The term k = 0 of dexp*_{(r),X_i} M_i is M_i, and ``corrections`` contains all other terms,
+        # multiplied by -1.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
             # The exponent X_j contains the term h a_ji v_i. The force and the slope of stage j therefore have
@@ -127,20 +116,14 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return the initial guesses of the unknowns.
-
-        The guess of v_i is the velocity xi at the start of the step. The guess of M_i is the momentum mu.
-        """
+        """Return the initial guesses: the velocity xi at the start of the step for v_i, and mu for M_i."""
         xi, _ = self.build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         return [xi] * self.s + [self.mu] * self.s
 
 
 def _rest(powers: list[Var]) -> Terms:
-    """Return the terms -ad_x^k v/(k+1)! for k >= 1.
-
-    ``powers`` are v, ad_x v, ad_x^2 v, ... If v is a covector, ad*_x replaces ad_x.
-    """
-    # The term k = 0 is omitted. It is the value that the caller computes.
+    """Return the terms -p_k/(k+1)! for k >= 1, where p_k is ``powers[k]``."""
+    # The term k = 0 is the value that the caller computes.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

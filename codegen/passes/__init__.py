@@ -2,9 +2,7 @@
 
 A pass is exact if, in exact arithmetic, the new program has the results of the old program.
 
-The function :func:`optimise` runs all passes in a fixed order. After every pass, :func:`optimise` checks the
-new program: types must match, and each variable is assigned once. The results of the new program are compared
-with the results of the program before the first pass.
+After every pass, :func:`optimise` compares the results with the results of the program before the first pass.
 """
 
 from __future__ import annotations
@@ -49,24 +47,20 @@ def optimise(
 ) -> tuple[Program, tuple[PassReport, ...]]:
     """Return the program after all passes, and a report of each pass that changed the program.
 
-    ``program`` is the program of a step for the problem ``scene``. If ``framed`` is True, the equations are
-    rewritten in the body frame of the group element at the start of the step
-    (:mod:`codegen.passes.body_frame`).
-    :class:`Optimiser` explains ``composed``.
+    If ``framed`` is True, the equations are rewritten in the body frame of the group element at the start of
+    the step (:mod:`codegen.passes.body_frame`). :class:`Optimiser` explains ``composed``.
     """
     work = Optimiser(program, scene, composed)
     return work.framed() if framed else work.plain()
 
 
 class Optimiser:
-    """Runs the passes on ``program``. After each pass the new program is compared with ``program``.
+    """Runs the passes on ``program``, and compares each new program with ``program``.
 
     If the step repeats a shorter method in several substeps (:mod:`codegen.lower.substeps`), ``composed`` is
-    another program for the step. The statements of ``composed`` compute one substep. The attribute
-    ``substeps`` of ``composed`` lists all substeps. The optimiser tests that ``composed`` and ``program``
-    have the same results. Then the passes rewrite ``composed``.
-
-    If a pass changes the results, the compiler has a bug, and :class:`codegen.ir.verify.IllFormed` is raised.
+    another program for the step. The statements of ``composed`` compute one substep, and
+    ``composed.substeps`` lists all substeps. If ``composed`` is given, the passes rewrite ``composed``.
+    :class:`codegen.ir.verify.IllFormed` is raised if a pass changes the results.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:
@@ -76,7 +70,7 @@ class Optimiser:
         if composed is not None:
             whole: Program = composed
             self._run(Pass("substeps", "the step is a sequence of substeps", lambda _: whole))
-            # The passes rewrite the statements of one substep. Therefore the reference computes one substep.
+            # The passes rewrite the statements of one substep, so the reference computes one substep.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
             self._run(each)
@@ -88,16 +82,14 @@ class Optimiser:
     def framed(self) -> tuple[Program, tuple[PassReport, ...]]:
         """Return the program in the body frame, and the reports of all passes.
 
-        If the scene has no body frame, the program stays in the space frame. In the body frame the implicit
-        equations are smaller, but the program may need more operations.
+        If the scene has no body frame, the program stays in the space frame.
         """
         plain, reports = self.program, list(self.reports)
-        # For a program in the body frame, the interpreter also returns the momentum in the space frame.
-        # Therefore the results can be compared.
+        # The results can be compared, because the interpreter also returns the momentum in the space frame.
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # A later call of ``plain`` must return the program in the space frame. Therefore it is restored.
+        # A later call of ``plain`` must return the program in the space frame.
         self.program, self.reports = plain, reports
         return outcome
 
@@ -106,8 +98,7 @@ class Optimiser:
         # An unchanged program is not compared with the reference.
         if new == old:
             return
-        # The reference is the program before the first pass. Therefore small deviations of the passes cannot
-        # add up.
+        # The reference is the program before the first pass, so small deviations cannot add up.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
             raise IllFormed(f"the pass {each.name} changed the results of {old.name}: {account}")
@@ -126,35 +117,32 @@ def plain_passes(scene: Problem) -> list[Pass]:
     joined = "two flows of one term of H are joined if they commute with all flows between them"
     vanish = "the group is abelian" if abelian_group else "dexpinv is the identity at truncation order 0"
     return [
-        # The first pass replaces brackets by zeros. Then the pass for zeros removes these zeros from sums.
+        # The first pass replaces brackets by zeros, and the pass for zeros removes the zeros from sums.
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # Value numbering has replaced equal right-hand sides by one variable. This pass relies on that.
+        # This pass relies on value numbering: equal right-hand sides are one variable.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # After two stages have been merged, terms of a sum may be equal, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
-        # The previous pass removes flows. This pass removes the stage times of the removed flows.
+        # This pass removes the stage times of the flows that the previous pass removed.
         Pass("unused values", UNUSED, dead.run),
-        # Terms that cancel would look like dependencies. Therefore the pass for zeros precedes this pass.
+        # Terms that cancel would look like dependencies, so the pass for zeros precedes this pass.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # The next pass tests whether only one operation reads a linear map. Therefore this pass first removes
-        # operations whose results are not used.
+        # The next pass tests whether only one operation reads a linear map, so unused values are removed
+        # first.
         Pass("unused values", UNUSED, dead.run),
-        # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y). If several sums
-        # read L(x) and L(y), the next pass replaces L(x) + L(y).
+        # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y).
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
-        # Factoring produces sums of a single term. This pass removes these sums.
+        # Factoring produces sums of a single term.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass counts the operations that read exp(x). Therefore value numbering first merges equal
-        # exponentials.
+        # This pass counts the operations that read exp(x), so equal exponentials must be merged first.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
-        # Factoring can remove dependencies. If a value in a block no longer depends on the unknowns of the
-        # block, this pass moves the value out of the block.
+        # After factoring, a value in a block may no longer depend on the unknowns of the block.
         Pass("blocks", "stages are solved one after the other", blocks.run),
     ]
 
@@ -166,15 +154,12 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
     return [
         Pass("body frame", "the equations are written in the body frame", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
-        # Value numbering merges variables that contain the same momentum. The Legendre transform needs one
-        # variable for each momentum.
+        # The Legendre transform needs one variable for each momentum.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
-        # The Legendre transform introduces inverses of maps. This pass removes a map and its inverse if one
-        # is applied directly after the other.
+        # The Legendre transform introduces inverses of maps.
         Pass("inverse maps", inverse, opposites.run),
-        # The Legendre transform computes the force of a stage from the velocity. Therefore this pass can
-        # remove the force from the unknowns.
+        # The Legendre transform computes the force of a stage from the velocity.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
         # After an unknown has been removed, a map may directly follow its inverse.
         Pass("inverse maps", inverse, opposites.run),
@@ -182,14 +167,12 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
-        # The next pass keeps an adjoint map of exp(x) if other operations read exp(x). Therefore this pass
-        # first replaces products that read exp(x).
+        # The next pass keeps an adjoint map of exp(x) if other operations read exp(x).
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # A residual is the difference of two formulas for one momentum. The previous pass creates functions
-        # of ad. The choice of the momentum depends on these functions.
+        # The choice of the momentum in a residual depends on the functions of ad from the previous pass.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
-        # The residuals contain new inverses of maps. Therefore the next passes are repeated.
+        # The residuals contain new inverses of maps.
         Pass("inverse maps", inverse, opposites.run),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         Pass("shared values", SHARED, value_numbering.run),
@@ -203,7 +186,6 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         ),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
-        # This pass takes the factor -1 out of sums. Other passes would multiply the sums by -1 again, so this
-        # pass is the last.
+        # This pass is the last, because other passes would multiply the sums by -1 again.
         Pass("negatives of sums", "a sum is the negative of another sum", shared_negatives.run),
     ]

@@ -1,9 +1,8 @@
 """Remove operations that return their argument or zero because Lie brackets vanish.
 
-The pass is exact. On an abelian group all brackets vanish. Then dexp^{-1}, dexp* and the adjoint operations
-are the identity, and ad is zero. On every group, dexp^{-1} truncated at order 0 is the identity, because the
-truncated series contains no brackets. In both cases dexp^{-1}_x does not depend on x, so its derivative is
-zero.
+The pass is exact. On an abelian group, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad
+is zero. On every group, dexp^{-1} truncated at order 0 is the identity. In both cases, the derivative of
+dexp^{-1}_x with respect to x is zero.
 """
 
 from __future__ import annotations
