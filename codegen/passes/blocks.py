@@ -1,13 +1,10 @@
 """Split each block of implicit equations into the strongly connected components of its dependency graph.
 
-The components are solved one after the other.
+The pass is exact. The nodes of the graph are the assignments of the block. An edge leads from assignment a to
+assignment b if b reads a value that a computes, or an unknown whose image a computes. The image of an unknown
+is the right-hand side of its fixed-point equation.
 
-The pass is exact. The nodes of the graph are the assignments of the block. If assignment a computes a value
-that assignment b reads, an edge leads from a to b. The image of an unknown is the right-hand side of its
-fixed-point equation. If a computes the image of an unknown that b reads, an edge also leads from a to b.
-
-A component without a cycle is moved out of the block. A component with a cycle becomes a smaller block. The
-graph of an explicit method has no cycles, so an explicit method needs no solver.
+A component without a cycle is moved out of the block.
 """
 
 from __future__ import annotations
@@ -57,7 +54,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     condensed = networkx.condensation(graph)
     # The assignments of a component keep their order in the block.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
-    # Several orders are possible. The emitted text changes least if the order of the block is kept.
+    # The emitted text changes least if the order of the block is kept.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
     result: list[Statement] = []
     for component in order:
@@ -75,26 +72,22 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
             continue
         label = _label(own)
         images = tuple(image[u] for u in own)
-        # The block has no residuals yet. The pass :mod:`codegen.passes.legendre` adds them later.
+        # The pass :mod:`codegen.passes.legendre` adds the residuals of the block later.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
-    # At the solution an unknown equals its image. Therefore later statements read the image.
+    # At the solution an unknown equals its image.
     names.update(image)
     return result
 
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
-    """Return a map from each unknown to a variable that has the same value at the solution.
-
-    The search begins with the image of the unknown. If this image is another unknown, the search continues
-    with the image of the other unknown. If the search reaches an unknown twice, the start value is used.
-    """
+    """Return a map from each unknown to a variable that has the same value at the solution."""
     result = {}
     for unknown in image:
         var, seen = image[unknown], [unknown]
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # Every value of v solves the equations v = w and w = v. Therefore v keeps its start value.
+        # Every value of v solves the equations v = w and w = v, so v keeps its start value.
         result[unknown] = start[unknown] if var in seen else var
     return result
 

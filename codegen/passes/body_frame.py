@@ -12,14 +12,11 @@ arguments.
 
 The pass replaces one operation: the evaluation of the derivatives of the Hamiltonian. The evaluation gives
 the velocity and the force of a stage at a position Q = q E~. Let M be the transformed momentum of the stage.
-In the body frame at the position Q, the momentum is P = Ad*_E~ M. The module
-:mod:`codegen.scene.body_frame` defines the velocity W(Q, P) and the force N(Q, P). The transformed velocity
-is Ad_E~ W(Q, P), and the transformed force is Ad*_{E~^-1} N(Q, P). The new equations read only the
-coordinates of Q on which W and N depend.
+In the body frame at the position Q, the momentum is P = Ad*_E~ M. The module :mod:`codegen.scene.body_frame`
+defines the velocity W(Q, P) and the force N(Q, P). The transformed velocity is Ad_E~ W(Q, P), and the
+transformed force is Ad*_{E~^-1} N(Q, P).
 
 The new program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`).
-
-A program is not changed if the scene has no body frame, or if the pass cannot rewrite one of its operations.
 """
 
 from __future__ import annotations
@@ -67,7 +64,7 @@ class NotFramed(Exception):
 def run(program: Program, scene: Problem) -> Program:
     """Return the program in the body frame, or the unchanged program if it cannot be rewritten."""
     kinds = {v.name: v.kind for v in program.inputs}
-    # The state must consist of a group element q and a momentum mu. The body frame is defined by q.
+    # The state must consist of a group element q and a momentum mu.
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
@@ -116,9 +113,9 @@ class _Framing:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
         E = self.relative[element]
-        # Let q' = q E~ be the position at the end of the step. The new program computes E~ as the variable
-        # ``E``. The final momentum must be in the body frame at q'. Because Ad*_{q'} = Ad*_{E~} Ad*_q, the
-        # map Ad*_{E~} transforms the momentum from the body frame at q to the body frame at q'.
+        # Let q' = q E~ be the final position, where the variable ``E`` contains E~. Because Ad*_{q'} =
+        # Ad*_{E~} Ad*_q, the map Ad*_{E~} transforms the momentum from the body frame at q to the body frame
+        # at q'.
         m = momentum if E is None else self.build.adjoint("m", E, momentum)
         ends = {"q": self.names.get(element, element), "mu": m}
         body += self.build.take()
@@ -141,8 +138,7 @@ class _Framing:
             # The pass cannot rewrite the product of two positions.
             if left in self.relative:
                 raise NotFramed
-            # Let L be the group element ``left``, and let R be the group element ``right``. The product of L
-            # and the position R q is the position E q with E = L R.
+            # With L = ``left`` and R = ``right``, the product of L and the position R q is E q with E = L R.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # The new program computes the position E q as q E~, where E~ = q^{-1} E q.
@@ -163,14 +159,13 @@ class _Framing:
         """Append the velocity and the force of a stage in the body frame at the start of the step.
 
         Let q be the position at the start of the step, and let Q = q E be the position of the stage. Let M be
-        the momentum of the stage in the body frame at q. In the body frame at Q, the momentum is P = Ad*_E M,
-        the velocity is W(Q, P), and the force is N(Q, P). In the body frame at q, the velocity is
-        Ad_E W(Q, P), and the force is Ad*_{E^-1} N(Q, P).
+        the momentum of the stage in the body frame at q. With P = Ad*_E M, the velocity is Ad_E W(Q, P), and
+        the force is Ad*_{E^-1} N(Q, P).
         """
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])
-        # Let mu be the momentum in space. Then M = Ad*_q mu, and P = Ad*_Q mu = Ad*_E (Ad*_q mu) = Ad*_E M.
+        # With the momentum mu in space, P = Ad*_Q mu = Ad*_E (Ad*_q mu) = Ad*_E M.
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)

@@ -1,7 +1,7 @@
 """Remove dead code: values on which no output of the program depends.
 
 The pass is exact. A value is live if an output depends on it. An unknown that is not live is removed together
-with its equation. If no unknown of a block is live, the block is replaced by its live assignments.
+with its equation.
 """
 
 from __future__ import annotations
@@ -33,16 +33,15 @@ def run(program: Program) -> Program:
 def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     """Return the statements that replace a block, and add the values that they read to ``live``."""
     image = dict(zip(block.unknowns, block.images, strict=True))
-    # If the block has no residuals, ``block.residuals`` is empty. Therefore zip is not strict.
+    # Zip is not strict, because a block without residuals has an empty tuple ``residuals``.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
-    # A live unknown needs its image, the right-hand side of its equation. Other live values need the
-    # arguments of their assignments.
+    # A live unknown needs its image, the right-hand side of its equation.
     while wanted:
         var = wanted.pop()
-        # In implicit equations a value can depend on itself. Then the loop reaches the value twice.
+        # In implicit equations a value can depend on itself.
         if var in needed:
             continue
         needed.add(var)

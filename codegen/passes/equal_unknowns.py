@@ -1,8 +1,6 @@
 """Unknowns with the same image (right-hand side of the fixed-point equation) are merged into one unknown.
 
-The pass is exact, because unknowns with the same image are equal at a solution. If two stages have the same
-coefficients, :mod:`codegen.passes.value_numbering` gives the unknowns of both stages the same image. Then
-this pass merges the two unknowns.
+The pass is exact, because unknowns with the same image are equal at a solution.
 """
 
 from __future__ import annotations
@@ -28,8 +26,7 @@ def run(program: Program) -> Program:
             # statement may read a removed unknown.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
-            # Removed unknowns are replaced in the body. The body may then contain equal assignments.
-            # Value numbering merges equal assignments.
+            # Value numbering merges assignments that become equal by the replacement.
             inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
             statement = replace(
                 statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner
@@ -42,9 +39,8 @@ def run(program: Program) -> Program:
 
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
-    """Return the list of unknowns to keep, and a dictionary with the replacements of all other unknowns.
-
-    Each entry of the list is a triple (unknown, start, image).
+    """Return the kept unknowns as triples (unknown, start, image), and the replacements of the other
+    unknowns.
     """
     # The dictionary ``first`` maps each image to the first unknown with this image.
     first: dict[Var, Var] = {}

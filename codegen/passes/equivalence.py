@@ -21,33 +21,28 @@ from codegen.ir.values import Kind, Var
 from codegen.scene.problem import Problem
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
-"""Step sizes to try. The largest is first, because a wrong rewriting has the largest effect in a long step.
-
-If the field is large, all step sizes are divided by the same power of two (see :data:`REACH`).
-"""
+"""Step sizes to try, largest first: a wrong rewriting has the largest effect in a long step."""
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
 """Exponents k of the tiny step sizes 2^-k, and the number of decimal digits for these steps.
 
-If no step in double precision can be compared, the tiny steps are tried. If the field is large, the tiny step
-sizes and :data:`STEPS` are divided by the same power of two. The smallest tiny step is short enough even for
-a coefficient of 1e300.
+If no step in double precision can be compared, the tiny steps are tried.
 """
 
 REACH = 0.5
 """Upper bound for the product of the step size and the largest component of the field.
 
-A larger step would amplify rounding errors.
+A larger step would amplify rounding errors. If necessary, all step sizes are divided by the same power of
+two.
 """
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
-"""Errors of the interpreter if a step cannot be computed. The root of a negative number is a ValueError."""
+"""Errors of the interpreter if a step cannot be computed (ValueError: root of a negative number)."""
 
 SWEEPS = 24
 """Largest number of fixed-point iterations (sweeps) of the reference program in double precision.
 
-If a step needs more sweeps, a shorter step is tried. If each sweep divides the error by four, 24 sweeps
-divide the error by 2^48.
+If each sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
@@ -68,8 +63,8 @@ CLOSE = 2.0**-200
 AGREE = 2.0**-36
 """Two vectors x and y agree if |x - y| <= AGREE max(1, |x|) in the maximum norm.
 
-Tiny steps use :data:`CLOSE` instead. Rounding errors are much smaller than AGREE: they were at most 2^-51 in
-170 comparisons on scenes of the gallery.
+Tiny steps use :data:`CLOSE` instead. Rounding errors were at most 2^-51 in 170 comparisons on scenes of the
+gallery.
 """
 
 
@@ -93,23 +88,23 @@ class _Step:
 
 
 class _Bounded(PreciseDomain):
-    """Arithmetic with many digits. An error is raised if an iteration diverges."""
+    """Arithmetic with many digits that raises an error if an iteration diverges."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function.
 
-        OverflowError is raised if the absolute value of an argument is above 10^(digits/2). For such an
-        argument, only few digits of the result would be correct.
+        OverflowError is raised if an argument has |x| > 10^(digits/2), because few digits of the result would
+        be correct.
         """
         if any(abs(x) > self.rational(10) ** (self.digits // 2) for x in args):
             raise OverflowError(function)
         return super().call(function, *args)
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the pair (converged, change) for one fixed-point iteration from ``old`` to ``new``.
+        """Return (converged, size of the change) for one fixed-point iteration from ``old`` to ``new``.
 
-        ``change`` is the size of the change, and ``previous`` is the change in the previous iteration.
-        NotConverged is raised if ``change`` is at least 10^digits.
+        ``previous`` is the size of the previous change. NotConverged is raised if the change is at least
+        10^digits.
         """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
@@ -118,10 +113,7 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """Steps of the reference program from one state. The longest step comes first.
-
-    The constructor computes the first step. The method ``results`` computes the shorter steps on demand.
-    """
+    """Steps of the reference program from one state, longest first."""
 
     def __init__(self, more: Iterator[_Step]) -> None:
         self._more = more
@@ -136,13 +128,11 @@ class _Point:
 
 
 class Reference:
-    """The results of the reference program after one step. Other programs are compared with these results.
+    """The results of the reference program after one step.
 
-    The steps begin at two points. One point is the initial state. The initial state may be special (an
-    equilibrium or a symmetric position). The other point is near the initial state and has no symmetry.
-
-    From each point, the comparison begins with the longest step of the reference program that has finite
-    results and converging iterations. The step size is limited by :data:`REACH`.
+    The steps begin at the initial state and at a nearby state without symmetry. From each point, the
+    comparison begins with the longest step of the reference program that has finite results and converging
+    iterations.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -154,10 +144,9 @@ class Reference:
             raise _no_step(scene)
 
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
-        """Yield the results of steps from one state. The longest step comes first.
+        """Yield steps from the initial state, or from a nearby state if ``moved`` is True.
 
-        If ``moved`` is True, the steps begin near the initial state. Otherwise they begin at the initial
-        state.
+        The longest step comes first.
         """
         state = _state(self.scene, FloatDomain(0.0), moved)
         speed = _speed(self.scene, state)
@@ -182,7 +171,7 @@ class Reference:
     def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
         """Return a domain with ``digits`` decimal digits and step size h, and the state at the start.
 
-        If ``moved`` is True, this state is near the initial state. Otherwise it is the initial state.
+        If ``moved`` is True, this state is near the initial state.
         """
         domain = _Bounded(h, digits)
         state = _state(self.scene, domain, moved)
@@ -192,16 +181,14 @@ class Reference:
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
         """Return the result of one step of a program, or None if the step cannot be computed."""
-        # The dictionary receives the solutions of the implicit equations. The iterations of the rewritten
-        # program start from these solutions.
+        # The iterations of the rewritten program start from these solutions of the implicit equations.
         solutions: dict[Var, Value] = {}
         # If the iteration does not converge, or numbers overflow, the step is too long.
         try:
             after = self._run(program, domain, inputs, (1 + tiny) * SWEEPS, solutions)
         except FAILURES:
             return None
-        # If a rewritten program adds large terms in another order, its partial sums may overflow. Therefore
-        # steps with very large results are not compared.
+        # If a rewritten program adds large terms in another order, its partial sums may overflow.
         finite = all(abs(x) < LARGEST for name in after for x in self._numbers(name, after))
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
@@ -242,9 +229,8 @@ class Reference:
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
         """Compare ``program`` with the reference in the longest step that can be compared.
 
-        - If the results agree, return ''. If they differ, describe the difference.
-        - If no step can be compared, describe the last step in which only ``program`` fails. If there is no
-          such step, return None.
+        Return a description of the difference, or '' if there is none. If no step can be compared, describe
+        the last step in which only ``program`` fails, or return None if there is no such step.
         """
         failure = None
         for step in point.results():
@@ -277,9 +263,10 @@ class Reference:
         return True
 
     def _by_newton(self, program: Program, step: _Step) -> str | None:
-        """Repeat the step with Newton's method and many digits. Compare ``program`` with the reference.
+        """Repeat the step with Newton's method and many digits, and describe the difference between the
+        programs.
 
-        Return a description of the difference, or '' if there is none. If Newton's method fails, return None.
+        The result is '' if there is no difference, and None if Newton's method fails.
         """
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
         solutions: dict[Var, Value] = {}
@@ -293,10 +280,10 @@ class Reference:
         return self._gap(_Step(domain, inputs, first, {}, step.moved), second)
 
     def _confirmed(self, program: Program, step: _Step, account: str) -> str:
-        """Repeat the step with many digits. Describe the difference between ``program`` and the reference.
+        """Repeat the step with many digits, and describe the difference between the programs.
 
-        ``account`` describes the difference in doubles. If the repeated step fails, ``account`` is returned.
-        If the results agree, '' is returned.
+        The result is '' if there is no difference. If the repeated step fails, ``account``, the description
+        of the difference in doubles, is returned.
         """
         if NOT_A_NUMBER in account:
             return account
@@ -314,16 +301,15 @@ class Reference:
                 continue
             x, y = (self._numbers(name, side) for side in (step.after, after))
             # If the exact results are zero, x and y contain only rounding errors, and a relative comparison
-            # makes no sense. Therefore ``scale`` is at least 1.
+            # makes no sense.
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
-                # For a tiny step, ``scale`` is the change of the state. If the change is zero, ``scale`` is a
-                # small number above the rounding errors.
+                # If the change of the state is zero, ``scale`` is a small number above the rounding errors.
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
-            # NaN must count as a difference. Comparisons with NaN are false, so the condition needs ``not``.
+            # NaN must count as a difference, and comparisons with NaN are false.
             if not gap <= agree * scale:
                 return f"{name} differs by {float(gap / (scale if step.tiny else 1)):.3g}"
         return ""
@@ -352,11 +338,7 @@ def _no_step(scene: Problem) -> SceneError:
 
 
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
-    """Return the initial state, or a nearby state if ``moved`` is True.
-
-    The nearby state has a time that is larger by 1/8. A fixed covector is added to a momentum. A fixed group
-    element acts on the position.
-    """
+    """Return the initial state, or a nearby state if ``moved`` is True."""
     start = scene.initial(domain)
     # Sines of integers have no symmetries, and they are the same in every run.
     directions = [_exactly(domain, math.sin(7.0 * k + 1.0) / 8) for k in range(2 * scene.group.dim)]
@@ -366,7 +348,7 @@ def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     for block in scene.state:
         value = start[first : first + len(block.symbols)]
         first += len(block.symbols)
-        # A new position must lie on the manifold. Therefore the group acts on it.
+        # A new position must lie on the manifold.
         if moved and block.kind is Kind.DUAL:
             value = tuple(a + b for a, b in zip(value, covector, strict=True))
         elif moved:

@@ -1,8 +1,6 @@
 """Take linear maps out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2).
 
-The pass is exact. All terms contain the same linear map L, for example dexp*. A term L(x) is included only
-if no other operation reads L(x). The pass repeats until nothing changes, so nested maps are also
-taken out.
+The pass is exact. A term L(x) is included only if no other operation reads L(x).
 """
 
 from __future__ import annotations
@@ -33,7 +31,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(arg)
         # If another operation also reads L(x), L(x) is computed in any case, and factoring saves nothing.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
-        # Terms with the same linear map form a group. Every other term is alone in its group.
+        # Terms with the same linear map form a group.
         key = (source.operation, source.args[:-1]) if source is not None and single else k
         groups.setdefault(key, []).append((c, arg))
     if all(len(terms) == 1 for terms in groups.values()):
@@ -47,7 +45,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # The coefficients move inside: sum c_k L(x_k) = L(sum c_k x_k).
         inner = [(c, rewriter.definitions[v].args[-1]) for c, v in terms]
         total = _lin(rewriter, inner)
-        # The new value gets the name of the first term. In emitted code, this name shows the map.
+        # In emitted code, the name of the first term shows the linear map.
         target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
         moved = Assign((target,), source.operation, (*source.args[:-1], total))
         result.append((ONE, rewriter.emit(moved)[0]))

@@ -1,11 +1,7 @@
 """Join exact flows of the same part of the Hamiltonian.
 
-The pass is exact. Two flows of one part are joined if all flows between the two commute with this part. Two
-flows commute if both orders of applying them give the same state. The pass tests this with 40 digits at
-sample points of the scene.
-
-For example, the rotation of a symmetric top about its own axis commutes with the flow of gravity. A rotation
-before the flow of gravity and a rotation after it are joined into one rotation.
+The pass is exact. Two flows of one part are joined if all flows between the two commute with this part. The
+pass tests this with 40 digits at sample points of the scene.
 """
 
 from __future__ import annotations
@@ -95,8 +91,7 @@ def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
 
     The stage times are those of ``program``.
     """
-    # Stage times depend on t alone, so they are computed before all flows. Another pass removes the stage
-    # times that no flow reads.
+    # Stage times depend on t alone, so they are computed before all flows.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for number, letter in enumerate(letters):
@@ -125,8 +120,8 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     @cache
     def same(pair: tuple[str, str]) -> bool:
-        # The durations differ. With equal durations, flows that do not commute could, by symmetry, still
-        # give the same state in both orders.
+        # With equal durations, flows that do not commute could, by symmetry, still give the same state in
+        # both orders.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:
@@ -143,9 +138,9 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
 
 def apart(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> tuple[str, ...]:
-    """Return the parts of the Hamiltonian whose flows commute with the flows of all other parts.
+    """Return the parts in ``letters`` whose flows commute with the flows of all other parts in ``letters``.
 
-    Only parts that occur in ``letters`` are considered. The result is in order of first occurrence.
+    The result is in order of first occurrence.
     """
     parts = tuple(dict.fromkeys(letter.part for letter in letters))
     bound = {p for a, b in combinations(parts, 2) if not commute(a, b) for p in (a, b)}

@@ -1,8 +1,7 @@
 """Remove zeros, identities and terms that cancel, and add the coefficients of equal values.
 
-The pass is exact. A sum with the single term 1 x is replaced by x. The exponential of zero is the identity,
-and identity factors are removed. A linear operation on zero gives zero. For x = 0, dexp_x is the identity
-map.
+The pass is exact. A linear operation on zero gives zero. For x = 0, exp(x) is the identity, and dexp_x is the
+identity map.
 """
 
 from __future__ import annotations
@@ -55,8 +54,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         return (assign.args[1 - identity.index(True)],)
     if (isinstance(operation, AT_IDENTITY) and identity[0]) or (isinstance(operation, AT_ZERO) and zero[0]):
         return (assign.args[1],)
-    # A map that is linear in its last argument is zero if this argument is zero. A Lie bracket is linear in
-    # both arguments.
+    # A Lie bracket is linear in both arguments.
     if operation.linear_in_last and (zero[-1] or (isinstance(operation, Bracket) and zero[0])):
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
     return rewriter.emit(assign)
@@ -64,7 +62,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     """Append a linear combination in simplified form, and return its variable."""
-    # A coefficient has the form c h^p. Coefficients of a value are added only if p is equal.
+    # Coefficients c h^p of a value are added only if the power p is equal.
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
@@ -72,8 +70,8 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             continue
         old = total.get((arg, c.power))
         total[arg, c.power] = c if old is None else Coefficient(old.value + c.value, c.power)
-    # A term is removed if its coefficient is provably zero. A coefficient that is a ball (a number with an
-    # error bound) is not provably zero, even if the ball contains zero.
+    # A coefficient that is a ball (a number with an error bound) is not provably zero, even if the ball
+    # contains zero.
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))

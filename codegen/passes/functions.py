@@ -1,8 +1,8 @@
 """Combine successive functions of ad_x (dexp, dexp^{-1}, exp) into one function of ad_x.
 
 The pass is exact. The adjoint maps Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x) are also functions of
-ad_x or ad*_x. A group may have a closed form for a product of functions: on SO(3) the product is
-1 + b ad_x + c ad_x^2 with scalars b and c. The group element exp(x) is often unused after the pass.
+ad_x or ad*_x. A group may have a closed form for a product of functions: on SO(3) the product is 1 + b ad_x +
+c ad_x^2 with scalars b and c.
 """
 
 from __future__ import annotations
@@ -32,8 +32,7 @@ def run(program: Program, scene: Problem) -> Program:
 def rows(program: Program, scene: Problem) -> Program:
     """Fuse some products q exp(x) of matrices: one operation computes the product directly from q and x.
 
-    The fused operation saves work if only one row of q exp(x) is needed. A product is fused if three
-    conditions hold:
+    A product is fused if three conditions hold:
     - The velocity or the force in the body frame is evaluated at the product.
     - The product is not an output of the program.
     - The formulas for velocity and force contain entries of at most one row of the product.
@@ -97,14 +96,13 @@ def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tup
 
 
 Part = tuple[Var, Word, Var]
-"""A value f(ad_x) v as a triple (x, f, v). The function f is given as a product of factors."""
+"""A value f(ad_x) v as a triple (x, factors of f, v)."""
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """If ``var`` equals W(ad_y) v, where x = s y, return (s, (y, W, v)). Otherwise return None.
+    """Return (s, (y, W, v)) if ``var`` equals W(ad_y) v with x = s y and is read only once, otherwise None.
 
-    The function W is a product of factors, and s is a rational number. If several operations read ``var``,
-    the result is None.
+    The function W is a product of factors, and s is a rational number.
     """
     source = rewriter.definitions.get(var)
     # If several operations read W(ad_y) v, combining W with another function would not remove W(ad_y) v.
@@ -117,10 +115,10 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Apply a function F(ad_x) to each term of the sum ``total``. Append the new sum and return its variable.
+    """Append the sum ``total`` with F(ad_x) applied to each term, and return its variable.
 
-    ``word`` contains the factors of F. Every term of ``total`` has the form W(ad_y) v with x = s y. The
-    entry of this term in ``parts`` is (s, (y, W, v)).
+    ``word`` contains the factors of F. The entry (s, (y, W, v)) of ``parts`` describes the term W(ad_y) v
+    with x = s y.
     """
     terms = []
     for scale, (y, inner, v) in parts:
@@ -133,17 +131,14 @@ def _distributed(
 
 
 def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
-    """If an assignment applies f(ad_x) to its last argument, return x and the factors of f.
-
-    For all other assignments, return None.
-    """
+    """Return x and the factors of f if an assignment applies f(ad_x) to its last argument, otherwise None."""
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
         # Ad_g is a function of ad_x only if the program computes g = exp(x).
         if source is None or not isinstance(source.operation, Exp):
             return None
-        # Ad_{exp x} = exp(ad_x), and the inverse map is exp(-ad_x). Likewise Ad*_{exp x} = exp(ad*_x).
+        # Ad_{exp x} = exp(ad_x), Ad*_{exp x} = exp(ad*_x), and the inverse of exp(ad_x) is exp(-ad_x).
         return source.args[0], (Factor("exp", -UNIT if operation.inverse else UNIT),)
     if isinstance(operation, InverseDexp | DualDexp | AdSeries):
         return args[0], operation.word
@@ -153,13 +148,11 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
     """Return the rational number s with x = s y, or None if the linear combinations show no such s."""
     a, b = _terms(definitions, x), _terms(definitions, y)
-    # Proportional linear combinations contain the same values and powers of h. If all terms cancel, x and y
-    # are zero, and s is not unique.
+    # If all terms cancel, x and y are zero, and s is not unique.
     if not a or list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
-    # If all quotients of coefficients of x and y equal one number s, then x = s y. The factors of functions
-    # can be scaled only by rational numbers.
+    # The factors of functions can be scaled only by rational numbers.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 
@@ -167,7 +160,7 @@ def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
 def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], Number]:
     """Return x as a linear combination of values that are not sums themselves.
 
-    The result maps pairs (name of a value, power of h) to coefficients. The pairs are sorted.
+    The result maps sorted pairs (name of a value, power of h) to coefficients.
     """
     total: dict[tuple[str, int], Number] = {}
     waiting = [(Number.rational(1), 0, x)]

@@ -1,7 +1,7 @@
 """Take numbers out of linear maps, L(c x) = c L(x), and expand sums that are nested in sums.
 
-The pass is exact. If a program contains L(c x) for several numbers c, L(x) needs to be computed only once. If
-several sums of a block contain multiples of one linear combination, this combination is computed once.
+The pass is exact. If several sums of a block contain multiples of one linear combination, this combination is
+computed once.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that contain a value, as pairs (index of a sum, quotient of coefficients).
+"""The sums that contain a value, as pairs (index of a sum, quotient c / c1 of coefficients).
 
-The quotient is c / c1. The value has the coefficient c in this sum and c1 in the first sum of the tuple.
+The value has the coefficient c in this sum and c1 in the first sum of the tuple.
 """
 
 
@@ -28,8 +28,7 @@ def run(program: Program) -> Program:
     combination.
     """
     while True:
-        # The next round counts how often values are read. Unused sums would count as readers, so they are
-        # removed first.
+        # Unused sums would count as readers of values, so they are removed before the next round.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -44,19 +43,18 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
-    # L(c x) becomes c L(x). The pass ``value_numbering`` merges the copies of L(x) for different numbers c.
+    # L(c x) becomes c L(x).
     mapped = rewriter.builder.fresh(target.name, target.kind)
     rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
     return rewriter.emit(Assign((target,), source.operation, (mapped,)))
 
 
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Expand the nested sums in a sum. Append the result and return its variable."""
+    """Expand the nested sums in a sum, append the result, and return its variable."""
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
-        # A nested sum is not expanded if it has several terms and is read several times. The expansion would
-        # repeat the multiplications of the nested sum.
+        # If a sum of several terms is read several times, its expansion would repeat multiplications.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
@@ -64,7 +62,7 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             old = total.get((v, k.power))
             total[v, k.power] = k if old is None else Coefficient(old.value + k.value, k.power)
     kept = [(c, v) for (v, _), c in total.items() if not c.is_zero]
-    # A sum without terms is zero. The pass ``fold_zeros`` replaces it.
+    # The pass ``fold_zeros`` replaces a sum without terms by zero.
     if not kept:
         return rewriter.emit(assign)
     if len(kept) == 1 and kept[0][0].is_one:
@@ -82,13 +80,12 @@ def _added(program: Program) -> Program:
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
-    # Values form a group if they occur in the same sums with proportional coefficients. The linear
-    # combination of the values of a group is computed once.
+    # Values form a group if they occur in the same sums with proportional coefficients.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # ``places`` contains the coefficient of v in each sum. ``relative`` contains these coefficients
-        # divided by the first coefficient, so proportional coefficients give equal tuples.
+        # ``relative`` contains the coefficients of v divided by the first one, so proportional coefficients
+        # give equal tuples.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # A value that occurs in one sum with two powers of h has no single coefficient and is not shared.
@@ -99,8 +96,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
-        # The shared linear combination contains no h. Therefore the coefficients of its values in the first
-        # sum must have the same power of h.
+        # The shared linear combination contains no h, so its coefficients in the first sum must have equal
+        # powers of h.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]
@@ -113,6 +110,6 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
     # The old sums read the new sums ``totals``, so the new sums must come first.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
-    # A new sum reads only values that the old sums read. Therefore no cycle arises, and an order exists.
+    # An order exists, because a new sum reads only values that the old sums read.
     assert result is not None
     return result

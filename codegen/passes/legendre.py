@@ -6,10 +6,8 @@ matrix W. A block of implicit equations computes an unknown v of the stage in th
 2. The velocity is w = W P.
 3. Further invertible linear maps compute v from w.
 
-The pass adds the reversed steps: they compute w from v, then P = W^{-1} w, then M. Forces are computed
-from the new values, and the pass :mod:`codegen.passes.tearing` removes the forces from the unknowns.
-One equation remains for each unknown v: the M of step 1 must equal the M that is computed from v.
-The function :func:`residuals` adds this equation to the block.
+The pass adds the reversed steps: they compute w from v, then P = W^{-1} w, then M. One equation remains for
+each unknown v: the M of step 1 must equal the M that is computed from v.
 """
 
 from __future__ import annotations
@@ -32,13 +30,13 @@ INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
 
 @dataclass(frozen=True)
 class Path:
-    """The assignments that compute an unknown from a momentum. The momentum is the base of the path.
+    """The assignments that compute an unknown from a momentum, the base of the path.
 
     - ``inward`` contains the invertible maps that compute the momentum P of a stage from the base.
     - ``velocity`` is the assignment that computes the velocity w of the stage from P.
     - ``outward`` contains the invertible maps that compute the unknown from w.
 
-    The maps are in order of application. The last argument of each map is the result of the previous map.
+    The maps are in order of application.
     """
 
     unknown: Var
@@ -73,8 +71,7 @@ def run(program: Program, scene: Problem) -> Program:
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # ``image`` maps every unknown to the right side of its equation. At the solution, the right side
-        # equals the unknown, so later statements read the unknown.
+        # At the solution, the image of an unknown equals the unknown, so later statements read the unknown.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -111,16 +108,15 @@ def path(block: Solve, unknown: Var) -> Path | None:
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The second argument of the velocity is the momentum P. The maps ``inward`` compute P from the base.
+    # The second argument of the velocity is the momentum P.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the invertible linear maps that lead to ``var``, and the assignment that precedes them.
+    """Return the invertible linear maps that lead to ``var``, and the assignment before the maps or None.
 
-    The maps are in order of application. ``maker`` maps variables to their assignments. The second result is
-    None if ``maker`` contains no assignment for the argument of the first map.
+    The maps are in order of application.
     """
     maps: list[Assign] = []
     while True:
@@ -132,13 +128,13 @@ def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assi
 
 
 def _invertible(assign: Assign) -> bool:
-    # Multiplication by a number is invertible. Multiplication by h is not, because h can be 0.
+    # Multiplication by h is not invertible, because h can be 0.
     number = assign.is_multiple and assign.terms[0][0].power == 0
     return number or isinstance(assign.operation, INVERTIBLE)
 
 
 def _undone(build: Builder, assign: Assign, value: Var) -> Var:
-    """Append an assignment that applies the inverse of the map ``assign`` to ``value``. Return its result."""
+    """Append an assignment that applies the inverse of ``assign`` to ``value``, and return its result."""
     operation = assign.operation
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
@@ -152,7 +148,7 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append assignments that go back along a path: they compute the variables of the path from the unknown.
+    """Append assignments that compute the variables of a path from its unknown.
 
     Return a dictionary from the old variables of the path to the new variables, and the new variable of the
     base.
@@ -175,15 +171,13 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append the residual of the equation for the unknown of a path, and return its variable.
 
-    The residual is the difference of two values of a momentum of the path. The path itself contains the first
-    value. The second value is computed from the unknown.
+    The residual is a momentum of the path minus the same momentum computed from the unknown.
     """
     replaced, computed = _values(build, route)
-    # Invertible maps connect the base with the momentum P of the stage. Therefore the residual can use the
-    # base, P or a momentum between them. The default is the base.
+    # Invertible maps connect the base with the momentum P of the stage, so the residual can use the base, P
+    # or a momentum between them.
     given = route.base
-    # If P = Ad*_{exp x} m, and m is a sum of terms f(ad*_x) v, then P is also a sum of such terms. In this
-    # case, the residual uses P.
+    # If P = Ad*_{exp x} m, and m is a sum of terms f(ad*_x) v, then P is also a sum of such terms.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -218,7 +212,7 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # A later pass removes the new variables that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # A base that differs from P and is not an unknown is defined outside the path. This base is kept.
+    # A base that differs from P and is not an unknown is defined outside the path.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # If the path itself read the new variables, its equation for the unknown would be trivial.

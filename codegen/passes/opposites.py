@@ -1,7 +1,7 @@
 """Remove pairs of an adjoint operation and its inverse, and exponentials without effect.
 
-The pass is exact. For example, Ad*_g Ad*_{g^-1} mu = mu. An exponential has no effect on multiples of its
-exponent: Ad_{exp x} (c x) = c x for each number c.
+The pass is exact. An exponential has no effect on multiples of its exponent: Ad_{exp x} (c x) = c x for each
+number c.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # After value numbering, equal group elements are the same variable.
         if source is not None and source.operation == operation.opposite() and source.args[0] == g:
             return (source.args[1],)
-        # Ad_{exp x} does not change multiples of x. Ad* with exp(x) changes most momenta.
+        # Ad_{exp x} does not change multiples of x, but Ad*_{exp x} changes most momenta.
         own = element is not None and isinstance(element.operation, Exp) and not operation.dual
         if own and element is not None and _line(rewriter, element.args[0]) == _line(rewriter, x):
             return (x,)

@@ -59,8 +59,7 @@ class PassReport:
 def summaries(reports: Iterable[PassReport]) -> tuple[str, ...]:
     """Return a text for each reason why passes removed operations, in the order of the passes.
 
-    An example is ``2 brackets: the group is abelian``. The number 2 is the sum over all passes with
-    this reason.
+    In the text ``2 brackets: the group is abelian``, 2 is the sum over all passes with this reason.
     """
     total: dict[str, Counter[str]] = {}
     for report in reports:
@@ -77,8 +76,8 @@ def _counted(noun: str, n: int) -> str:
 
 
 def _nouns(program: Program) -> Counter[str]:
-    """Return how often each operation occurs. The keys are the names of the operations in reports.
+    """Return how often each operation occurs, by its name in reports.
 
-    Operations that cost nothing have no name in reports and are omitted.
+    Operations that cost nothing are omitted.
     """
     return Counter(a.operation.noun for a in program.assigns() if a.operation.noun)
