@@ -34,11 +34,10 @@ def default_prefix(scene: Problem, method: Method) -> str:
 
 
 def prefix_of(name: str, hint: str = "") -> str:
-    """Return ``name`` with one underscore at its end, even if ``name`` ends with several underscores.
+    """Return ``name`` with exactly one underscore at its end.
 
-    The prefix without the underscore is the name of the Python module. InputError is raised if ``name`` is
-    not an identifier that starts with a letter. InputError is also raised if the module would have the name
-    of a Python keyword, or of an included header or module.
+    InputError is raised if ``name`` is not an identifier that starts with a letter. InputError is also raised
+    if the prefix without the underscore is a Python keyword or in :data:`HEADERS`.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(

@@ -15,8 +15,6 @@ class Rewriter:
 
     ``rule(rewriter, assign)`` returns one variable for each target of the assignment. Later statements read
     these variables instead of the targets. To keep the assignment, a rule returns ``rewriter.emit(assign)``.
-    To replace the assignment, a rule emits other assignments. To remove the assignment, a rule returns
-    existing variables.
     """
 
     rule: Callable[[Rewriter, Assign], tuple[Var, ...]]

@@ -2,11 +2,8 @@
 
 The pass is exact. On some groups, each term of the sum is f (1 + b ad_x + c ad_x^2) v with numbers f, b and
 c. Let A, B and C be the sums of f v, f b v and f c v over all terms. Then the sum is A + ad_x (B + ad_x C).
-This nested form needs only two brackets. Without nesting, each term needs two brackets. An example is the
-momentum in equation (3.19) of Marthinsen's thesis.
-
-The method ``series_sum`` of the group computes the sum. If a vector v is itself a sum, v may be replaced by
-the terms of that sum.
+The nested form needs two brackets instead of two for each term. An example is the momentum in equation (3.19)
+of Marthinsen's thesis.
 """
 
 from __future__ import annotations
@@ -51,8 +48,7 @@ class SeriesSums:
     def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Value]) -> tuple[Value, ...] | None:
         """Return the value of a sum in nested form, or None if nesting saves nothing.
 
-        The method records the definition of each value. Therefore it must be called for every assignment of
-        the program, in the order of execution.
+        The method must be called for every assignment of the program, in the order of execution.
         """
         for target in assign.targets:
             self.definitions[target] = assign
@@ -63,7 +59,7 @@ class SeriesSums:
         sums = self._groups(assign)
         if not sums:
             return None
-        # Each group of terms becomes one nested sum. All other terms are added to these sums.
+        # Each group of terms becomes one nested sum.
         inner = {term.target for terms in sums for term in terms}
         total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, terms, env) for terms in sums]
@@ -75,20 +71,16 @@ class SeriesSums:
         return result
 
     def _groups(self, assign: Assign) -> list[list[Term]]:
-        """Return the terms of a sum in groups of at least two terms. Each group can become one nested sum.
-
-        In one group, all arguments x of the terms c W(ad_x) v are multiples of one element.
-        """
+        """Return groups of at least two terms c W(ad_x) v in which all x are multiples of one element."""
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # If another operation also reads v, v is computed in any case. A nested form would save nothing.
+            # A nested form saves nothing if another operation also reads v.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
             for group in groups:
-                # Let y be the argument of the first term in the group. If x = s y for a number s, then
-                # ad_x = s ad_y. A function of ad_x is then also a function of ad_y.
+                # If x is a multiple of y = ``group[0].x``, a function of ad_x is also a function of ad_y.
                 if ratio(self.definitions, term.x, group[0].x) is not None:
                     group.append(term)
                     break
@@ -116,13 +108,10 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Return ``terms`` with all inner sums expanded.
-
-        If the expansion has more terms, or none, return ``terms`` unchanged.
-        """
+        """Return ``terms`` with all inner sums expanded, or unchanged if the expansion is longer or empty."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # If v is a sum, its terms replace v. The chains of dependent additions become shorter.
+            # The terms of an inner sum replace the sum, so chains of dependent additions become shorter.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:
@@ -137,7 +126,7 @@ class SeriesSums:
 
 def signed(domain: Domain, c: Coefficient) -> Value:
     """Return the value of a coefficient c. If c is rational and negative, return minus the value of -c."""
-    # A program may contain both c x and (-c) x. Both are computed from the product with positive c.
+    # If a program contains both c x and (-c) x, both use the product with positive c.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)

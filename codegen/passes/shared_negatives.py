@@ -1,7 +1,7 @@
 """Compute a sum as the negative of an earlier sum, if possible. A change of sign costs nothing.
 
-The pass is exact. Commutator-free and Crouch-Grossman methods benefit, because they use both exp(x) and
-dexp*_{-x}. This pass runs last. Other passes multiply factors into sums, and would undo the change.
+The pass is exact. The pass runs last, because other passes multiply factors into sums and would undo the
+change.
 """
 
 from __future__ import annotations
@@ -15,10 +15,7 @@ Terms = frozenset[tuple[Coefficient, Var]]
 
 
 def run(program: Program) -> Program:
-    """Return the program in which a sum is computed as the negative of an earlier sum, if possible.
-
-    Each block is searched separately. The statements outside the blocks are searched together.
-    """
+    """Return the program in which a sum is computed as the negative of an earlier sum, if possible."""
     outside: dict[Terms, Var] = {}
     body = [
         # Each block begins with an empty table, so it reads no sums of other blocks.

@@ -1,8 +1,6 @@
 """Compute a linear combination of values L(x_k) once, if it occurs in several sums. L is a linear map.
 
-The pass is exact. Suppose that several sums contain multiples of sum_k a_k L(x_k) with fixed numbers a_k.
-This combination is computed once, as L(sum_k a_k x_k). The pass :mod:`codegen.passes.factor_linear` changes
-only values L(x_k) that are read once.
+The pass is exact. The combination sum_k a_k L(x_k) with numbers a_k is computed as L(sum_k a_k x_k).
 """
 
 from __future__ import annotations
@@ -19,8 +17,7 @@ Key = tuple[Operation, tuple[Var, ...]]
 Share = tuple[tuple[Var, Coefficient], ...]
 """A linear combination of values L(x_k) of one linear map L, as pairs (value, coefficient).
 
-The pairs are sorted by the power of h in the coefficient, and then by the name of the value. The combination
-is scaled such that the first coefficient is one.
+The pairs are sorted by the power of h and then by name, and the first coefficient is one.
 """
 
 
@@ -70,9 +67,7 @@ def _rule(
 def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations sum_k a_k L(x_k) that should be computed as L(sum_k a_k x_k).
 
-    Suppose that m different combinations contain n different values L(x_k) of one linear map L. The pass
-    applies L m times instead of n times, so the combinations are returned only if m < n. Combinations of a
-    single value are omitted.
+    Combinations of one linear map L are returned only if they are fewer than their values L(x_k).
     """
     worthwhile: set[Share] = set()
     for statement in program.body:
@@ -94,8 +89,7 @@ def _worthwhile(program: Program) -> set[Share]:
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
     """Return the parts of a sum that are combinations of values L(x_k), one part for each linear map L.
 
-    Each part is a factor times a scaled combination (:data:`Share`). The keys of the result are the scaled
-    combinations, and the values are the factors.
+    The keys of the result are the scaled combinations (:data:`Share`), and the values are their factors.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
@@ -104,8 +98,7 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A combination contains each value once. If a value L(x_k) has two terms with different powers of
-        # h, all terms with the map L are skipped.
+        # A combination contains each value only once, but a sum may contain a value with two powers of h.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # All coefficients are divided by the first, so proportional combinations become equal.

@@ -2,7 +2,6 @@
 
 The pass is exact. The image of an unknown is the right-hand side of its fixed-point equation. If the image
 does not depend on the unknown, the pass replaces the unknown by its image and removes the equation.
-Velocities are tried last, so they are more likely to remain unknowns than momenta and forces.
 """
 
 from __future__ import annotations
@@ -27,8 +26,7 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Velocities come last, so they are more likely to remain unknowns. Extrapolation from earlier steps
-        # gives the start values of the unknowns, and it is most accurate for velocities.
+        # Velocities come last, because extrapolated start values are most accurate for velocities.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
             # The search is greedy, because finding the smallest set of unknowns (a minimum feedback vertex
             # set) is NP-hard.
@@ -42,12 +40,12 @@ def run(program: Program) -> Program:
 
 
 def _without(block: Solve, unknown: Var) -> Solve | None:
-    """Return the block with an unknown replaced by its image (the right-hand side of its equation).
+    """Return the block with an unknown replaced by its image, or None if the unknown cannot be replaced.
 
-    The result is None if the unknown cannot be replaced.
+    The image is the right-hand side of the equation of the unknown.
     """
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # A block needs at least one unknown. An unknown is also kept if its image is an unknown.
+    # A block needs at least one unknown.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -73,8 +71,7 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     """
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # ``state[k]`` is False from the first call of ``place(k)`` until assignment k is in ``result``. If
-    # ``place(k)`` is called again during this time, there is a cycle.
+    # ``state[k]`` is False while ``place(k)`` runs, so a nested call of ``place(k)`` finds a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:

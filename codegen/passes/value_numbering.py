@@ -1,7 +1,6 @@
 """Value numbering: compute an operation once if it is applied to the same values several times.
 
-The pass is exact. The terms of each sum are sorted by the first appearance of their values. Sums that differ
-only in the order of their terms become equal.
+The pass is exact. Sums that differ only in the order of their terms count as equal.
 """
 
 from __future__ import annotations
@@ -21,8 +20,8 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        # The terms of a sum are sorted by the first appearance of their values, not by name. Passes introduce
-        # new names, so an order by name would change.
+        # Terms are sorted by the first appearance of their values, not by name, because passes introduce new
+        # names.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:
@@ -32,7 +31,7 @@ def run(program: Program) -> Program:
         # Zero in the algebra and zero in the dual are different values, so the key contains the kind.
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
-            # The first assignment of a value is kept. All statements that read the value come later.
+            # The first assignment of a value is kept, because all statements that read the value come later.
             known[key] = rewriter.emit(assign)
         return known[key]
 

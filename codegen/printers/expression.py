@@ -1,7 +1,7 @@
 """Prints expressions as infix text with few parentheses.
 
-In IEEE arithmetic, the printed text has the same result as the expression, bit for bit. For example,
-``a + (-b)`` is printed as ``a - b``, and ``-a + b`` as ``b - a``. Sums and products are never regrouped.
+In IEEE arithmetic, the printed text has the same result as the expression, bit for bit. Sums and products are
+never regrouped.
 """
 
 from __future__ import annotations
@@ -58,11 +58,10 @@ DOUBLES = Style()
 
 
 def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
-    """Return the text of an expression as segments. A line may break between two segments.
+    """Return the text of an expression, in segments between which a line may break.
 
-    ``names`` maps symbols to identifiers of the target language. Other symbols keep their names. Only
-    squares and cubes of symbols are allowed as powers (see :mod:`codegen.kernel.schedule`). Other powers
-    raise ValueError.
+    ``names`` maps symbols to identifiers of the target language. Other symbols keep their names. Powers other
+    than squares and cubes of symbols raise ValueError.
     """
     # For deeply nested expressions, a recursive function would exceed Python's recursion limit.
     rendered: dict[int, Rendering] = {}
@@ -87,8 +86,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
-                # Multiplication in IEEE arithmetic is commutative. Therefore ``a * (b * c)`` is printed as
-                # ``b * c * a`` without parentheses. Constants stay in front, as in ``2.0 * (b * c)``.
+                # IEEE multiplication is commutative, so ``a * (b * c)`` is printed as ``b * c * a``.
+                # Constants stay in front, as in ``2.0 * (b * c)``.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
             case "div":
@@ -117,12 +116,12 @@ def signed(x: Rendering) -> tuple[str, ...]:
 
 
 def _add(x: Rendering, y: Rendering) -> Rendering:
-    # The terms are exchanged in two cases. ``-a + b`` is printed as ``b - a``. ``a + (b + c)`` is printed as
-    # ``b + c + a``, because a sum on the left needs no parentheses.
+    # ``-a + b`` is printed as ``b - a``. ``a + (b + c)`` is printed as ``b + c + a``, because a sum on the
+    # left needs no parentheses.
     if (x.negative and not y.negative) or (_sum(y) and not _sum(x)):
         x, y = y, x
     first = signed(x)
-    # A line may break between the terms of a sum. A product inside a sum stays on one line.
+    # A line may break between the terms of a sum.
     head = first if _sum(x) else (" ".join(first),)
     tail = f"({y.text})" if y.precedence == SUM else y.text
     return Rendering((*head, f"{'-' if y.negative else '+'} {tail}"), SUM)
@@ -134,11 +133,10 @@ def _sum(x: Rendering) -> bool:
 
 
 def _product(x: Rendering, operator: str, y: Rendering) -> Rendering:
-    # Division and multiplication associate to the left in C and in Python. Therefore a product on the left
-    # needs no parentheses, but a sum does.
+    # Division and multiplication associate to the left, so a product on the left needs no parentheses.
     left = x.segments if x.precedence >= PRODUCT else (f"({x.text})",)
     # A product on the right needs parentheses, because ``a * (b * c)`` and ``a * b * c`` may have different
     # rounding errors.
     right = y.text if y.precedence > PRODUCT else f"({y.text})"
-    # The signs of the operands do not change the rounding. Two minus signs cancel.
+    # The signs of the operands do not change the rounding.
     return Rendering((*left, f"{operator} {right}"), PRODUCT, x.negative != y.negative)

@@ -1,8 +1,7 @@
 """Prints functions in C: types, declarations and statements.
 
-The functions are given in the run representation (:mod:`codegen.run.language`). All target languages share
-this representation. A scalar that is assigned only once is ``const``. An array parameter is ``const`` if the
-function does not change the array. Arrays are copied by ``memcpy``, and ``memset`` sets records to zero.
+The functions are given in the run representation (:mod:`codegen.run.language`). An array parameter is
+``const`` if the function does not change the array.
 """
 
 from __future__ import annotations
@@ -42,10 +41,7 @@ from codegen.run.writes import written
 from codegen.snippets.graph import LIBRARY
 
 MANY = 20
-"""The largest number of consecutive short statements that are printed on separate lines.
-
-In a longer sequence, several statements share a line.
-"""
+"""The largest number of consecutive short statements that are printed on separate lines."""
 
 ONE_TEST = "All values x are finite if their sum is finite, or if all differences x - x are 0."
 
@@ -79,15 +75,13 @@ class FunctionPrinter:
         """
         # Loops over lanes (the systems of a batch) or sites use polynomials for sines and cosines near zero.
         # If a module has such loops, all its functions use the polynomials, so all rounding errors agree.
-        # Other modules call sin and cos of the C library.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
 
     def type_of(self, kind: Kind) -> str:
         """Return the C type of a scalar of the given kind."""
-        # Counts and array indices have the type size_t. C would convert an index of another type implicitly,
-        # and -Wconversion would warn.
+        # If counts and array indices had another type than size_t, -Wconversion would warn.
         return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
 
     def record_type(self, name: str) -> str:
@@ -97,7 +91,7 @@ class FunctionPrinter:
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
         """Return the declaration of a parameter.
 
-        If ``header`` is true, array sizes have no ``static``. C++ does not allow ``static`` in array sizes.
+        If ``header`` is true, array sizes have no ``static``.
         """
         name = self.identifiers[function.name].of(parameter)
         # ``const`` shows callers which arrays a function does not change.
@@ -107,8 +101,7 @@ class FunctionPrinter:
             return f"{self.prefix}input input, void *context"
         if parameter.kind is Kind.EVENTS:
             return f"{self.prefix}event event, void *data"
-        # ``static n`` promises the compiler that n entries exist. C++ lacks this syntax, and C++ programs may
-        # include the header.
+        # C++ programs may include the header, but C++ lacks ``static n`` (the promise that n entries exist).
         promised = "" if header else "static "
         if parameter.kind is Kind.RECORD:
             of = self.record_type(parameter.record)
@@ -118,8 +111,7 @@ class FunctionPrinter:
         # Scalars are passed by value, so callers do not need ``const``.
         if not parameter.shape:
             return f"{kind} {name}"
-        # An optional array is declared as a pointer without a size, because the caller may pass NULL. A size
-        # with ``static`` promises that the pointer is not NULL.
+        # An optional array is declared as a pointer without a size, because the caller may pass NULL.
         if parameter.cell or parameter.optional or not parameter.shape[0]:
             return f"{const}{kind} *{name}"
         promised = "" if function.name == "jacobian" and parameter.text != "state" else promised
@@ -131,8 +123,7 @@ class FunctionPrinter:
 
         If ``header`` is true, the lines are a prototype and end with a semicolon.
         """
-        # Private functions are static, so other C files cannot call them. All names start with the prefix of
-        # the module, so one C file can contain the code of two modules.
+        # All names start with the prefix of the module, so one C file can contain the code of two modules.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         # A function with many scalar parameters receives them in one array.
@@ -182,7 +173,7 @@ class FunctionPrinter:
 
 
 def _without_zeros(row: Sequence[str]) -> str:
-    """Return the text of a row. Zeros at the end are omitted, because C sets missing entries to zero."""
+    """Return the text of a row without zeros at the end, because C sets missing entries to zero."""
     # All rows must have the same length, so shorter rows are padded with zeros.
     kept = list(row)
     while len(kept) > 1 and not float(kept[-1].removesuffix("f")):
@@ -197,8 +188,7 @@ class _Body:
         self.printer, self.function = printer, function
         self.identifiers = printer.identifiers[function.name]
         self.declared = declarations(function, self.identifiers)
-        # Records among the parameters are pointers, so their fields are accessed by ``->``. Fields of local
-        # records are accessed by a dot.
+        # Records among the parameters are pointers, so their fields are accessed by ``->``.
         pointers = {p.text for p in function.parameters if p.kind is Kind.RECORD}
         tables = [table.name.text for table in printer.unit.tables]
         forms = partial(printer.forms, near=function.near)
@@ -235,7 +225,7 @@ class _Body:
         lines: list[str] = []
         for short, group in groupby(groups, key=lambda x: x[0]):
             flat = [line for _, part in group for line in part]
-            # Kernels with many unknowns copy hundreds of scalars. Several copies on a line shorten the code.
+            # Kernels with many unknowns copy hundreds of scalars.
             lines += together(flat) if short and len(flat) > MANY else flat
         return lines
 
@@ -244,8 +234,7 @@ class _Body:
 
         Consecutive variables of one type share a declaration.
         """
-        # In C, a variable exists only inside the loop or branch that declares it. If later statements read
-        # the variable, the declaration precedes the loop or branch.
+        # A variable is declared before a loop or branch if later statements read the variable.
         waiting = self.declared.before.get(id(statement), [])
         lines: list[str] = []
         for kind, group in groupby(waiting, key=lambda x: self.printer.type_of(x[1].kind)):
@@ -272,8 +261,7 @@ class _Body:
                 yield from self.loop(statement)
             case For(index, count, body, reverse):
                 yield from self.hints(statement)
-                # ``size_t`` is unsigned, so a test ``i >= 0`` would always be true. A reversed loop therefore
-                # decrements ``i`` in its test.
+                # ``size_t`` is unsigned, so a test ``i >= 0`` would always be true.
                 i, n = self.identifiers.of(index), self.terms.line(count)
                 yield (
                     f"for (size_t {i} = {n}; {i}-- > 0;) {{"
@@ -285,14 +273,12 @@ class _Body:
 
     def hints(self, loop: For) -> Iterator[str]:
         """Yield the directives that precede a loop: for vector instructions and for OpenMP."""
-        # The macro INDEPENDENT allows gcc and clang to use vector instructions. For other compilers the macro
-        # is empty.
+        # The macro INDEPENDENT allows gcc and clang to use vector instructions.
         if loop.independent:
             yield f"{self.printer.prefix.upper()}INDEPENDENT"
         if loop.parallel:
             clauses = []
             # For each operation, one OpenMP clause lists the variables that the operation reduces.
-            # ``dict.fromkeys`` removes repetitions and keeps the order.
             for operation in dict.fromkeys(name for name, _ in loop.reductions):
                 reduced = [self.identifiers.of(x) for name, x in loop.reductions if name == operation]
                 clauses.append(f"reduction({operation}:{', '.join(reduced)})")
@@ -363,7 +349,7 @@ class _Body:
             record = (
                 f"{name}, 0, sizeof *{name}" if target.text in self.pointers else f"&{name}, 0, sizeof {name}"
             )
-            # ``memset`` sets all bytes to zero. Integers and IEEE numbers are then 0.
+            # Integers and IEEE numbers are 0 if all their bytes are zero.
             yield f"memset({record});"
             return
         if target.shape:
@@ -388,8 +374,7 @@ class _Body:
     def extent(self, target: Term, value: Term) -> str:
         """Return the number of bytes to copy, as an expression in C."""
         parameters = {p.text for p in self.function.parameters}
-        # ``sizeof`` of a local array is the number of its bytes. ``sizeof`` of an array parameter is only the
-        # size of a pointer.
+        # ``sizeof`` of an array parameter is only the size of a pointer.
         for term in (target, value):
             if term.op == "name" and term.text not in parameters:
                 return f"sizeof {self.terms.line(term)}"
@@ -426,7 +411,7 @@ class _Body:
         text = self.terms.line(term)
         if term.kind is not Kind.RECORD or term.op == "none" or term.shape:
             return text
-        # A record that is a parameter is already a pointer. Other records need the address operator.
+        # A record that is a parameter is already a pointer.
         return text if term.text in self.pointers and term.op == "name" else f"&{text}"
 
     def call(self, statement: Call) -> Iterator[str]:
@@ -434,8 +419,7 @@ class _Body:
         given = [self.argument(a) for a in statement.arguments]
         name, results = statement.function, statement.results
         if name == "measure":
-            # The user supplies the function ``event`` and the pointer ``data``. ``event`` writes the
-            # values of the event functions into the array ``results[0]``.
+            # The user function ``event`` writes the values of the event functions into ``results[0]``.
             given = [*given[1:], self.terms.line(results[0]), "data"]
             yield from fill("event(", _arguments(given), ";", separator="")
             return
@@ -457,8 +441,7 @@ class _Body:
             return
         if results:
             (target,) = results
-            # A single result is the return value of the C function. If the statement declares ``target``, the
-            # line starts with a type.
+            # A single result is the return value of the C function.
             start = f"{self.kind(statement, target)}{self.terms.line(target)} = {start}"
         yield from fill(start, _arguments(given), ";", separator="")
 

@@ -20,7 +20,7 @@ def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
     def number(x: float) -> str:
         return literal(real, real.round(float(x)))
 
-    # The lattice has n dimensions and side^n sites. If n > 3, ``side`` is 8.
+    # The lattice has n dimensions and side^n sites.
     side = SIDES.get(n, 8)
     total = side**n
     arguments = ["shape", "state", *([number(0.0)] if interface.time else []), number(recipe.h)]

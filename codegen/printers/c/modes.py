@@ -61,7 +61,7 @@ OWN = RESERVED | frozenset(
         "CMPLX",
     ]
 )
-"""Reserved names of C and names that the module uses. Parameters of a scene get other names."""
+"""Names that parameters of a scene must not have: reserved names of C and names that the module uses."""
 
 POINTS = 128
 """The number of grid points in the usage example."""
@@ -114,8 +114,8 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         ],
         "result": _terms(write, step.result),
         "time": interface.time,
-        # The workspace contains one spectrum for each evaluation of the nonlinear part N. Four more spectra
-        # contain the old state, the new state, the argument of N, and a temporary result.
+        # Four spectra contain the old state, the new state, an argument of the nonlinear part N, and a
+        # temporary result.
         "spectra": 4 + len(step.evaluations),
         # The workspace also contains grid values of the derivatives in N and of the terms of N.
         "arrays": len(inner) + len(outer),
@@ -129,12 +129,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 def _local(step: ModeStep) -> set[str]:
-    """Return the template variables with formulas that contain the wave number or the space coordinate x.
-
-    - The result contains ``symbol`` if the eigenvalues of the linear part depend on the wave number.
-    - The result contains ``initial`` if the initial state depends on x.
-    - The result contains ``formulas`` if the formulas of the nonlinear part contain x.
-    """
+    """Return which of ``symbol``, ``initial`` and ``formulas`` depend on the wave number or position x."""
     kernels = {
         "symbol": (step.symbol, step.wave),
         "initial": (step.initial, step.space),
@@ -148,7 +143,7 @@ def _terms(write: ModeFormulas, terms: tuple[Term, ...]) -> list[tuple[str, int 
 
 
 def _usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of an example program. The program starts from the initial state of the scene."""
+    """Return the lines of an example program that starts from the initial state of the scene."""
     prefix = interface.prefix
 
     def number(x: float) -> str:

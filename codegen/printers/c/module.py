@@ -33,32 +33,29 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import LIBRARY, needed, snippets
 from codegen.templates import environment
 
-# With fused multiply-adds, results would depend on the machine. -ffp-contract=off forbids these operations.
+# Without -ffp-contract=off, results would depend on whether the machine has fused multiply-adds.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
-# By default gcc assumes that a program observes floating-point exceptions. With this assumption, gcc 12 on
-# x86-64 without AVX-512 does not vectorise loops that select one of two values. -fno-trapping-math removes
-# the assumption.
+# gcc 12 on x86-64 without AVX-512 vectorises loops that select one of two values only with
+# -fno-trapping-math.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 """Flags for modules that loop over the systems of a batch, lattice sites or Fourier modes.
 
-These flags are added to :data:`FLAGS`. The added flags make loops faster and do not change the results.
+These flags are added to :data:`FLAGS` and do not change the results.
 """
 
 FRAMES = 640
-"""The part of the stack bound for return addresses, saved registers and calls of helper functions, in bytes.
-
-The stack bound is computed by :func:`stack`.
+"""The part of the stack bound (:func:`stack`) for return addresses, saved registers and calls of helper
+functions, in bytes.
 """
 
 EACH, EACH_SOLVING = 8, 10
 """The memory in the stack bound for one number (a variable or an array entry), in bytes.
 
-``EACH`` is for explicit steps, and ``EACH_SOLVING`` is for steps that solve equations. Steps that solve
-equations need more memory, because an optimiser moves constant expressions out of the iteration loop and
-stores their values. In measurements, these steps needed at most 8.8 bytes per number in double precision, and
-at most 8.0 bytes in single precision.
+``EACH`` is for explicit steps, and ``EACH_SOLVING`` is for steps that solve equations. In measurements, steps
+that solve equations needed at most 8.8 bytes per number in double precision, and at most 8.0 bytes in single
+precision.
 
 Both constants are also used for single precision, because an optimiser may store two floats in 16 bytes.
 """
@@ -82,7 +79,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # A step that solves equations calls Stumpff functions often. Therefore these functions are inline.
+        # Stumpff functions are inline in a step that solves equations, because the step calls them often.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         # Arrays of variable size are optional in C11, so the arrays in ``invert`` have ``widest`` entries.
@@ -92,10 +89,10 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         batch=interface.batch or bool(interface.dimension),
     )
     public = {f.name: f for f in unit.functions if f.public}
-    # Lines of the header comment have at most 96 characters. A star and spaces precede each line.
+    # Lines of the header comment have at most 96 characters.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
-        # Titles and names from users may contain ``*/``. ``comment`` prints ``* /`` in its place.
+        # Titles and names from users may contain ``*/``.
         "recipe": [comment(line) for line in comments],
         "usage": example(interface, recipe),
         "module": interface.module,
@@ -122,7 +119,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "dense": interface.dense,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
-        # ``head`` prints the first lines of definitions, too. Thus prototypes and definitions agree.
+        # ``head`` also prints the first lines of definitions, so prototypes and definitions agree.
         "heads": {name: printer.head(function, header=True) for name, function in public.items()},
         "parts": [*([text] for text in snippets.texts), *_definitions(unit, printer, interface)],
     }
@@ -130,10 +127,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
 
 
 def _rendered(interface: Interface, variables: Mapping[str, object]) -> dict[str, str]:
-    """Return the texts of PREFIX.h and PREFIX.c. The templates use ``variables``."""
+    """Return the texts of PREFIX.h and PREFIX.c."""
     env = environment("c")
-    # The functions of a lattice module have special parameters, such as ``shape``. Therefore the header of a
-    # lattice module has a separate template.
+    # The functions of a lattice module have special parameters, such as ``shape``.
     head = "lattice.h.j2" if interface.dimension else "module.h.j2"
     return {
         f"{interface.module}.{kind}": env.get_template(f"module/{template}").render(variables)
@@ -149,8 +145,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
-        # ``step`` calls functions that get the inputs from a callback. ``hold`` is a callback for constant
-        # inputs.
+        # ``hold`` is a callback with constant inputs, for the functions that ``step`` calls.
         if function.name == "step" and n:
             definitions.append(
                 [
@@ -176,8 +171,7 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 def helpers(unit: Unit) -> list[str]:
     """Return the sorted names of the helper functions and library functions that a module calls."""
-    # Branches prevent vector instructions in loops over lanes (systems of a batch) or sites. For sin, cos and
-    # the Stumpff functions, these loops call variants without branches, for example ``sin_near``.
+    # Branches prevent vector instructions, so loops over lanes or sites call variants such as ``sin_near``.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
     # A step tests whether its new state is finite, so ``isfinite`` is always needed.
@@ -193,9 +187,9 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the names of the helper functions that a module with loops over lanes or sites calls.
+    """Return the names of the helpers that a module with loops over systems of a batch or sites calls.
 
-    A lane is one system of a batch. A name may be the name of a variant, for example ``sin_near``.
+    A name may be the name of a variant, for example ``sin_near``.
     """
     names: set[str] = set()
     for function in unit.functions:
@@ -218,8 +212,7 @@ def inverted_sizes(kernel: Kernel) -> set[int]:
 def inverted(kernel: Kernel) -> int:
     """Return the size of the matrices that a step inverts by elimination, or 0.
 
-    The result is n if all these matrices are n x n, and n is at most :data:`~codegen.run.sweeps.WIDE`. Then
-    the inner loop of the emitted function ``invert`` is unrolled. Otherwise the result is 0.
+    The result is n if all these matrices are n x n, and n is at most :data:`~codegen.run.sweeps.WIDE`.
     """
     sizes = inverted_sizes(kernel)
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
@@ -228,14 +221,11 @@ def inverted(kernel: Kernel) -> int:
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     """Return a text with the stack bound: an upper bound on the stack memory of an emitted function.
 
-    The bound is the sum of the memory for variables and arrays, the memory for stack frames (:data:`FRAMES`),
-    and a margin. Tests compare the bound with measured values.
-
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The emitted function ``invert`` adds FRAMES / 2 bytes. If the kernel is inlined in ``run``, it has no
-    # stack frame of its own. Then the bound is FRAMES / 2 bytes smaller.
+    # The emitted function ``invert`` adds FRAMES / 2 bytes. If the kernel is inlined in ``run``, the bound is
+    # FRAMES / 2 bytes smaller.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
@@ -251,7 +241,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
             expected=f"at most {LARGEST_STACK // 2**20} MiB, because larger arrays may overflow the stack",
             hint="use a scene with a smaller state, a method with fewer stages, or the target python",
         )
-    # Without optimisation, a call needs about ``size * numbers + frames`` bytes. The rest is the margin.
+    # Without optimisation, a call needs about ``size * numbers + frames`` bytes.
     margin = f", including a margin of {bound - size * numbers - frames} bytes" if each > size else ""
     return (
         f"at most {bound} bytes with {MEASURED}{margin}; "
@@ -266,8 +256,7 @@ def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     names |= {"integrate", "event"} if interface.integrated else set()
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
-    # The names of all helpers are reserved, even if the module does not call them. Thus the names of
-    # variables do not depend on the called helpers.
+    # All helpers are reserved names, so the names of variables do not depend on the called helpers.
     names |= {snippet.name for snippet in snippets(interface.format)}
     local = {"event", "data"} if interface.events else set[str]()
     constants = {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
@@ -318,11 +307,9 @@ def prototypes(interface: Interface) -> str:
 
 
 def _integrate(interface: Interface, passed: str, statistics: str) -> str:
-    """Return the declaration of the function ``integrate``, which integrates to a given end time.
+    """Return the declaration of the function ``integrate``, or an empty text if the module does not have it.
 
-    If the module has no function ``integrate``, the result is an empty text. ``passed`` is the C text that
-    declares the arguments for parameters and inputs. ``statistics`` is the C text that declares the argument
-    for the statistics of the solver.
+    ``passed`` and ``statistics`` declare the arguments for parameters and inputs, and for solver statistics.
     """
     if not interface.integrated:
         return ""
@@ -382,8 +369,7 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
             # A static array starts with zeros and needs no space on the stack.
             f"    static {real.c_type} state[{interface.size}];",
             *(f"    state[{place}] = {number(x)};" for place, x in entries),
-            # The example is part of a C block comment. Block comments cannot be nested, so the example
-            # contains only line comments.
+            # The example is part of a C block comment, so it contains only line comments.
             *(() if entries else (f"    // {IN_MANIFEST}",)),
         ]
     # The example starts at t = 0.

@@ -10,10 +10,9 @@ from codegen.run.terms import Kind, Term
 WIDE = 64
 """If a private function has more than WIDE scalar parameters, it receives them in one array (:func:`packed`).
 
-The compile time of gcc 12 grows with the square of the number of arguments on the stack. For example, the
-method ``ambient:verner9_efficient`` for the scene ``wilson_flow`` has calls with up to 658 arguments. Arrays
-reduce the compile time of a step (gcc -O2) from 21 s to 4 s. With step-size control, they reduce it from 75 s
-to 7 s. However, the compiled step with arrays is 1 % slower.
+The compile time of gcc 12 grows with the square of the number of arguments on the stack. For
+``ambient:verner9_efficient`` and the scene ``wilson_flow``, arrays reduce the compile time of a step (gcc
+-O2) from 21 s to 4 s. The compiled step with arrays is 1 % slower.
 """
 
 PACKED = "arguments"
@@ -23,8 +22,8 @@ PACKED = "arguments"
 def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
     """Return the scalar parameters that a function receives in one array.
 
-    The result is empty if all parameters are passed separately. ``changed`` contains the names of the
-    parameters that the function changes. The array does not contain these parameters.
+    The result is empty if all parameters are passed separately. The array does not contain the parameters
+    that the function changes (``changed``).
     """
     # Users pass each argument of a public function separately. The statement that calls a function with an
     # array does not assign a return value.
@@ -39,15 +38,15 @@ def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
 def whole(values: Sequence[str], others: Collection[str]) -> str:
     """Return the name of the array whose first entries are ``values``, or an empty text.
 
-    A call can pass this array without copying the values. ``others`` contains the other arguments of the
-    call. The called function may change arrays in ``others``, so no such array is returned.
+    No array in ``others`` (the other arguments of the call) is returned, because the callee may change such
+    arrays.
 
     >>> whole(("v[0]", "v[1]"), ["w"])
     'v'
     >>> whole(("v[0]", "v[2]"), ["w"])
     ''
     """
-    # The name of the array is the text in front of the bracket. For ``v[0]`` it is ``v``.
+    # The name of the array is the text in front of the bracket.
     name = values[0].partition("[")[0]
     # Entry k must be the k-th argument, because the callee reads its parameters by position.
     same = name not in others and all(value == f"{name}[{k}]" for k, value in enumerate(values))

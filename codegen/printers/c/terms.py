@@ -47,8 +47,8 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
         name = forms(name)
         if name not in LIBRARY:
             return prefix + name
-        # ``isfinite`` is a macro for all number formats. Other names need the suffix of the format. In
-        # single precision ``sqrtf`` is called, because ``sqrt`` would compute in double.
+        # ``isfinite`` is a macro for all number formats. In single precision, other names need the suffix,
+        # because ``sqrt`` would compute in double.
         return name + precision.suffix if name != "isfinite" else name
 
     return Style(lambda value: literal(precision, precision.round(value)), called)
@@ -57,8 +57,8 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
 class Terms(Infix):
     """Writes the terms of one function in C.
 
-    ``pointers`` contains the names of the parameters that are records. C code receives pointers to them.
-    ``tables`` contains the names of the constant arrays of the module.
+    ``pointers`` contains the names of the parameters that are pointers to records. ``tables`` contains the
+    names of the constant arrays of the module.
     """
 
     words: ClassVar[dict[str, str]] = {"and": "&&", "or": "||", "//": "/"}
@@ -83,18 +83,16 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
-        # The negation of ``a < b`` is printed as ``!(a < b)``. The text ``a >= b`` would be wrong for NaNs:
-        # if ``a`` or ``b`` is a NaN, both ``a < b`` and ``a >= b`` are false.
+        # If ``a`` or ``b`` is a NaN, ``!(a < b)`` is true, but ``a >= b`` is false.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the texts of two tests. All values are finite if and only if at least one test is true."""
-        # The first test checks whether the sum of all values is finite. This test is fast, but it may fail
-        # for finite values, because their sum may overflow.
+        # The first test is fast, but it may fail for finite values, because their sum may overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
-        # The second test has no overflow: it adds the differences x - x. The sum is 0 if all x are finite.
-        # For an infinity or a NaN, x - x is a NaN.
+        # The second test has no overflow: it adds the differences x - x. For an infinity or a NaN, x - x is a
+        # NaN.
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
         return finite, (*self.text(differences).segments, f"== {zero}")
@@ -108,7 +106,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # The expression may be a sum. With the level SUM, it gets parentheses inside a product.
+                # The expression may be a sum, which needs parentheses inside a product.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.prefix.upper() + term.text,))
@@ -125,8 +123,7 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
-                # Run-time inputs are passed as a function and a pointer to its data. For constant inputs, the
-                # function is ``hold``, and the data are the values of the inputs.
+                # Constant run-time inputs are passed as the function ``hold`` and a pointer to their values.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
@@ -142,8 +139,7 @@ class Terms(Infix):
             return "input, context"
         if term.kind is Kind.EVENTS:
             return "event, data"
-        # A table is global, so its name starts with the prefix of the module. The name of a local variable
-        # has no prefix.
+        # A table is global, so its name starts with the prefix of the module.
         if not term.own and term.text in self.tables:
             return self.prefix + term.text
         return self.identifiers.of(term)
@@ -158,19 +154,18 @@ class Terms(Infix):
         """Return the text of an access: an array entry, a part of an array, or a field of a record."""
         base = term.args[0]
         if term.op == "field":
-            # A record that is a parameter is a pointer, so its fields need ``->``. A local record is not a
-            # pointer, so its fields need ``.``.
+            # A record that is a parameter is a pointer, so its fields need ``->``.
             arrow = "->" if base.op == "name" and self.identifiers.of(base) in self.pointers else "."
             return Text((f"{self.line(base)}{arrow}{term.text}",))
         if term.op == "part":
             start = int(term.number)
             # In C a contiguous part of an array is passed as a pointer to the first entry of the part.
             return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
-        # A cell is an array with one entry. In C it is a pointer ``p``, and the entry is printed as ``*p``.
+        # A cell (an array with one entry) is a pointer in C.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
-        # The shape (0, n) means that the number of rows is known only at run time. Each row has n entries.
-        # C code stores the rows one after the other in an array with one index.
+        # The shape (0, n) means that the number of rows is known only at run time. C code stores the rows one
+        # after the other in an array with one index.
         if base.shape[0] == 0 and len(base.shape) > 1:
             # Row 0 begins at the address of the array, so no offset is printed.
             if _is_zero(term.args[1]):
@@ -222,10 +217,7 @@ class Terms(Infix):
         return Text(closed_call(name, [self.line(x) for x in term.args]))
 
     def converted(self, term: Term) -> Text:
-        """Return the text of a conversion between number formats.
-
-        The term ``wide`` converts to double. The term ``narrow`` converts to the number format of the module.
-        """
+        """Return a conversion to double (``wide``) or to the number format of the module (``narrow``)."""
         (x,) = term.args
         inner = self.text(x)
         # In double precision all real numbers are doubles, so only integers need a conversion.

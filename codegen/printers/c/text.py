@@ -11,9 +11,9 @@ WIDTH = 100
 
 
 def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
-    """Return the text of the maximum of ``terms``, as a tuple of segments.
+    """Return the text of the maximum of ``terms``, in segments between which a line may break.
 
-    The text is a balanced tree of calls ``name(x, y)``. A line may break between two segments.
+    The text is a balanced tree of calls ``name(x, y)``.
 
     >>> greatest(["a", "b", "c"])
     ('greater(a,', 'greater(b,', 'c))')
@@ -57,10 +57,10 @@ def block_comment(text: str) -> list[str]:
 def fill(
     start: str, segments: tuple[str, ...], end: str, width: int = WIDTH, separator: str = " "
 ) -> list[str]:
-    """Return a statement as lines. The text is ``start``, then the segments, then ``end``.
+    """Return a statement (``start``, then the segments, then ``end``) as lines.
 
-    ``separator`` is the text between ``start`` and the first segment. Segments on the same line are separated
-    by spaces. ``width`` limits the length of a line after the caller has indented it.
+    ``separator`` is the text between ``start`` and the first segment. ``width`` limits the length of a line
+    after the caller has indented it.
 
     >>> fill("x =", ("a", "+ b", "+ c"), ";", width=18)
     ['x = a + b', '    + c;']
@@ -78,7 +78,7 @@ def fill(
 
 
 def together(statements: Sequence[str], width: int = WIDTH) -> list[str]:
-    """Return lines that contain the statements. Each line contains as many statements as fit.
+    """Return the statements as lines, with as many statements on each line as fit.
 
     ``width`` limits the length of a line after the caller has indented it.
 

@@ -43,6 +43,5 @@ RESERVED = (
 """Words that are forbidden as names of variables in emitted C code.
 
 The most important ones are the keywords of C and C++, the functions of the mathematical library, and the
-macros of common headers. Each module also forbids the names of its own functions and tables
-(:mod:`codegen.run.identifiers`).
+macros of common headers.
 """
