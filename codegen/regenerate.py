@@ -76,7 +76,7 @@ def _entry(module: object, where: str) -> Entry:
 def contents(listed: list[Entry]) -> dict[str, str]:
     """Return the files that the folder ``generated/`` should contain, including the manifests.
 
-    Each key of the result is the path of a file, relative to the folder. The value is the text of the file.
+    Each key of the result is the path of a file, relative to the folder.
     """
     files: dict[str, str] = {}
     manifests: dict[str, list[dict[str, object]]] = {}
@@ -98,12 +98,12 @@ def contents(listed: list[Entry]) -> dict[str, str]:
 class Difference:
     """One difference between the folder and the expected files.
 
-    ``path`` is the path of a file. ``kind`` is one of these words:
+    ``kind`` is one of these words:
 
     - ``missing``: the folder does not contain this expected file.
     - ``different``: this expected file has a different content in the folder.
     - ``stale``: the file was emitted earlier, but it is no longer expected.
-    - ``unknown``: no manifest lists this file. The function :func:`write` does not remove this file.
+    - ``unknown``: no manifest lists this file, and :func:`write` does not remove it.
     """
 
     path: str
@@ -152,8 +152,7 @@ def ignored(path: str) -> bool:
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
     """Write the expected files and remove stale files. Return the differences found before these changes."""
     changed = compare(directory, files)
-    # Manifests are written last. If writing is interrupted, the old manifests still list the stale files, so
-    # the next call recognises and removes them.
+    # Manifests are written last, so after an interruption the old manifests still list the stale files.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))
     try:
         for difference in last:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 RING = Balls(256)
-"""Interval arithmetic with 256 bits. Many bits are needed, because the terms of a residual cancel."""
+"""Interval arithmetic with 256 bits, because the terms of a residual cancel."""
 
 MOST = 3000
 """If an order has more conditions than this number, :func:`largest_residual` returns None."""

@@ -1,10 +1,8 @@
 """Prints terms (:mod:`codegen.run.terms`) as infix text with parentheses and line breaks.
 
-Operations are never regrouped. Parentheses are omitted only where the precedence of operators makes them
-unnecessary, as in ``a * b + c``.
+Operations are never regrouped.
 
-Target languages have different notations for some operators and functions. Subclasses of :class:`Infix`
-define these notations.
+Subclasses of :class:`Infix` define the notation of a target language.
 """
 
 from __future__ import annotations
@@ -41,8 +39,7 @@ class Text:
 
     def within(self, level: int) -> tuple[str, ...]:
         """Return the segments. If ``self.level`` is below ``level``, the text gets parentheses."""
-        # If the levels are equal, the text gets no parentheses. A caller that needs parentheses passes
-        # ``level + 1``.
+        # A caller that needs parentheses at an equal level passes ``level + 1``.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")
@@ -96,14 +93,12 @@ class Infix(ABC):
         if level in (AND, OR):
             # C compilers warn about ``a && b || c`` without parentheses (-Wparentheses).
             tight = {OR: COMPARED, AND: NOT}[level]
-            # In ``a && b && c`` the left operand ``a && b`` needs no parentheses. The same is true for
-            # ``a || b || c``.
+            # In ``a && b && c`` the left operand ``a && b`` needs no parentheses.
             first = left.segments if left.level == level else left.within(tight)
             return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
-        # Operators associate to the left. ``a + (b + c)`` keeps its parentheses, because regrouping changes
-        # the rounding.
+        # ``a + (b + c)`` keeps its parentheses, because regrouping changes the rounding.
         first = left.within(level if level in (SUM, PRODUCT) else SUM)
-        # A line may break before an operator. A short right operand has no line break.
+        # A line may break before an operator.
         segments = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))
         return Text(joined(segments, LONG) if level == COMPARED else segments, level)
 

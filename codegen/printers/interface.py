@@ -30,11 +30,11 @@ RUN = ("integrated", "controlled", "events", "dense")
 class Interface:
     """The calling convention of one module.
 
-    - ``prefix`` is the beginning of every external C name. The prefix ends with an underscore.
+    - ``prefix`` is the beginning of every external C name, including a final underscore.
     - ``size`` is the number of coordinates of a state.
     - ``time`` is True if the time t is an argument of the step.
     - ``parameters`` are the run-time parameters in the order of the arguments.
-    - ``inputs`` are the names of the run-time inputs. A run-time input is a function of time.
+    - ``inputs`` are the names of the run-time inputs (functions of time).
     - ``blocks`` are the labels of the blocks of implicit equations.
     - ``solvers`` has the solution method of each block, in the order of ``blocks``.
     - ``precision`` is the name of the number format (:mod:`codegen.ir.precision`).
@@ -47,9 +47,8 @@ class Interface:
     - ``events`` is the number of event functions of runs to a given end time.
     - ``dense`` is the order of the continuous extension, or 0 if there is none.
     - ``dimension`` is the dimension of the lattice, or 0 for a single system.
-    - ``workspace`` is the number of rows of the workspace. The workspace is an array for intermediate
-      values on a lattice.
-    - ``modes`` is True for a step on Fourier modes. The caller then chooses the length of the state.
+    - ``workspace`` is the number of rows of the array for intermediate values on a lattice.
+    - ``modes`` is True for a step on Fourier modes.
     """
 
     prefix: str
@@ -79,8 +78,7 @@ class Interface:
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
         """Return the interface of a kernel.
 
-        The time t is an argument only if the kernel reads t. A parameter is an argument only if the kernel
-        reads the parameter.
+        The time t and the parameters are arguments only if the kernel reads them.
         """
         used = kernel.used_scalars()
         # Run-time inputs are functions of the time t, so a kernel with inputs reads t.
@@ -96,7 +94,7 @@ class Interface:
             precision=precision,
             inputs=kernel.inputs,
             adaptive=kernel.adaptive,
-            # ``kernel.vary`` computes a column of the Jacobian. Each output is the entry in one row.
+            # ``kernel.vary`` computes a column of the Jacobian, one output for each row.
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
             batch=kernel.batch,
@@ -137,7 +135,7 @@ class Interface:
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
         """Return the interface that :meth:`as_json` converted to ``data``."""
-        # JSON has no tuples, so lists become tuples. A missing list becomes an empty tuple.
+        # JSON has no tuples, so lists become tuples.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))
 
 

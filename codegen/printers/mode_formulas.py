@@ -51,7 +51,7 @@ class ModeFormulas:
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
             names[statement.name] = own
-        # Outputs may contain assigned variables. The loop has added all assigned variables to ``names``.
+        # The loop has added all assigned variables to ``names``.
         outputs = tuple(" ".join(render(x, names, self.style)) for x in arranged.outputs)
         return Lines(tuple(assignments), outputs)
 

@@ -10,7 +10,7 @@ def mode_header(kernel: Kernel, recipe: Recipe, width: int) -> list[str]:
     """Return the lines of the header comment, without the usage example."""
     step = kernel.modes
     assert step is not None
-    # The state is an array. The length n of the array is known only at run time.
+    # The length n of the state is known only at run time.
     (state,) = kernel.state
     layout = [f"n {state.meaning}; n is even"]
     return header(recipe, layout, step.explanation(), width)

@@ -9,8 +9,7 @@ from codegen.run.language import LANGUAGE, Call, Unit, statements, terms
 def functions_of(unit: Unit) -> tuple[str, ...]:
     """Return the sorted names of functions that a module calls, but does not define.
 
-    The function searches the formulas of the kernel and the call statements. Terms with the operation
-    ``call`` are ignored.
+    Terms with the operation ``call`` are ignored.
     """
     names: set[str] = set()
     for function in unit.functions:
@@ -22,5 +21,5 @@ def functions_of(unit: Unit) -> tuple[str, ...]:
         # functions in ``LANGUAGE``.
         calls = (s.function for s in statements(function.body) if isinstance(s, Call))
         names |= {name for name in calls if name not in unit.parts and name not in LANGUAGE}
-    # The order of a set varies between runs. The names are sorted, because the emitted text must not vary.
+    # The names are sorted, because the order of a set varies between runs.
     return tuple(sorted(names))

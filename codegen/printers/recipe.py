@@ -52,17 +52,17 @@ IN_MANIFEST = "set the state: the manifest contains the initial state of the sce
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
-    """Return the indices and values of the nonzero entries of a long initial state.
+    """Return the indices and values of the nonzero entries of an initial state.
 
-    A state is long if it has more than :data:`LONGEST_STATE` coordinates. For other states the result is
-    None. If a long state has more than :data:`MOST_ENTRIES` nonzero entries, the result is empty.
+    For a state with at most :data:`LONGEST_STATE` coordinates the result is None. For any other state with
+    more than :data:`MOST_ENTRIES` nonzero entries the result is empty.
 
     >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
     (None, ((99, 1.0),))
     """
     if len(initial) <= LONGEST_STATE:
         return None
-    # The usage example sets all coordinates to zero. Then it assigns the nonzero entries.
+    # The usage example first sets all coordinates to zero.
     entries = tuple((place, x) for place, x in enumerate(initial) if x)
     # Instead of many assignments, the usage example contains the comment IN_MANIFEST.
     return entries if len(entries) <= MOST_ENTRIES else ()
@@ -97,9 +97,8 @@ def header(
 ) -> list[str]:
     """Return the lines of the header, without the usage example.
 
-    ``layout`` describes the state. ``counts`` lists the operations of a step. ``inputs`` describes the
-    run-time inputs. ``stack`` is a sentence with a bound on the stack memory of a call. A line has at most
-    ``width`` characters. Words are not split, so a line with a very long word may be longer.
+    ``layout`` describes the state. ``counts`` lists the operations of a step. ``stack`` is a sentence with a
+    bound on the stack memory of a call. Lines are broken at ``width`` characters, but only between words.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']

@@ -1,8 +1,7 @@
 """The targets (languages) of the compiler.
 
-For each built-in target, the folder of this file contains a package with a module ``target.py``. The tuple
-:data:`BUILT_IN` lists these targets. A package outside orderconds adds a target in one of two ways: the
-package calls :func:`register`, or it declares an entry point in the group ``orderconds.targets``.
+The tuple :data:`BUILT_IN` lists the built-in targets. A package outside orderconds adds a target with
+:func:`register` or with an entry point in the group ``orderconds.targets``.
 """
 
 from __future__ import annotations
@@ -77,8 +76,7 @@ def names() -> tuple[str, ...]:
 def target(name: str) -> Target:
     """Return the target with the name ``name``.
 
-    If there is no such target, UnknownName is raised. The message of UnknownName contains the names of all
-    targets.
+    If there is no such target, UnknownName is raised.
 
     >>> target("python").title
     'Python'

@@ -38,8 +38,7 @@ class Target:
     - ``printer`` is a function (kernel, interface, recipe) -> files.
     - ``loader`` is a function (interface, parameter values, files) -> :class:`codegen.integrator.Integrator`.
     - ``suffix`` is the suffix of the file that contains the step.
-    - ``most_steps`` is the largest number of steps of a run in a convergence test. A run with ``most_steps``
-      steps takes about one second.
+    - ``most_steps`` is the largest number of steps of a run in a convergence test (about one second).
 
     The other fields are optional:
 
@@ -47,8 +46,8 @@ class Target:
       and returns the elapsed time in seconds.
     - ``observer`` is a function (integrator, state, t, h) that makes one step and returns the solved unknowns
       of each substep.
-    - ``stack`` is a regular expression that finds the bound on the stack memory in the file of the step. The
-      first group of the expression matches the number of bytes.
+    - ``stack`` is a regular expression for the file of the step. The first group matches the bound on
+      the stack memory in bytes.
     - ``batches`` is True if a module can have a function that integrates a batch of systems.
     - ``lattice_loader`` loads modules for lattices.
     - ``spectral_loader`` loads modules for semilinear equations.
@@ -113,5 +112,5 @@ class Target:
 
     def step_file(self, module: str) -> str:
         """Return the name of the file with the step function. ``module`` is the name of the module."""
-        # A module may consist of several files. In C, these files are a header and a source.
+        # In C, a module consists of a header and a source.
         return f"{module}{self.suffix}"

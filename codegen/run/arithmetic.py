@@ -22,14 +22,12 @@ from codegen.run.warm_start import begun
 def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: bool = True) -> list[Statement]:
     """Return the statements that evaluate the kernel of ``plan``.
 
-    The statements ``after_loops`` are inserted after the last loop that solves equations. If there is no
-    such loop, they are omitted. If ``counting`` is True, the emitted code counts the sweeps (iterations) of
-    each loop.
+    The statements ``after_loops`` are inserted after the last loop that solves equations. If ``counting`` is
+    True, the emitted code counts the sweeps (iterations) of each loop.
     """
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
-    # ``last`` is the index of the last loop, or -1 if there is no loop. After the last loop, all unknowns
-    # have their final values.
+    # After the last loop, all unknowns have their final values.
     last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
     for place, statement in enumerate(statements):
         if isinstance(statement, Iteration):
@@ -94,8 +92,8 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:
     """Return the emitted function for an outlined part of a kernel.
 
-    An outlined part is a group of formulas that the kernel uses in several places. If the emitted function
-    has a single result, it returns the result as its value. Several results are written to an array argument.
+    An outlined part is a group of formulas that the kernel uses in several places. A single result is the
+    value of the emitted function. Several results are written to an array argument.
     """
     body: list[Statement] = []
     for statement in arrangement.statements:

@@ -42,8 +42,7 @@ Index = Term | int
 Group = Callable[[Term | None, int], Iterator[Statement]]
 """A function that yields the statements for a group of columns.
 
-The first argument is the first column of the group. If it is None, the group begins at column 0. The second
-argument is the number of columns.
+The arguments are the first column of the group (None for column 0) and the number of columns.
 """
 
 
@@ -100,8 +99,8 @@ class ArrayLoops:
 
             return tuple(_in_groups(p.target.columns, group))
 
-        # The rows are computed in pairs. Both rows of a pair are multiplied by the same entries of the right
-        # factor, so each of these entries is loaded once and used twice.
+        # Both rows of a pair are multiplied by the same entries of the right factor, so each of these entries
+        # is loaded only once.
         pairs, rest = divmod(p.target.rows, 2)
         if pairs:
             first = (Assign(_FIRST, 2 * _ROW), Assign(_SECOND, _FIRST + 1))
@@ -125,11 +124,10 @@ class ArrayLoops:
         """Yield the statements that compute the entries of the target in the given rows and columns.
 
         Each entry is the sum of ``factor(row, k) * other(k, column)`` over k = 0, ..., ``inner`` - 1. If
-        ``added`` is True, the sum is added to the old entry. For each k, the statements ``before`` are
-        executed before the products are computed.
+        ``added`` is True, the sum is added to the old entry. For each k, the statements ``before`` precede
+        the products.
         """
-        # The sums are scalar variables, so a compiler can keep them in registers. Each result is stored only
-        # once, after the loop.
+        # The sums are scalar variables, so a compiler can keep them in registers.
         totals: list[tuple[Term, Index, Index]] = []
         terms = [*before]
         for r, row in enumerate(rows):
@@ -156,8 +154,8 @@ class ArrayLoops:
         for n, term in enumerate(c.terms):
             weights[id(term)], statements = self.weight(f"{target.name} weight {n}", term.coefficient)
             yield from statements
-        # ``flat`` is True if all matrices are stored without gaps between their rows, and none is transposed.
-        # Entry number k then has the same row and column in each matrix, so a single loop over k is enough.
+        # Without gaps between rows and without transposed matrices, entry number k has the same row and
+        # column in each matrix.
         flat = _is_whole(target) and all(_is_whole(t.matrix) and not t.transposed for t in full)
         yield self.over(target, lambda place: self.total(full, weights, place), flat=flat)
         for term in c.terms:
@@ -190,8 +188,7 @@ class ArrayLoops:
     def at(self, matrix: Matrix, place: _Place) -> Term:
         """Return the entry of a matrix at the position ``place``."""
         if place.column is None:
-            # The matrix may be a part of a larger array. The index of its first entry in the array is
-            # ``matrix.start``.
+            # The first entry of the matrix has the index ``matrix.start`` in the array.
             return self.array(matrix)[place.row if not matrix.start else place.row + matrix.start]
         return self.entry(matrix, place.row, place.column)
 
@@ -225,9 +222,8 @@ class ArrayLoops:
         if not c.diagonals:
             yield from self.applied_full(a)
             return
-        # The loop for the first stored diagonal assigns values to rows of the target. The loops for the other
-        # diagonals add values to rows. If the first loop does not assign all rows, the target is first set to
-        # zero.
+        # The loops after the first one add values to rows of the target. If the first loop does not assign
+        # all rows, the target is first set to zero.
         if not _covers(c):
             yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
         for n, diagonal in enumerate(c.diagonals):
@@ -236,17 +232,17 @@ class ArrayLoops:
             # The entry in row i and column j of a matrix is in row j and column i of its transpose.
             row, column = (j, i) if a.transposed else (i, j)
             columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0))
-            # A whole row of the variable matrix is multiplied by one entry of the constant matrix. The
-            # formula of this entry is evaluated only once, because the entry is assigned to a variable.
+            # The entry of the constant matrix is assigned to a variable, so its formula is evaluated only
+            # once.
             body = (*before, Assign(_ENTRY, entry), *columns)
             yield For(_ROW, whole(c.length(diagonal)), body)
 
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
         """Return a function that yields statements for a group of columns.
 
-        The variable :data:`_ENTRY` contains the entry of the constant matrix in row ``row`` and column
-        ``column``. The statements multiply row ``column`` of ``a.matrix`` by this entry. If ``added`` is
-        True, the product is added to row ``row`` of ``a.target``. Otherwise the product replaces this row.
+        The statements multiply row ``column`` of ``a.matrix`` by the entry :data:`_ENTRY` of the constant
+        matrix. If ``added`` is True, the product is added to row ``row`` of ``a.target``. Otherwise the
+        product replaces this row.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -260,8 +256,7 @@ class ArrayLoops:
     def applied_full(self, a: Apply) -> Iterator[Statement]:
         """Yield the loops for the product C M of a full constant matrix C and a variable matrix M."""
         c = a.constant
-        # In the sum over _TERM, one factor is the entry of C in row i and column j. If C is transposed, the
-        # two indices are exchanged.
+        # If C is transposed, the row i and the column j of the entry of C are exchanged.
         i, j = (_TERM, _ROW) if a.transposed else (_ROW, _TERM)
         before, entry = constant_entry(c.full, c.name, i, j, c.columns * i + j)
 
@@ -270,8 +265,7 @@ class ArrayLoops:
                 *(a.target, [_ROW], [_shifted(first, n) for n in range(columns)], a.matrix.rows),
                 lambda row, k: entry,
                 lambda k, column: self.entry(a.matrix, k, column),
-                # The statements ``before`` convert the indices of the entry to reals. One of these indices is
-                # _TERM, so the statements are in the loop over _TERM.
+                # The statements ``before`` convert the index _TERM, so they are in the loop over _TERM.
                 before=before,
             )
 
@@ -285,7 +279,7 @@ class ArrayLoops:
 
         def inner(i: Term, j: Term, before: Sequence[Statement], entry: Term) -> tuple[Statement, ...]:
             # In the product M C, the entry of C in row ``row`` and column ``column`` multiplies column
-            # ``row`` of M. The result is added to column ``column`` of the target.
+            # ``row`` of M.
             row, column = (j, i) if a.transposed else (i, j)
             goal, line = self.entry(target, _TERM, column), self.entry(a.matrix, _TERM, row)
             rows = For(_TERM, whole(target.rows), (Assign(goal, goal + line * _ENTRY),))
@@ -318,15 +312,14 @@ def constant_entry(
 ) -> tuple[list[Statement], Term]:
     """Return the statements that prepare an entry of a constant matrix, and the entry.
 
-    If ``given`` is a tuple of numbers, the entry is read from the table ``table`` at the index ``place``, and
-    there are no statements. If ``given`` is a formula, the statements convert its row and column indices to
-    reals.
+    If ``given`` is a tuple of numbers, the entry is read from the table ``table`` at the index ``place``. If
+    ``given`` is a formula, the statements convert its row and column indices to reals.
     """
     if isinstance(given, tuple):
         return [], real(table, len(given))[place]
     read = {node.payload for node in walk([given]) if node.op == "sym"}
     indices = ((ROW, row), (COLUMN, column))
-    # C compilers warn about unused variables. Therefore only the indices in the formula are converted.
+    # Only the indices in the formula are converted, because C compilers warn about unused variables.
     before: list[Statement] = [Assign(own(s), narrow(wide(at))) for s, at in indices if s in read]
     return before, value(given)
 
@@ -339,7 +332,7 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of all constant matrices whose entries are numbers and not formulas."""
     # ``constants`` can contain a matrix once for each stage time, always with the same name. Entries that are
-    # numbers do not depend on the time. Therefore one table is enough for each name.
+    # numbers do not depend on the time.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
@@ -351,14 +344,13 @@ def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterato
         ]
         listed.append((c.name, c.full, f"The entries of a {c.rows} x {c.columns} matrix, row by row."))
         for name, entry, about in listed:
-            # A formula needs no table. If the matrix is stored by diagonals, ``c.full`` is empty and needs
-            # no table either.
+            # If the matrix is stored by diagonals, ``c.full`` is empty and needs no table.
             if isinstance(entry, tuple) and entry:
                 yield Table(real(name, len(entry)), (_rounded(entry, precision),), about)
 
 
 def _sum(offset: int) -> str:
-    """Return the sum i + ``offset`` as text. For the offset -2 it is ``i - 2``."""
+    """Return the sum i + ``offset`` as text."""
     return f"i {'-' if offset < 0 else '+'} {abs(offset)}" if offset else "i"
 
 
@@ -370,11 +362,10 @@ def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ..
 def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statement]]) -> Iterator[Statement]:
     """Yield the statements of ``group`` for all columns of a matrix with ``columns`` columns.
 
-    Each group has :data:`GROUP` columns. The last group may have fewer columns.
+    Only the last group may have fewer than :data:`GROUP` columns.
     """
     groups, rest = divmod(columns, GROUP)
-    # A single group of columns needs no loop. The group begins at column 0, so the column indices are
-    # constants.
+    # A single group begins at column 0, so the column indices are constants.
     if groups == 1:
         yield from group(None, GROUP)
     elif groups > 1:
@@ -386,8 +377,7 @@ def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statem
 
 
 def _shifted(first: Term | None, column: int) -> Index:
-    # If the column does not depend on a loop index, an integer is returned. Then the emitted column index is
-    # a constant.
+    # If the column does not depend on a loop index, the emitted column index is a constant.
     if first is None:
         return column
     if first.op == "number":
@@ -398,8 +388,7 @@ def _shifted(first: Term | None, column: int) -> Index:
 def along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
     """Return the row and the column of entry number ``place`` of a diagonal."""
     offset = diagonal.offset
-    # The offset is the column minus the row. If it is negative, the diagonal begins in column 0, otherwise in
-    # row 0.
+    # The offset is the column minus the row.
     if not offset:
         return place, place
     return (place + -offset, place) if offset < 0 else (place, place + offset)
@@ -409,8 +398,7 @@ def _place(matrix: Matrix, row: Index, column: Index) -> Index:
     """Return the index of a matrix entry in the array that contains the matrix."""
     if isinstance(row, int) and isinstance(column, int):
         return matrix.place(row, column)
-    # The constant parts of the index are added here. Therefore the emitted index contains at most one
-    # constant.
+    # The constant parts of the index are added here, so the emitted index contains at most one constant.
     constant = matrix.start + sum(n * x for n, x in ((matrix.step, row), (1, column)) if isinstance(x, int))
     place: Term | None = None
     for n, x in ((matrix.step, row), (1, column)):
@@ -440,8 +428,7 @@ def _sign(c: Expr) -> int:
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
     """Return the sum of ``total`` and a product: the coefficient of ``term`` times ``entry``.
 
-    If ``total`` is None, return only the product. ``weight`` is the variable or number that contains the
-    coefficient in the emitted code. If the coefficient is 1 or -1, ``weight`` is None.
+    If ``total`` is None, return only the product. If the coefficient is 1 or -1, ``weight`` is None.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

@@ -1,10 +1,9 @@
 """Prints functions (:mod:`codegen.run.language`) in Python.
 
-The printed functions change lists in place. One assignment to several consecutive entries of a list is
-faster than an assignment to each entry. Therefore the printer combines assignments to consecutive entries.
+The printed functions change lists in place.
 
-Python raises an arithmetic error where C computes an infinity or a NaN. A guard is a ``try`` statement
-that catches this error in a printed function. The result of the function is then a status code or NaNs.
+Python raises an arithmetic error where C computes an infinity or a NaN. A guard is a ``try`` statement that
+catches this error in a printed function. The result of the function is then a status code or NaNs.
 """
 
 from __future__ import annotations
@@ -59,8 +58,7 @@ class FunctionPrinter:
         body = _Body(self, function).block(function.body, depth)
         if not function.guard:
             return [*lines, *body]
-        # ZeroDivisionError and OverflowError are subclasses of ArithmeticError. Functions of ``math`` raise
-        # ValueError for an invalid argument.
+        # Functions of ``math`` raise ValueError for an invalid argument.
         return [*lines, "    try:", *body, "    except (ArithmeticError, ValueError):", *self.guard(function)]
 
     def guard(self, function: Function) -> list[str]:
@@ -89,8 +87,7 @@ class FunctionPrinter:
     def zeros(self, shape: Sequence[int], kind: Kind, record: str = "") -> str:
         """Return the code that creates a list of zeros or a list of new records.
 
-        ``shape`` contains the dimensions of the list. If ``shape`` is empty, the code creates one zero or one
-        new record.
+        If ``shape`` is empty, the code creates one zero or one new record.
         """
         if not shape:
             if kind is Kind.RECORD:
@@ -98,8 +95,7 @@ class FunctionPrinter:
             return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
         inner = self.zeros(shape[1:], kind, record)
         if len(shape) > 1 or kind is Kind.RECORD:
-            # The operator ``*`` would repeat one row or record. A comprehension creates a new object for each
-            # entry.
+            # The operator ``*`` would repeat one row or record.
             return f"[{inner} for _ in range({shape[0]})]"
         return f"[{inner}] * {shape[0]}"
 
@@ -183,8 +179,7 @@ class _Body:
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
         """Return True if one statement can replace the assignments of ``group`` and ``statement``.
 
-        If ``reading`` is True, the assignments must read consecutive entries of one list. If ``reading`` is
-        False, the assignments must write consecutive entries of one list.
+        The assignments must read or, if ``reading`` is False, write consecutive entries of one list.
         """
 
         def one(s: Assign) -> Term:
@@ -211,7 +206,7 @@ class _Body:
         reading = all(_entry(s.value) is not None and s.target.op == "name" for s in group)
         entry = group[0].value if reading else group[0].target
         array, start = entry.args[0], _entry(entry) or 0
-        # A slice copies the list. To read a whole list, the printer needs no slice.
+        # A slice copies the list, so a whole list is read without a slice.
         whole = start == 0 and array.shape == (len(group),)
         name = self.terms.line(array)
         if reading:
@@ -267,7 +262,7 @@ class _Body:
             yield from self.condition("while", statement.test, depth)
             yield from self.block(statement.body, depth + 1)
             return
-        # Python has no loop with a test at the end. The printer writes an endless loop with a ``break``.
+        # Python has no loop with a test at the end.
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
@@ -277,12 +272,12 @@ class _Body:
         """Yield the lines that assign a scalar, copy an array or clear a record."""
         target, value = statement.target, statement.value
         name = self.terms.line(target)
-        # The caller also uses this record. Therefore the record is cleared, and no new record is created.
+        # The caller also uses this record, so the record is cleared and not replaced.
         if value.op == "fresh":
             yield f"{'    ' * depth}{name}.clear()"
             return
         if target.shape:
-            # A slice assignment changes the caller's list. A plain assignment would not change this list.
+            # A slice assignment changes the caller's list.
             name = name if target.op == "part" else f"{name}[:]"
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
@@ -310,15 +305,13 @@ class _Body:
         # The template defines ``sample`` and ``measure`` under the names ``_sampled`` and ``_measured``.
         name = {"sample": "sampled", "measure": "measured"}.get(statement.function, statement.function)
         start = f"{', '.join(results)} = " if results else ""
-        # Printed functions have a leading underscore. The helper ``invert`` has none.
+        # The helper ``invert`` has no leading underscore.
         called = "invert" if name == "invert" else f"_{name}"
         yield from filled(f"{start}{called}(", given, ")", depth)
 
 
 def _entry(term: Term) -> int | None:
-    """Return the index of the entry if ``term`` is a scalar entry of a list with a constant index. Otherwise
-    return None.
-    """
+    """Return the constant index of a scalar entry of a list, or None for other terms."""
     # With a variable index, consecutive entries cannot be recognised.
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None

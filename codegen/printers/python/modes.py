@@ -24,7 +24,7 @@ _OWN = """
 """
 
 OWN = RESERVED | frozenset(_OWN.split())
-"""The reserved names of the emitted module. A parameter with a reserved name gets a different name."""
+"""The reserved names of the emitted module."""
 
 
 def _constant(value: Number) -> str:
@@ -43,7 +43,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(len(step.evaluations))}
     names: dict[str, str] = {"t": "t"}
-    # Formulas are evaluated at all grid points at once. The array ``points`` contains the grid points.
+    # Formulas are evaluated at all grid points (the array ``points``) at once.
     names[step.space] = "points"
     for name in (*interface.parameters, step.space, *(s for _, s in step.nonlinearity.inner)):
         names.setdefault(name, identifier(name, {*reserved, *names.values()}))
@@ -96,7 +96,7 @@ def _sum(write: ModeFormulas, terms: tuple[Term, ...]) -> str:
     for term in terms:
         name = write.spectrum(term)
         words.append(name if term.table is None else f"tables[{term.table}] * {name}")
-    # An empty sum is zero. The array of zeros has the shape of the state.
+    # An empty sum is zero.
     return " + ".join(words) or "np.zeros_like(spectrum)"
 
 

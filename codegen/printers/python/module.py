@@ -131,7 +131,7 @@ class _Module:
 
     def parts(self) -> list[list[str]]:
         """Return the lines of the private definitions of the module."""
-        # The template prints the public records. The private records are printed here.
+        # The template prints the public records.
         definitions = [self.printer.record(r) for r in self.unit.records if not r.public]
         # The text of the helper functions precedes the tables and the functions of the module.
         definitions += [[text] for text in self.needed.texts]
@@ -144,8 +144,8 @@ class _Module:
         If the recipe has default values for all parameters, the argument list contains these values.
         """
         known = self.recipe.defaults
-        # If only some parameters had defaults, a parameter without a default could follow one with a default.
-        # Python does not allow this order. Therefore all parameters get defaults, or none does.
+        # Python allows no parameter without a default after one with a default. Therefore all parameters get
+        # defaults, or none does.
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
         pairs = zip(self.interface.parameters, self.parameters, strict=True)
@@ -162,8 +162,7 @@ class _Module:
         passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
         comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
         public = [r for r in self.unit.records if r.public]
-        # The method ``parts`` collects the constants. ``self.constants.digits`` is complete only after this
-        # call.
+        # ``self.constants.digits`` is complete only after the call of ``parts``.
         parts = self.parts()
         imports, arrays = self.imports()
         variables: dict[str, object] = {
@@ -227,9 +226,9 @@ class _Module:
         # Tolerances and bounds for the step size are options of step control.
         options = ["rtol=1e-6", "atol=1e-9", "least=0.0", 'greatest=float("inf")'] if controlled else []
         events = ["event=None", "stops=()"] if interface.events else []
-        # With step control, h is the first step size. For h = 0, ``integrate`` chooses the first step size.
+        # For h = 0, ``integrate`` chooses the first step size.
         first = ["state", "t", "end", *inputs, "h=0.0" if controlled else "h"]
-        # ``integrate`` creates lists for the events. The private function ``_integrate`` fills these lists.
+        # The private function ``_integrate`` fills the lists that ``integrate`` creates for the events.
         buffers = ["event", "stops", "room", "event_times", "event_rows", "event_numbers", "event_count"]
         arguments = ["state", "now", "end", "size" if controlled else "h", *tolerances, "limit"]
         arguments += [*self.parameters, *inputs, "times", "len(times)", "rows", "written"]

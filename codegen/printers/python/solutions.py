@@ -17,7 +17,7 @@ class LoadedModule(Protocol):
 
 
 def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: float) -> list[list[float]]:
-    """Make one step. For each substep, return the list of the solved unknowns.
+    """Make one step and return the list of the solved unknowns for each substep.
 
     The function raises the exceptions of ``integrator.run``.
     """

@@ -1,8 +1,8 @@
 """Prints terms (:mod:`codegen.run.terms`) in Python.
 
-In double precision, a real constant is printed as a literal. In single precision, a name such as ``C1`` is
-printed. The name refers to a float32 number of NumPy. A literal would be a Python float. Before NumPy 2, the
-product of a float32 number and a Python float is a double.
+In double precision, a real constant is printed as a literal. In single precision, the name of a float32
+number of NumPy is printed. Before NumPy 2, the product of a float32 number and a literal (a Python float) is
+a double.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from codegen.run.terms import Kind, Term
 class Constants:
     """The real constants of a module.
 
-    In single precision, ``digits`` maps the name of each constant to the text of its value. For example, it
-    maps ``C1`` to ``0.5``. In double precision, constants have no names, and ``digits`` is empty.
+    In single precision, ``digits`` maps the name of each constant to the text of its value. In double
+    precision, ``digits`` is empty.
     """
 
     def __init__(self, precision: Precision, taken: frozenset[str]) -> None:
@@ -36,8 +36,8 @@ class Constants:
     def text(self, x: float) -> str:
         """Return the text of a number.
 
-        In double precision the text is a literal. In single precision it is the name of a constant. If the
-        number is negative, a minus sign precedes the name.
+        In double precision the text is a literal. In single precision it is the name of a constant, after a
+        minus sign if the number is negative.
         """
         text = self.precision.text(x)
         # In double precision a literal is used, because Python reads it faster than a global name.
@@ -47,7 +47,7 @@ class Constants:
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)
-            # A constant must not have the name of a variable. For example, a parameter could be called C1.
+            # A constant must not have the name of a variable.
             while f"C{place}" in self.taken or f"C{place}" in self.digits:
                 place += 1
             self._names[size] = f"C{place}"
@@ -137,8 +137,7 @@ class Terms(Infix):
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
         """Return the text of the conditional expression ``yes if test else no``."""
-        # Before ``else``, a conditional expression needs parentheses. After ``else``, it needs none: Python
-        # reads ``a if s else b if t else c`` as ``a if s else (b if t else c)``.
+        # Python reads ``a if s else b if t else c`` as ``a if s else (b if t else c)``.
         first = joined(self.text(yes).within(OR))
         condition, last = self.text(test).within(OR), self.text(no).within(CHOICE)
         return Text((*first, *closed("if ", joined(condition), ""), *closed("else ", last, "")), CHOICE)

@@ -34,7 +34,7 @@ def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
 def packed(segments: Sequence[str], depth: int) -> list[str]:
     """Return indented lines that contain the segments, separated by spaces.
 
-    A line has at most :data:`WIDTH` characters. Only a line with a single long segment may be longer.
+    Only a line with a single segment may have more than :data:`WIDTH` characters.
     """
     space = "    " * depth
     lines = [f"{space}{segments[0]}"]

@@ -14,7 +14,7 @@ _WORDS = """
     SINGULAR TOO_SHORT StepFailed Statistics step run run_adaptive jacobian
 """
 
-# Builtins are reserved, too. For example, a parameter ``max`` would hide the builtin function ``max``.
+# Builtins are reserved, because a parameter ``max`` would hide the builtin function ``max``.
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split()) | frozenset(LIBRARY)
 """Keywords, and names that a module imports or defines."""
 
@@ -37,6 +37,5 @@ _INTEGRATION = """
 INTEGRATION = frozenset(_INTEGRATION.split())
 """Names that a module needs for its function ``integrate``.
 
-The function ``integrate`` integrates to a given end time. Modules without ``integrate`` do not reserve these
-names.
+Modules without ``integrate`` do not reserve these names.
 """
