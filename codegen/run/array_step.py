@@ -58,20 +58,17 @@ RECIPROCALS = "reciprocal"
 MOST_PARTS = 2**20
 """The largest number of equal factors into which a matrix exponential is split.
 
-The number of factors is doubled until the exponent of each factor has a norm of at most 1, or until the
-number is ``MOST_PARTS``."""
+The number of factors is doubled until the exponent of each factor has a norm of at most 1."""
 
 _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 
 
 def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
     """Return the functions of a step. Each function comes after the functions that it calls."""
-    # A ``Move`` multiplies a point by a matrix exponential. One emitted function can be called by several
-    # moves. For each function name, ``moves`` contains the first move that calls this function.
+    # Several moves can call the same function. For each function name, ``moves`` contains the first move.
     moves: dict[str, Move] = {}
     for move in (s for s in step.body if isinstance(s, Move)):
-        # The sizes of the arrays are constants in an emitted function. Therefore all moves that call the same
-        # function must have arrays of the same sizes.
+        # The sizes of the arrays are constants in an emitted function.
         assert _sizes(moves.setdefault(_name(move), move)) == _sizes(move)
     functions = [_Exponential(name, move, plan.format).function() for name, move in moves.items()]
     return (*functions, _advance(plan, step))
@@ -87,8 +84,7 @@ def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
 def _name(move: Move) -> str:
     """Return the name of the function that multiplies the matrix exponential of a move by a point.
 
-    The name contains the number of rows of the core. If the move has a matrix ``start``, the name also
-    contains the number of rows of ``start``. An example is ``exponential4_from2``.
+    The name contains the numbers of rows of the matrices ``core`` and ``start``.
     """
     start = 0 if move.start is None else move.start.rows
     return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
@@ -97,7 +93,7 @@ def _name(move: Move) -> str:
 def _sizes(move: Move) -> tuple[tuple[int, int] | None, ...]:
     """Return the numbers of rows and columns of the matrices of a move.
 
-    The order is ``core``, ``gram``, ``target``, ``start``. If ``start`` is None, the last entry is None.
+    The order is ``core``, ``gram``, ``target``, ``start``.
     """
     matrices = (move.core, move.gram, move.target, move.start)
     return tuple(None if x is None else (x.rows, x.columns) for x in matrices)
@@ -109,7 +105,7 @@ def _advance(plan: Plan, step: ArrayStep) -> Function:
     given_arrays = {step.argument.name: state}
     if step.error is not None:
         given_arrays[step.error.name] = plan.error
-    # The state and the error estimate are arrays of the caller. All other matrices are local arrays.
+    # The state and the error estimate are arrays of the caller.
     loops = ArrayLoops(given_arrays)
     result = loops.array(step.result)
     parameters = (state, *plan.moment(), *plan.parameters)
@@ -134,11 +130,7 @@ def _advance(plan: Plan, step: ArrayStep) -> Function:
 
 
 def _estimated(plan: Plan, step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
-    """Return a list with the statement that computes the error estimate.
-
-    If the step has no estimate, the list is empty. If the caller of the emitted function passes no array for
-    the estimate, the statement does nothing.
-    """
+    """Return a list with the statement that computes the error estimate, if the step has an estimate."""
     if step.error is None:
         return []
     body = [s for statement in step.estimate for s in loops.statements(statement)]
@@ -150,8 +142,7 @@ def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
     sizes: dict[str, int] = {}
     for statement in (*step.body, *step.estimate):
         target = statement.target
-        # A target may be a block of a larger array. The array that contains the target needs at least ``end``
-        # entries.
+        # A target may be a block of a larger array with at least ``end`` entries.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
     local = [name for name in sizes if name not in loops.arrays]
@@ -167,7 +158,7 @@ def _call(move: Move, loops: ArrayLoops) -> Call:
 
 @dataclass
 class _Exponential:
-    """Builds the function that multiplies a matrix exponential by a point. A point is an n x k matrix."""
+    """Builds the function that multiplies a matrix exponential by a point (an n x k matrix)."""
 
     name: str
     move: Move
@@ -178,12 +169,10 @@ class _Exponential:
 
         B is the basis of the step, S is the core, and G = B^T B is the Gram matrix
         (:mod:`codegen.ir.array_step`). Let the n x k matrix X_0 be the state at the beginning of the step.
-        The point X = X_0 + B D is stored as the matrix D, its displacement.
+        The point X = X_0 + B D is stored as its displacement D.
 
         The first k columns of B are X_0. Let C be the sum of D and the first k columns of the unit matrix.
         Then X = B C. The displacement of the product is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
-        If the norm of B S B^T exceeds 1, the exponential is split into equal factors. X is multiplied by
-        these factors one after another.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
@@ -192,7 +181,7 @@ class _Exponential:
         start = None if move.start is None else Matrix("start", move.start.rows, k)
         self.core, self.gram, self.target, self.start = core, gram, target, start
         # ``matrix`` is the product G S. ``total`` and ``term`` are the sum and the current term of the series
-        # for phi(G S) G C. ``next`` stores intermediate products.
+        # for phi(G S) G C.
         self.matrix = Matrix("matrix", m, m)
         self.total, self.term, self.next = (Matrix(n, m, k) for n in ("total", "term", "next"))
         given = [core, gram, *([start] if start is not None else []), target]
@@ -215,34 +204,32 @@ class _Exponential:
         square, norm, scale = real("square"), real("norm"), real("scale")
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
-        # The core is an m x m matrix. The first m rows and columns of the Gram matrix are multiplied by the
-        # core.
+        # Only the first m rows and columns of the Gram matrix are multiplied by the m x m core.
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
-        # Let M be ``matrix``. The trace of M^2 is the sum of M_ij M_ji over all i and j. The indices (i, j)
-        # and (j, i) give the same product. Therefore only the products with j < i are summed, and their sum
-        # is doubled. The sums of different rows do not depend on each other.
+        # The trace of M^2 is the sum of M_ij M_ji, where M is ``matrix``. Only the products with j < i are
+        # summed, and their sum is doubled.
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
-        # The loop sets ``square`` to -trace(M^2), where M is ``matrix``. The exponent B S B^T is skew, so
-        # ``square`` is the square of its Frobenius norm. The eigenvalues of a skew matrix form pairs with
-        # equal absolute values. Therefore the square of the spectral norm is at most half of ``square``.
+        # The loop sets ``square`` to -trace(M^2), the squared Frobenius norm of the skew matrix B S B^T. The
+        # eigenvalues of a skew matrix form conjugate pairs, so the squared spectral norm is at most half of
+        # ``square``.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
-        # Rounding may make ``square`` slightly negative. Then ``square - square`` is zero, and the norm is
-        # zero. If ``square`` is a NaN, ``square - square`` and the norm are NaNs.
+        # Rounding may make ``square`` slightly negative. Then ``square - square`` is zero, but it is NaN if
+        # ``square`` is NaN.
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))
-        # ``scale`` is 1/``parts``. Powers of 2 are exact, so ``scale`` has no rounding error.
+        # Powers of 2 are exact, so ``scale`` = 1/``parts`` has no rounding error.
         halved = (Assign(scale, 0.5 * scale), Assign(parts, 2 * parts))
         yield While(both(norm * scale > 1.0, parts < MOST_PARTS), halved)
         yield from self.terms(norm * scale)
         yield from self.begun()
         yield For(part, parts, tuple(self.advanced(scale)))
-        # If the norm is very large, even ``MOST_PARTS`` factors are too few, and the series is inaccurate.
-        # Therefore the result is filled with NaNs. The test of the new state finds these NaNs.
+        # If even ``MOST_PARTS`` factors are too few, the series is inaccurate. The test of the new state
+        # finds the NaNs.
         lost = For(
             _PLACE,
             whole(self.target.size),
@@ -251,14 +238,13 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that compute the number of terms in the series of phi(z) = (exp(z) - 1)/z.
+        """Yield the statements that count the terms of phi(z) = (exp(z) - 1)/z without the constant term 1.
 
-        The constant term 1 is not counted. ``size`` is the norm of the matrix z.
+        ``size`` is the norm of the matrix z.
         """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
-        # Let z be the exponent, ``theta`` its norm, and n the number ``terms``. The last included term of the
-        # series exp(z) - 1 = z + z^2/2! + ... is z^(n + 1)/(n + 1)!. The norm of the first omitted term is at
-        # most ``bound`` = theta^(n + 2)/(n + 2)!.
+        # Let z be the exponent, ``theta`` its norm, and n the number ``terms``. The first omitted term of the
+        # series exp(z) - 1 has a norm of at most ``bound`` = theta^(n + 2)/(n + 2)!.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))
@@ -270,11 +256,7 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that set the displacement to its initial value.
-
-        The initial value is ``self.start``, extended by rows of zeros. If ``self.start`` is None, the initial
-        value is the zero matrix.
-        """
+        """Yield the statements that set the displacement to ``self.start`` (extended by zeros) or to zero."""
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
         yield from self.loops.statements(Combination(self.target, terms))
@@ -286,17 +268,15 @@ class _Exponential:
         terms, order, factor = count("terms"), count("order"), real("ratio")
         first = self.gram.part(0, 0, m, k)
         entry = loops.entry(self.total, _ROW, _COLUMN)
-        # Let X = X_0 + B D be the current point, and let G be B^T B. Then B^T X is the sum of B^T X_0 and
-        # G D. The following statements compute the first m rows of B^T X in ``total``. The first k columns of
-        # B are X_0, so the first k columns of G are B^T X_0.
+        # The next statements compute the first m rows of B^T X = B^T X_0 + G D, where X = X_0 + B D and G =
+        # B^T B. The first k columns of B are X_0, so the first k columns of G are B^T X_0.
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
         moved_by = Multiplication(
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # The product G D is added to ``total``. If ``self.start`` is None, D is zero when ``part`` is 0.
-        # In this case the product is omitted.
+        # If ``self.start`` is None, D is zero when ``part`` is 0, and the product G D is omitted.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (
@@ -304,15 +284,14 @@ class _Exponential:
             Assign(total[_PLACE], total[_PLACE] + term[_PLACE]),
         )
         # Let S be the core, and let z be ``scale`` times G S. The loop adds the terms z^j/(j + 1)! B^T X for
-        # j = 1, 2, ... to ``total``. Term j is z/(j + 1) times term j - 1.
+        # j = 1, 2, ... to ``total``.
         series = (
             *loops.statements(Multiplication(self.next, self.matrix, self.term)),
             Assign(factor, scale * real(RECIPROCALS, MOST_TERMS + 1)[order]),
             For(_PLACE, whole(self.total.size), added),
         )
         yield For(order, terms, series)
-        # ``total`` is now the sum of the series. The product of ``scale``, the core and ``total`` is added to
-        # the displacement.
+        # The product of ``scale``, the core and the sum ``total`` is added to the displacement.
         yield from loops.statements(Multiplication(self.next, self.core, self.total))
         result = loops.array(self.target)
         moved = Assign(result[_PLACE], result[_PLACE] + scale * following[_PLACE])

@@ -3,15 +3,12 @@
 Every lane has its own state, parameters, inputs and status. All lanes have the same time and step size.
 In an array of the batch, component k of lane i has the index ``k * stride + i``.
 
-An explicit step is computed by one loop over many lanes. The loop has no branches, so compilers can use
-vector instructions. In the loop, sines, cosines and Stumpff functions are computed only for arguments near
-zero. For all other arguments the result is NaN. If the new state of a lane is not finite, the step function
-for one system (the scalar step) is called for this lane. In all other lanes, the loop has the same rounding
+An explicit step is computed by one loop over many lanes. In the loop, sines, cosines and Stumpff functions
+are NaN unless their arguments are near zero. If the new state of a lane is not finite, the step function for
+one system (the scalar step) is called for this lane. In all other lanes, the loop has the same rounding
 errors as the scalar step.
 
-Some steps cannot be computed by one loop without branches. An example is a step that solves equations. For
-these steps, the function ``run`` is called for each lane. The function :func:`obstacle` returns the reason
-why one loop is not possible.
+If one loop is not possible (:func:`obstacle`), the function ``run`` is called for each lane.
 """
 
 from __future__ import annotations
@@ -61,26 +58,19 @@ from codegen.run.trajectory import Rows
 from codegen.run.values import simple
 
 BATCH, LANES = "run_batch", "advance_lanes"
-"""The names of two emitted functions.
-
-``BATCH`` is the public function that runs a batch. ``LANES`` is the function that makes one step of many
-lanes."""
+"""The names of the public function that runs a batch, and of the function for one step of many lanes."""
 
 BLOCK = 128
 """The number of lanes in a block.
 
-For each block, all steps are made one after another. During these steps, the states of the block stay in the
-cache.
+During all steps, the states of a block stay in the cache.
 """
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
-"""The names of functions that can be computed without branches.
-
-The loop over lanes calls only these functions and the Stumpff functions."""
+"""The names of functions, besides the Stumpff functions, that can be computed without branches."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
-# In a loop over the lanes of a block, ``_LANE`` is the index of a lane in the block. ``_PLACE`` is the index
-# of this lane in the batch.
+# In a loop over the lanes of a block, ``_PLACE`` is the index of the lane ``_LANE`` in the batch.
 _LANE, _DONE, _ENDED = count("lane"), count("step"), count("ended", 1)
 _STATE, _PARAMETERS, _INPUTS = real("state", 0), real("parameters", 0), real("inputs", 0)
 _STOPPED, _FAILED, _ALONE, _HELD = "stopped", "failed", "alone", "held"
@@ -91,9 +81,9 @@ def _statuses() -> Term:
 
 
 def functions(plan: Plan) -> list[Function]:
-    """Return the functions of a batch. Each function comes after the functions that it calls.
+    """Return the functions of a batch, or an empty list if no batch was requested.
 
-    The list is empty if no batch was requested.
+    Each function comes after the functions that it calls.
     """
     if not plan.kernel.batch:
         return []
@@ -105,7 +95,7 @@ def functions(plan: Plan) -> list[Function]:
 def obstacle(plan: Plan) -> str:
     """Return '' if one loop can advance all lanes. Otherwise return the reason why this is not possible."""
     kernel = plan.kernel
-    # Equations are solved by iteration. Some lanes may need more iterations than others.
+    # Equations are solved by iteration.
     if kernel.loops:
         return "the lanes need different numbers of iterations to solve their equations"
     if kernel.deferred is not None or plan.parts or kernel.carried is not None:
@@ -164,7 +154,7 @@ def _entry(array: Term, row: int, place: Term) -> Term:
 
 
 def _advance_lanes(plan: Plan) -> Function:
-    """Return the function that makes one step of many lanes. The loop over lanes has no branches."""
+    """Return the function that makes one step of many lanes."""
     stopped, failed = real(_STOPPED, 0), real(_FAILED, 0)
     # The statements ``before`` have the same results in all lanes, so they are executed once before the loop.
     before, inside = _split(plan)
@@ -177,9 +167,8 @@ def _advance_lanes(plan: Plan) -> Function:
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
         ]
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # All values x of the new state must be finite. A NaN in a component that the kernel does not read would
-    # not appear in the new state, so these components of the old state are tested, too. The
-    # difference x - x is 0 if x is finite. Otherwise it is NaN.
+    # A NaN in a component that the kernel does not read would not appear in the new state, so these
+    # components of the old state are tested, too. The difference x - x is 0 only if x is finite.
     unread = [own(s) for s in plan.symbols if s not in read]
     check = real("check")
     passed = check.equals(number(0.0))
@@ -188,8 +177,7 @@ def _advance_lanes(plan: Plan) -> Function:
         *loaded,
         *inside,
         *ends,
-        # If a lane stopped in an earlier step, its entry of ``stopped`` is 1. Then ``check`` is 1 or NaN, and
-        # the lane keeps its state.
+        # If a lane stopped in an earlier step, ``check`` is 1 or NaN, and the lane keeps its state.
         Assign(check, paired([x - x for x in (*new, *unread)]) + stopped[_LANE]),
         *(
             # A selection between the new and the old value is used, because a branch would prevent vector
@@ -216,19 +204,14 @@ def _lane_parameters(plan: Plan, stopped: Term, failed: Term) -> tuple[Term, ...
 
 
 def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
-    """Return two lists of the statements of the kernel.
-
-    The first list contains the statements that depend only on the time and the step size. These statements
-    have the same results in all lanes. The second list contains all other statements.
-    """
+    """Return the statements that depend only on the time and the step size, and the other statements."""
     shared, before, inside = {TIME.text, STEP.text}, [], []
     for statement in plan.arrangement.statements:
         assert isinstance(statement, Simple)
         for single in simple(statement):
             if all(term.text in shared for term in reads(single) if term.own or term.text not in shared):
                 before.append(single)
-                # ``shared`` contains the names of values that are the same in all lanes. A value that is
-                # computed only from these values is also the same in all lanes.
+                # ``shared`` contains the names of values that are the same in all lanes.
                 shared |= {term.text for term in assigned(single)}
             else:
                 inside.append(single)
@@ -236,7 +219,7 @@ def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
 
 
 def _batch(plan: Plan, work: list[Statement]) -> Function:
-    """Return the public function of the batch. The statements ``work`` make the steps of all lanes."""
+    """Return the public function of the batch, where ``work`` makes the steps of all lanes."""
     statuses, ended = _statuses(), count("completed", 0)
     bad = count("bad")
     flag = Term("name", (), Kind.FLAG, bad.text)
@@ -249,8 +232,7 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
         If(flag, (Return(code(BAD_STEP)),)),
         *work,
         Assign(STATUS, code(OK)),
-        # The result is the status of the failed lane with the smallest index. The loop runs backwards, so the
-        # status of this lane is assigned last.
+        # The loop runs backwards, so the result is the status of the failed lane with the smallest index.
         For(
             _LANE,
             _TOTAL,
@@ -267,8 +249,7 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
 
 def _gathered(plan: Plan) -> list[Statement]:
     """Return the statements that copy the state and the inputs of one lane to contiguous arrays."""
-    # The scalar step reads the components of a state from adjacent places of an array. In a batch, the
-    # components of a lane are not adjacent, so they are copied.
+    # The scalar step reads the components of a state from adjacent places of an array.
     alone, held = real(_ALONE, plan.size), real(_HELD, len(plan.kernel.inputs))
     rows = [Assign(alone[k], _entry(_STATE, k, _PLACE)) for k in range(plan.size)]
     if plan.kernel.inputs:
@@ -301,7 +282,7 @@ def _one_by_one(plan: Plan) -> list[Statement]:
     arguments = (alone, *time, STEP, STEPS, *_values(plan), *signals, *none, _ENDED)
     body: list[Statement] = [
         Assign(_PLACE, _LANE),
-        # The arrays are declared inside the parallel loop. Therefore each iteration has its own arrays.
+        # Each iteration of the parallel loop has its own arrays.
         *_arrays(plan),
         # The function ``run`` stores the number of completed steps in an array with one entry.
         Array(_ENDED),
@@ -315,13 +296,12 @@ def _one_by_one(plan: Plan) -> list[Statement]:
 
 
 def _blocks(plan: Plan) -> list[Statement]:
-    """Return the loop over blocks of lanes. The body of the loop makes all steps of one block."""
+    """Return the loop over blocks of lanes."""
     stopped, failed = real(_STOPPED, BLOCK), real(_FAILED, BLOCK)
     statuses, ended = _statuses(), count("completed", 0)
     block = count("block")
     rest = _TOTAL - _FIRST
-    # The time of each step is computed from the initial time. A sum of step sizes would accumulate rounding
-    # errors.
+    # A sum of step sizes would accumulate rounding errors.
     later = exact_time(TIME, _DONE, STEP)
     shared = ((_PARAMETERS,) if plan.parameters else ()) + ((_INPUTS,) if plan.kernel.inputs else ())
     vector = (_FIRST, _NUMBER, STRIDE, _STATE, *plan.moment(later), *shared, stopped, failed)
@@ -341,8 +321,7 @@ def _blocks(plan: Plan) -> list[Statement]:
         # If the scalar step succeeds, the lane continues with the next step.
         If(STATUS.equals(code(OK)), tuple(_scattered(plan)), stop),
     )
-    # ``failed`` is 1 for the lanes that failed in this step, and for the lanes that stopped in an earlier
-    # step. A lane that has stopped does not call the scalar step.
+    # ``failed`` is also 1 for the lanes that stopped in an earlier step.
     running = both(failed[_LANE] > 0.0, stopped[_LANE].equals(number(0.0)))
     steps: tuple[Statement, ...] = (
         Call(LANES, vector),

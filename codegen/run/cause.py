@@ -1,13 +1,10 @@
-"""Find out why the result of a step is not finite. The cause is the step size or the state.
+"""Find out whether the step size or the state is the cause if the result of a step is not finite.
 
 After a failed step, the emitted function ``cause`` tries a step of size zero from the state before the failed
 step. If the step of size zero has a finite result, the failed step was too long, and the status is TOO_FAR.
-For example, an angle was so large that it had no correct digit, a formula had a pole, or a number overflowed.
-If the step of size zero also fails, the vector field is not finite at this state, and the status remains
-NOT_FINITE.
+Otherwise the vector field is not finite at this state, and the status remains NOT_FINITE.
 
-Steps with run-time inputs or a warm start do not call this function. If a step with a warm start fails, the
-continuation finds the cause (:mod:`codegen.run.continuation`).
+Steps with run-time inputs or a warm start do not call this function.
 """
 
 from __future__ import annotations
@@ -22,16 +19,16 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # If there is a warm start, the continuation finds the cause. A step of size zero reads run-time inputs
-    # only at its initial time. Therefore it cannot show that an input at a later time is the cause.
+    # If there is a warm start, the continuation finds the cause. A step of size zero cannot show that a
+    # run-time input at a later time is the cause.
     return plan.start is None and not plan.kernel.inputs
 
 
 def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
     """Return the emitted function that finds the cause of a failed step.
 
-    ``core`` is the name of the function that makes a step. The arguments of ``core`` are the state, the time,
-    the step size, and ``more``. If the step does not depend on the time, there is no argument for the time.
+    The arguments of the step function ``core`` are the state, the time, the step size, and ``more``. The time
+    is omitted if the step does not depend on the time.
     """
     state, same = plan.state(), plan.state("same")
     parameters = (state, *plan.moment(), *plan.parameters)
@@ -41,8 +38,7 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
         Array(same),
         Assign(same, state),
         *memory,
-        # If the step size is a constant, a compiler may generate a second copy of the step function. The
-        # product ``0 * h`` is not a constant and avoids this copy.
+        # If the step size were the constant 0, a compiler might generate a second copy of the step function.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )
@@ -57,8 +53,7 @@ def step_arguments(plan: Plan) -> tuple[Term, ...]:
     """Return the arguments that a step function has after the step size."""
     # The step of size zero is only a test, so the statistics of the caller do not count it.
     counted = tuple(absent(x) for x in plan.counted)
-    # A step of size zero needs no error estimate. If a step consists of substeps, its function has no
-    # argument for an estimate.
+    # If a step consists of substeps, its function has no argument for an error estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None and not plan.parts else ()
     return (*plan.parameters, *plan.remembering(plan.memories), *counted, *error)
 
@@ -66,9 +61,8 @@ def step_arguments(plan: Plan) -> tuple[Term, ...]:
 def searched(plan: Plan, state: Term, t: Term = TIME, h: Term = STEP) -> list[Statement]:
     """Return a list with the statement that calls the function ``cause`` if the status is NOT_FINITE.
 
-    The result of the call is the new status: TOO_FAR or NOT_FINITE. If the emitted code has no function
-    ``cause``, the list is empty. The failed step has the size ``h`` and begins at the time ``t`` and at
-    ``state``.
+    If the emitted code has no function ``cause``, the list is empty. The failed step has the size ``h`` and
+    begins at the time ``t`` and at ``state``.
     """
     if not is_searched(plan):
         return []

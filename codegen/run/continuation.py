@@ -1,13 +1,8 @@
 """Continuation in h: find the solution of a step from the solutions of shorter steps.
 
-The continuation is used if a step fails, for example because its equations cannot be solved. The first
-attempt repeats the step without the solutions of earlier steps. After a change of the motion, these solutions
-are bad initial guesses. If the first attempt fails, the step is halved until an attempt succeeds. Each
-solution is then the initial guess for a longer step. The ratio of two consecutive step sizes is increased
-after a success and reduced after a failure.
-
-The equations of a long step may have several solutions. The continuation finds the solution that changes
-continuously as h grows from 0.
+The first attempt repeats a failed step without the solutions of earlier steps. If the first attempt fails,
+the step is halved until an attempt succeeds. Each solution is then the initial guess for a longer step.
+The continuation finds the solution that changes continuously as h grows from 0.
 """
 
 from __future__ import annotations
@@ -54,11 +49,10 @@ def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statem
 
     If steps have no warm start, the list is empty.
     """
-    # The continuation needs the solutions of shorter steps. Steps without a warm start store no solutions.
+    # Steps without a warm start store no solutions.
     if plan.start is None:
         return []
-    # If an iteration does not converge, overflows, or finds a singular matrix, a shorter step may succeed. If
-    # the step size is infinite or a NaN (status BAD_STEP), the step is not repeated.
+    # If the step size is infinite or a NaN (status BAD_STEP), a shorter step cannot succeed.
     failed = both(STATUS.differs(code(OK)), STATUS.differs(code(BAD_STEP)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
@@ -77,8 +71,8 @@ class _Continuation:
     The class attributes are variables of the emitted function.
     """
 
-    # The current attempt has the step size ``part`` times h. ``solved`` is the largest fraction of h that
-    # succeeded. After the first success, the next fraction is ``factor`` times ``solved``.
+    # The step size of an attempt is ``part`` times h, and ``solved`` is the largest fraction that succeeded.
+    # After the first success, the next fraction is ``factor`` times ``solved``.
     solved, part, factor = real("solved"), real("part"), real("factor")
     tries, done = count("tries"), flag("done")
 
@@ -86,7 +80,7 @@ class _Continuation:
         assert plan.start is not None
         self.plan, self.core, self.n = plan, core, len(plan.start.unknowns)
         self.guess, self.trial = real("known_solution", self.n), plan.state("trial")
-        # Every attempt overwrites STATUS. The status of the last failed attempt is stored in ``failure``.
+        # Every attempt overwrites STATUS, so ``failure`` stores the status of the last failed attempt.
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
@@ -96,9 +90,9 @@ class _Continuation:
         # The continuation stores its solution in ``memory``, because this solution is the initial guess of
         # the next step.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
-        # A step of size zero leaves the state unchanged. The step succeeds if the state is finite.
+        # A step of size zero leaves the state unchanged.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # If ``factor`` is near 1, the fraction of h hardly grows. The loop then ends without success.
+        # If ``factor`` is near 1, the fraction of h hardly grows.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -119,8 +113,8 @@ class _Continuation:
             If(negated(self.done), (Return(self.cause()),)),
             # The state is changed only here, after an attempt with the full step size h has succeeded.
             Assign(state, self.trial),
-            # The stored solutions belong to steps of different lengths. A polynomial through these solutions
-            # would be a bad initial guess. With ``known`` = 1, the next step uses only the last solution.
+            # A polynomial through solutions of steps of different lengths would be a bad initial guess. With
+            # ``known`` = 1, the next step uses only the last solution.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
@@ -135,13 +129,11 @@ class _Continuation:
         return Function(CONTINUED, about, parameters, body, Kind.STATUS)
 
     def cause(self) -> Term:
-        """Return the status of a step that cannot be computed.
+        """Return the status of the last failed attempt.
 
-        The result is the status of the last failed attempt. If a shorter step succeeded and there are no
-        run-time inputs, NOT_FINITE is replaced by TOO_FAR.
+        If a shorter step succeeded and there are no run-time inputs, NOT_FINITE is replaced by TOO_FAR.
         """
-        # A shorter step reads the run-time inputs at other times. Even if a shorter step succeeds, the cause
-        # may be an input and not the step size.
+        # Even if a shorter step succeeds, the cause may be a run-time input at another time.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
@@ -154,8 +146,8 @@ class _Continuation:
         """
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # If ``known`` is 1, the stopping rule reads rates of convergence from the memory. No rates are known
-        # for the step size of this attempt, so each rate gets the default value 1.
+        # No rates of convergence are known for the step size of this attempt, so each rate gets the default
+        # value 1.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -163,8 +155,7 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # The argument for the error estimate is absent. Only step-size control needs the estimate, and runs
-        # with step-size control do not use the continuation.
+        # Only step-size control needs the error estimate, and such runs do not use the continuation.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state and time.
@@ -176,17 +167,14 @@ class _Continuation:
         ]
 
     def adapted(self) -> list[Statement]:
-        """Return the statements that follow an attempt.
-
-        If the full step has succeeded, the loop of attempts ends. Otherwise the next fraction of h is chosen.
-        """
+        """Return the statements that end the loop of attempts or choose the next fraction of h."""
         plan, factor, part, solved = self.plan, self.factor, self.part, self.solved
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         # A successful attempt has stored its solution in row ``place`` of the memory.
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # A success squares ``factor``. A failure replaces ``factor`` by its square root. Before the first
-        # success, a failure leaves ``factor`` unchanged.
+        # A success squares ``factor``. After the first success, a failure replaces ``factor`` by its square
+        # root.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),
@@ -194,10 +182,9 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # Before the first success, ``solved`` is 0, and each failure halves ``part``. After the first
-            # success, ``part`` is ``factor`` times ``solved``.
+            # Before the first success, ``solved`` is 0, and each failure halves ``part``.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
-            # The fraction ``part`` must not exceed 1. The fraction 1 is the full step.
+            # The fraction 1 is the full step.
             Assign(part, select(part < 1.0, part, 1.0)),
         )
         return [

@@ -6,10 +6,7 @@ result (:class:`codegen.ir.kernel.Deferred`).
 
 A state is complete only after the deferred flows have been applied. The run applies the deferred flows before
 it writes a state to the trajectory, after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps.
-Only complete states are tested for infinities and NaNs. A non-finite state remains non-finite in later steps,
-so the next test finds it.
-If a complete state is not finite, the run is repeated from the beginning, and no flow is deferred. The
-repeated run finds the last finite state.
+If a complete state is not finite, the run is repeated from the beginning, and no flow is deferred.
 """
 
 from __future__ import annotations
@@ -60,8 +57,7 @@ from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
 """The names of three emitted functions.
 
-- BEGIN applies the first flow of a step. If the last flow of the previous step includes this flow, BEGIN is
-  not called.
+- BEGIN applies the first flow of a step, unless the previous step includes this flow.
 - FINISH applies the flows that commute with all other flows of the method.
 - COMPLETE applies all flows of one step.
 """
@@ -102,7 +98,7 @@ def _plan(plan: Plan, kernel: Kernel) -> Plan:
 
 
 def _core(plan: Plan, name: str, about: str) -> Function:
-    """Return a function that applies the kernel of ``plan`` to the state. The new state is not tested."""
+    """Return a function that applies the kernel of ``plan`` to the state."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
     # The callers test the state after all deferred flows have been applied. Until then, a non-finite state
@@ -112,7 +108,7 @@ def _core(plan: Plan, name: str, about: str) -> Function:
 
 
 def _scalars(plan: Plan) -> Sequence[str]:
-    # Among the scalar arguments, t and h come first. The durations LEAD and ELAPSED come last.
+    # The scalar arguments t and h come first, and the durations LEAD and ELAPSED come last.
     return ("t", "h", *(s for s in plan.kernel.scalars if s not in ("t", "h", LEAD, ELAPSED)), LEAD, ELAPSED)
 
 
@@ -132,8 +128,7 @@ class _Deferring:
     # of this step.
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
     # ``shown`` is True if the new state is written to the trajectory. ``careful`` is True if every step
-    # applies all flows. ``good`` is True if the last complete state is finite. ``again`` is True if the run
-    # must be repeated.
+    # applies all flows. ``good`` is True if the last complete state is finite.
     shown, careful, good, again = flag("shown"), flag("careful"), flag("good"), flag("again")
     # ``asked`` is the number of steps that the current attempt shall make.
     asked = count("asked")
@@ -141,20 +136,19 @@ class _Deferring:
     def __init__(self, plan: Plan, deferred: Deferred) -> None:
         self.plan, self.deferred = plan, deferred
         self.moving, self.complete = plan.state("next"), plan.state("complete")
-        # The exact durations are rounded once, directly to the precision of the module. In single
-        # precision, a conversion through doubles would cause a second rounding error.
+        # In single precision, a conversion of the durations through doubles would cause a second rounding
+        # error.
         rounded = plan.format.round
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
     def call(self, name: str, kernel: Kernel | None, t: Term, elapsed: Term) -> list[Statement]:
-        """Return a list with the call of the function ``name``. If ``kernel`` is None, return an empty list.
+        """Return a list with the call of the function ``name``, or an empty list if ``kernel`` is None.
 
-        The function applies ``kernel`` at the time ``t``. Deferred flows have the duration ``elapsed``.
+        The function applies ``kernel``. Deferred flows have the duration ``elapsed``.
         """
         if kernel is None:
             return []
-        # ``known`` contains the arguments for the parameters t, LEAD and ELAPSED. For every other
-        # parameter, the argument is the variable with the same name.
+        # ``known`` contains the arguments for the parameters t, LEAD and ELAPSED.
         known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
         plan = _plan(self.plan, kernel)
         passed = tuple(known.get(x.text, x) for x in _read(plan))
@@ -211,13 +205,11 @@ class _Deferring:
             Array(self.complete),
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
-            # There are at most three attempts. The first attempt defers flows. If the first attempt fails,
-            # the second attempt applies all flows in every step and finds the failing step. The third attempt
-            # ends before the failing step.
+            # If the first attempt fails, the second attempt defers no flows and finds the failing step. The
+            # third attempt ends before the failing step.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
-            # If a step failed, ``asked`` is the number of successful steps. The failed step begins at the
-            # time ``t`` + ``asked`` * ``h``.
+            # The failed step begins at the time ``t`` + ``asked`` * ``h``.
             *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
             *completed(),
             Return(STATUS),
@@ -229,12 +221,11 @@ class _Deferring:
         state = self.plan.state()
         failed = (
             # If ``careful`` is True, this attempt has tested the state after every step. Therefore DONE is
-            # the number of successful steps. The next attempt makes only DONE steps and does not fail.
+            # the number of successful steps.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
-        # At the beginning of an attempt, no flow has been applied. If there is no function BEGIN, the
-        # emitted code does not use ``begun``.
+        # If there is no function BEGIN, the emitted code does not use ``begun``.
         begun = [Assign(self.begun, truth(False))] if self.deferred.begin is not None else []
         return (
             Assign(DONE, whole(0)),
@@ -242,7 +233,7 @@ class _Deferring:
             *begun,
             *Rows(self.plan).begin(state),
             Assign(self.moving, state),
-            # ``complete`` is the last state that was complete and finite. At first it is the initial state.
+            # ``complete`` is the last state that was complete and finite.
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
@@ -257,21 +248,20 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # When the emitted code evaluates ``elapsed``, LATE includes the current step. The product LATE * h
-        # has one rounding error. Repeated additions of h would have one rounding error for each step.
+        # When the emitted code evaluates ``elapsed``, LATE includes the current step. Repeated additions of h
+        # would have one rounding error for each step.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # After LONGEST steps, the deferred flows are always applied. Without this limit, the angle of a
-            # deferred rotation could be very large, and its sine and cosine would have few correct digits.
+            # Without the limit LONGEST, the sine and cosine of a large deferred angle would have few correct
+            # digits.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
                 # If ``stop`` is False, the last flow of this step includes the first flow of the next step.
-                # Therefore the last flow has another duration.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

@@ -1,8 +1,7 @@
 """Emitted functions of a continuous extension (dense output) of a step.
 
-The function EXTEND computes the coefficients of the extension. A call of EXTEND costs about as much as a
-step. The function EXTENDED computes a state inside the step. For this, EXTENDED evaluates a polynomial with
-values in the Lie algebra, and one exponential.
+The function EXTEND computes the coefficients of the extension. The function EXTENDED evaluates a polynomial
+with values in the Lie algebra, and one exponential.
 """
 
 from __future__ import annotations
@@ -32,8 +31,7 @@ class DenseOutput:
         self.own = Plan(extension.coefficients, plan.format)
         self.mover = Plan(extension.moved, plan.format)
         # The kernel ``extension.moved`` applies exp(x) to a state, where x is an element of the Lie algebra.
-        # The inputs of this kernel are the state and the coordinates of x. ``width`` is the number of these
-        # coordinates.
+        # ``width`` is the number of coordinates of x.
         self.width = self.mover.size - plan.size
         # The extension is a polynomial in theta with one coefficient for each power from 1 to ``degree``.
         self.powers = real("powers", extension.degree * self.width)
@@ -67,14 +65,12 @@ class DenseOutput:
         """Return the emitted function that computes the state at a fraction theta of a step."""
         plan, state, m = self.plan, self.plan.state(), self.width
         pair, i, total = real("pair", self.mover.size), count("i"), real("total")
-        # The array ``powers`` contains the coefficients of theta, theta^2, and so on. Each coefficient has m
-        # coordinates. Coordinate i of the coefficient of theta^(p + 1) has the index i + p * m.
+        # In ``powers``, coordinate i of the coefficient of theta^(p + 1) has the index i + p * m.
         entries = [self.powers[i + p * m] for p in range(self.extension.degree)]
-        # At theta = 0 all coordinates are zero, so their polynomials in theta have no constant term. Horner's
-        # rule computes a polynomial divided by theta. The result is then multiplied by theta.
+        # The polynomials in theta have no constant term. Horner's rule computes a polynomial divided by
+        # theta.
         horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
-        # The array ``pair`` is the argument of MOVED. ``pair`` contains the argument ``state`` and the
-        # coordinates at theta.
+        # The array ``pair`` contains the state and the coordinates at theta.
         body = (
             Array(pair),
             Assign(pair.part(0, plan.size), state),
