@@ -1,7 +1,7 @@
 """Execution of emitted programs in Python, with many kinds of numbers (:mod:`codegen.ir.domain`).
 
-The programs consist of the statements in :mod:`codegen.run.language`. The numbers are, for example, floats or
-exact numbers. The statements compare numbers, so the numbers must have an order.
+The programs consist of the statements in :mod:`codegen.run.language`. The statements compare numbers, so the
+numbers must have an order.
 
 >>> from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
@@ -50,10 +50,10 @@ from codegen.run.writes import written
 Environment = dict[str, Any]
 Value = Callable[[Environment], Any]
 Action = Callable[[Environment], bool]
-"""An action executes a statement. The action returns True if the statement ended the function."""
+"""An action executes a statement and returns True if the statement ended the function."""
 
 RESULT = "result of the function"
-"""The key of the result in an environment. The key contains spaces, so it differs from every identifier."""
+"""The key of the result in an environment, different from every identifier."""
 
 _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -76,9 +76,8 @@ class Machine:
 
     - Arrays are lists, and arrays of rows are lists of lists.
     - If a function returns a value through an argument, this argument is a list of one entry.
-    - The method :meth:`record` creates the records.
     - The value of an absent argument is None.
-    - Run-time inputs are passed as a function of time. This function returns the values of all inputs.
+    - Run-time inputs are passed as a function of time, which returns the values of all inputs.
     """
 
     def __init__(self, unit: Unit, domain: Domain) -> None:
@@ -118,7 +117,7 @@ class Machine:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
             return self.record(record)
-        # Only real numbers belong to the domain. A count or a flag is a Python integer.
+        # Counts and flags are Python integers, not numbers of the domain.
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
@@ -141,8 +140,7 @@ class Machine:
         If the function returns a status, the result is NOT_FINITE. Otherwise the result is NaN, and all
         output arrays are filled with NaNs.
         """
-        # In IEEE arithmetic, a division by zero gives an infinity or a NaN. In Python, the division raises an
-        # exception.
+        # A division by zero raises an exception in Python, but gives an infinity or a NaN in IEEE arithmetic.
         if function.guard == RAISES_STATUS:
             return STATUSES.index(NOT_FINITE)
         changed = written(self.unit, function)
@@ -414,7 +412,7 @@ class _Compiler:
                 return lambda env: domain.call("sqrt", first(env))
             case "copysign":
                 second = args[1]
-                # Exact numbers have no negative zero. Therefore a zero counts as positive.
+                # Exact numbers have no negative zero, so a zero counts as positive.
                 return lambda env: abs(first(env)) if second(env) >= 0 else -abs(first(env))
             case _:
                 assert name == "power"
@@ -454,7 +452,7 @@ def _power(x: Any, exponent: Any) -> Any:
 
 
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
-    """Return a Python version of the library function ``function``. Return None for all other functions."""
+    """Return a Python version of the library function ``function``, or None for all other functions."""
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
@@ -470,7 +468,7 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 
 
 def _inverted(n: int, matrix: list[Any]) -> int:
-    """Replace a matrix (a flat list) by its inverse and return 1. Return 0 if the matrix is singular."""
+    """Replace a matrix (a flat list) by its inverse and return 1, or return 0 if the matrix is singular."""
     import numpy
 
     # For doubles, the result equals that of the emitted code, because the operations have the same order.

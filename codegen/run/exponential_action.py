@@ -27,21 +27,20 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
     # If the norm is at most ``bounds[k]``, a Taylor polynomial of degree ``sizes[k]`` is accurate enough. The
-    # emitted code chooses the lowest sufficient degree by nested conditional expressions. The outermost
-    # expression tests the lowest degree, so the loop constructs this expression at the end.
+    # outermost conditional expression tests the lowest degree, so the loop constructs this expression last.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
     # Let b be the scaled matrix, m the degree, and v the vector ``result``. The Taylor polynomial of exp(b) v
-    # is v + b p/m!, where p is the sum of (m!/j!) b^(j - 1) v over j = 1, ..., m. Horner's rule computes p.
-    # The coefficients m!/j! are exact. Rounding errors of coefficients 1/j! would accumulate over many steps.
+    # is v + b p/m!, where p is the sum of (m!/j!) b^(j - 1) v over j = 1, ..., m. The integers m!/j! are
+    # exact, but rounding errors of 1/j! would accumulate over many steps.
     horner = (
         Assign(weight, weight * factor),
         Assign(factor, factor - 1.0),
         *_product(function, b, p, work),
         For(_ROW, whole(n), (Assign(p[_ROW], work[_ROW] + weight * result[_ROW]),)),
     )
-    # At the end of Horner's rule, ``weight`` is m!. Therefore p is divided by ``weight``.
+    # At the end of Horner's rule, ``weight`` is m!.
     part = (
         Assign(p, result),
         Assign(weight, number(1.0)),
@@ -64,8 +63,7 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         Assign(scale, number(1.0)),
         Assign(parts, whole(1)),
         While(
-            # Each halving of the matrix doubles the computing time, so at most HALVINGS halvings are made. If
-            # more halvings are needed, all entries of the result are NaN.
+            # Each halving of the matrix doubles the computing time, so at most HALVINGS halvings are made.
             both(norm * scale > bounds[-1], parts < 2**HALVINGS),
             (Assign(scale, number(0.5) * scale), Assign(parts, parts * 2)),
         ),
@@ -89,8 +87,8 @@ def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
     """Return the statements that compute ``norm``, the largest sum of absolute values in a row of ``a``."""
     row = real("row_sum")
     larger = Assign(norm, select(row > norm, row, norm))
-    # For a large matrix, two nested loops compute the row sums. For a small matrix, the emitted code contains
-    # one sum for each row, without the entries that are always zero.
+    # For a small matrix, the emitted code contains one sum for each row, without the entries that are always
+    # zero.
     if function.n > SPARSE:
         added = Assign(row, row + size(a[function.n * _ROW + _COLUMN]))
         inner = (Assign(row, number(0.0)), For(_COLUMN, whole(function.n), (added,)), larger)

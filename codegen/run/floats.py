@@ -1,8 +1,6 @@
 """Arithmetic in doubles with the same roundings as in emitted code.
 
-Trial steps (:mod:`codegen.run.trial`) are executed in this arithmetic. The function
-:func:`codegen.ir.domain.stumpff` has other rounding errors. Other rounding errors could change the number of
-iterations in an implicit step.
+In a trial step (:mod:`codegen.run.trial`), other rounding errors could change the number of iterations.
 """
 
 from __future__ import annotations
@@ -31,7 +29,7 @@ class EmittedFloats(FloatDomain):
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
         """Return the Stumpff functions c_k(z) for the indices k in ``orders``."""
-        # The thresholds are those of the emitted functions. Therefore the rounding errors are the same.
+        # The thresholds are those of the emitted functions, so the rounding errors are the same.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -40,16 +38,14 @@ class EmittedFloats(FloatDomain):
 
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
         # For z <= SWITCH[k], c_k is computed by its Taylor polynomial. If several functions are requested,
-        # the threshold is SWITCH[0]. The larger threshold SWITCH[3] is tested below.
+        # the threshold is SWITCH[0].
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
-        # For z above ``self.limit``, c_k would have too few correct digits. The result is NaN, so the step
-        # fails.
+        # For z above ``self.limit``, c_k would have too few correct digits, so the result is NaN.
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
-        # Let s = sqrt(z). For small s, the formula c_2 = (1 - cos(s))/s^2 loses digits. Therefore the
-        # formula c_2 = sin(s/2)^2/(2 (s/2)^2) is used.
+        # For small s = sqrt(z), the formula c_2 = (1 - cos(s))/s^2 would lose digits.
         half = 0.5 * math.sqrt(allowed)
         sine, cosine = math.sin(half), math.cos(half)
         ratio = sine / half
@@ -109,16 +105,12 @@ class EmittedFloats(FloatDomain):
 
 
 def _hyperbolic(k: int, z: float) -> float:
-    """Return the Stumpff function c_k(z) for z < 0, computed by hyperbolic functions.
-
-    For k = 3 and z >= -SWITCH[3], the Taylor polynomial is used instead.
-    """
+    """Return the Stumpff function c_k(z) for z < 0."""
     r = math.sqrt(-z)
     if k == 0:
         return math.cosh(r)
     if k == 2:
-        # For small r, the formula c_2 = (cosh(r) - 1)/r^2 loses digits. Therefore the
-        # formula c_2 = sinh(r/2)^2/(2 (r/2)^2) is used.
+        # For small r, the formula c_2 = (cosh(r) - 1)/r^2 would lose digits.
         half = 0.5 * r
         ratio = math.sinh(half) / half
         return 0.5 * (ratio * ratio)
@@ -137,11 +129,10 @@ def _terms(k: int, name: str) -> tuple[float, ...]:
 
 
 def _short(k: int, z: float, name: str) -> float:
-    """Return the Stumpff function c_k(z) for small z. ``name`` is the polynomial: "tiny" or "small"."""
+    """Return the Stumpff function c_k(z) for small z, from the polynomial ``name``: "tiny" or "small"."""
     terms, w = _terms(k, name), z * z
     total, factor = 0.0, 1.0
-    # The order of the additions determines the roundings. Therefore the order is that of the emitted code
-    # (template ``stumpff_small``).
+    # The additions have the order of the emitted code (template ``stumpff_small``), so the roundings agree.
     for place in range(0, len(terms), 2):
         pair = terms[place] + z * terms[place + 1] if place + 1 < len(terms) else terms[place]
         total = pair if place == 0 else total + factor * pair
@@ -150,11 +141,7 @@ def _short(k: int, z: float, name: str) -> float:
 
 
 def _series(k: int, z: float) -> float:
-    """Return the Taylor polynomial of the Stumpff function c_k at z.
-
-    One sum contains the odd powers of z, another sum the even powers from z^2 on. The constant term is added
-    last.
-    """
+    """Return the Taylor polynomial of the Stumpff function c_k at z."""
     first, *rest = _terms(k, "series")
     w = z * z
     even, odd = _chain(rest[::2], w), _chain(rest[1::2], w)

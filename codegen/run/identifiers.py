@@ -1,8 +1,8 @@
 """Identifiers in a target language: legal and unique names for the symbols of a kernel.
 
 A kernel is the arithmetic of a step. The code around a kernel uses only names that are legal in every target
-language. The names in a kernel may be illegal. Therefore each name in a kernel is replaced by a legal
-identifier that differs from all other names in the emitted function.
+language. Each name in a kernel is replaced by a legal identifier that differs from all other names in the
+emitted function.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Identifiers:
 
     def of(self, name: Term) -> str:
         """Return the identifier of ``name``. A name that is not from the kernel is returned unchanged."""
-        # A name of the kernel may be illegal in the target language. Therefore a missing identifier raises a
+        # A name of the kernel may be illegal in the target language, so a missing identifier raises a
         # KeyError.
         return self.by_name[name.text] if name.own else name.text
 
@@ -42,7 +42,7 @@ def plain_names(function: Function) -> frozenset[str]:
 
 
 def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
-    """Return the identifiers for each function of the unit. The keys are the names of the functions.
+    """Return the identifiers for each function of the unit, by the name of the function.
 
     No identifier is a ``reserved`` word.
     """
@@ -59,7 +59,7 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
     # them.
     own.add_all(scalars)
     entries: dict[str, str] = {}
-    # Statements are visited in the order of the code. Therefore equal functions get equal identifiers.
+    # Statements are visited in the order of the code, so equal functions get equal identifiers.
     for statement in statements(function.body):
         if isinstance(statement, Array) and statement.name.own:
             name = statement.name.text
@@ -72,6 +72,6 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
         for text in (t.text for t in names(direct(statement)) if t.own):
             if text not in entries and text not in own.identifiers:
                 # In an outlined function, the name of an input begins with the name of the function and a
-                # dot. The identifier does not need this prefix.
+                # dot.
                 own.identifiers[text] = own.fresh(text.removeprefix(f"{function.name}."))
     return own.identifiers | entries

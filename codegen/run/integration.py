@@ -1,9 +1,8 @@
 """A run to a given end time, with output at given times, with events, and with a largest number of steps.
 
-Step control chooses the step sizes between two bounds, but the last step may be shorter. Without step
-control, all steps except the last have the same size. A run ends early if the largest number of steps is
-reached, if an event ends the run, or if a step fails. The caller receives the last accepted state and its
-time, and can continue the run from there. A run with step control also returns the size of the next step.
+Step control chooses the step sizes between two bounds, but the last step may be shorter. A run ends early if
+the largest number of steps is reached, if an event ends the run, or if a step fails. The caller receives the
+last accepted state and its time.
 """
 
 from __future__ import annotations
@@ -52,13 +51,13 @@ LEAST, GREATEST = real("least"), real("greatest")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of the run. The public function comes last, after the functions that it calls.
+    """Return the functions of the run, the public function last.
 
     The tuple is empty if no run to an end time was requested.
     """
     if plan.kernel.observed is None:
         return ()
-    # Step control needs an error estimate. Without an estimate, the steps have constant size.
+    # Step control needs an error estimate.
     own = _Constant(plan) if plan.kernel.estimate is None else _Adaptive(plan)
     return *own.observation.functions(), own.integrate()
 
@@ -67,8 +66,7 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
     """Return the statement that sets the status BAD_EVENT if the buffer for events is too short."""
     if not observation.events:
         return ()
-    # All event functions may have an event at the same time. Therefore the buffer needs one entry for each
-    # event function.
+    # The buffer needs one entry for each event function, because all may have an event at the same time.
     full = both(STATUS.equals(code(OK)), observation.room < observation.events)
     return (If(full, (Assign(STATUS, code(BAD_EVENT)),)),)
 
@@ -76,7 +74,7 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
 class _Constant:
     """Builds the run with steps of constant size. The attributes are variables of the emitted function."""
 
-    # The caller stores the initial time in the argument ``t``. The run overwrites it with the reached time.
+    # The run overwrites the initial time in the argument ``t`` with the reached time.
     t, h, completed = real("t", 1, cell=True), real("h"), count("completed", 1, optional=True, cell=True)
     now, end, limit = real("now"), real("end"), count("limit")
     start, length, following, left = real("begin"), real("size"), real("then"), real("left")
@@ -95,8 +93,7 @@ class _Constant:
         chosen = (self.t, self.end, self.h, self.limit, *plan.parameters, *plan.sampled())
         parameters = (state, *chosen, *observation.outputs, *observation.buffers)
         parameters += (*plan.counted, self.completed)
-        # The run continues until ``now`` equals ``end``. No tolerance is needed, because the last step ends
-        # exactly at ``end``.
+        # The test needs no tolerance, because the last step ends exactly at ``end``.
         moving = either(self.now < self.end, self.now > self.end)
         # The sign of h is ignored: the end time determines the direction of the run.
         numbers = both(*(is_finite(x) for x in (self.now, self.end, self.length)), self.length > 0.0)
@@ -133,8 +130,7 @@ class _Constant:
         signed = call("copysign", self.length, self.left)
         near = size(self.left) <= (1.0 + NEARLY) * self.length
         following = exact_time(self.start, self.done + 1, self.taken)
-        # A very small step may not change the time, because the new time is rounded. The run would then never
-        # end.
+        # If a very small step did not change the rounded time, the run would never end.
         stuck = negated(either(self.following > self.now, self.following < self.now))
         # The run ends early if the step is too short to change the time, or if the largest number of steps is
         # reached.
@@ -161,11 +157,10 @@ class _Constant:
     def moved(self) -> list[Statement]:
         """Return the statements that compute the state after the step."""
         plan, trial = self.plan, self.trial
-        # A copy of the state is advanced. The search for events needs the state before the step.
+        # A copy of the state is advanced, because the search for events needs the state before the step.
         copied: list[Statement] = [Assign(trial, plan.state())]
         if self.own_step:
-            # The step receives the arguments of the caller. But ``t`` and ``h`` are replaced by the time and
-            # the size of the current step.
+            # In the arguments of the step, ``t`` and ``h`` are the time and the size of the current step.
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
             return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
@@ -185,8 +180,7 @@ class _Constant:
         """Return the statements that accept a step."""
         return (
             Assign(self.plan.state(), self.trial),
-            # If an event ends the run, ``stop`` is the time of the event. Otherwise ``stop`` is the time at
-            # the end of the step.
+            # ``stop`` is the time of the event that ends the run, or else the time at the end of the step.
             Assign(self.now, self.stop[0]),
             Assign(self.done, self.done + 1),
         )
@@ -212,7 +206,7 @@ class _Adaptive(Controlled):
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements that are executed before the first step."""
         observation, state = self.observation, self.plan.state()
-        # LEAST may be zero. The step size then has no lower bound.
+        # If LEAST is zero, the step size has no lower bound.
         ordered = both(LEAST >= 0.0, GREATEST >= LEAST, GREATEST > 0.0)
         # If both tolerances were zero, every step would be rejected.
         positive = either(RTOL > 0.0, ATOL > 0.0)
@@ -238,15 +232,13 @@ class _Adaptive(Controlled):
         observed = self.observation.observe(
             self.plan.state(), self.trial, self.now, self.following, self.stop
         )
-        # If an event ends the run, ``stop`` is the time of the event. Otherwise ``stop`` is the time at the
-        # end of the step.
+        # ``stop`` is the time of the event that ends the run, or else the time at the end of the step.
         accepted = (Assign(self.following, self.stop[0]), *super().accept(), *self.limited())
         return (observed, If(self.observation.sound, accepted))
 
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed if a step is rejected."""
-        # The run ends if a step of size LEAST is rejected. The last step of a run may be shorter than LEAST.
-        # If this step is rejected, the run ends, too.
+        # The run ends if a step of size LEAST or a shorter last step is rejected.
         short = both(LEAST > 0.0, size(self.taken) <= LEAST, STATUS.equals(code(OK)))
         return (
             *super().refuse(),

@@ -1,10 +1,8 @@
 """The derivative of a step with respect to the initial state, as a matrix.
 
-A tangent vector at the initial state is called a variation. The linearised step maps a variation to a tangent
-vector at the final state. For the unit vector k, this tangent vector is column k of the matrix. In an
-implicit step, the derivatives of the unknowns satisfy linear equations. These equations are solved by
-fixed-point iteration, even if the step uses Newton's method. If the iteration does not converge, the call
-fails.
+A tangent vector at the initial state is called a variation. The linearised step maps the variation e_k, the
+unit vector k, to column k of the matrix. In an implicit step, fixed-point iteration computes the derivatives
+of the unknowns, even if the step uses Newton's method. If the iteration does not converge, the call fails.
 """
 
 from __future__ import annotations
@@ -52,8 +50,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     requested."""
     if plan.kernel.vary is None:
         return ()
-    # The linearised step ``plan.kernel.vary`` has other inputs and outputs than the step. Therefore the
-    # linearised step needs a separate plan.
+    # The linearised step has other inputs and outputs than the step, so it needs a separate plan.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
 
@@ -66,7 +63,6 @@ def vary(plan: Plan, varying: Plan) -> Function:
     """Return the function that applies the linearised step or substep to a variation."""
     state, vector, n = plan.state(), _vector(varying), plan.size
     # The linearised kernel has two vectors as inputs: first the state with n numbers, and then the variation.
-    # The outputs are the numbers of the new variation.
     symbols, read = varying.symbols, varying.arrangement.symbols()
     ends, new = outputs(varying.arrangement, symbols[n:])
     body: list[Statement] = [
@@ -77,7 +73,7 @@ def vary(plan: Plan, varying: Plan) -> Function:
         # The iterations in ``vary`` are not counted, because the statistics describe only the integration.
         *computed(varying, counting=False),
         *ends,
-        # The test comes before the assignment. Therefore a failure leaves ``vector`` unchanged.
+        # The test comes before the assignment, so a failure leaves ``vector`` unchanged.
         If(negated(all_finite(*new)), (Return(code(NOT_FINITE)),)),
         *stored(vector, new),
         Return(code(OK)),
@@ -96,8 +92,7 @@ class _Jacobian:
         self.plan, self.vector = plan, _vector(varying)
         self.dim = self.vector.shape[0]
         self.given = real("inputs", len(plan.kernel.inputs))
-        # The function ``vary`` expects the run-time inputs as functions of time. The caller gives fixed
-        # values, so constant functions are passed.
+        # ``vary`` expects the run-time inputs as functions of time, so constant functions are passed.
         self.inputs = tuple(map(holding, plan.held))
 
     def function(self) -> Function:
@@ -106,7 +101,7 @@ class _Jacobian:
         matrix = real("jacobian", dim * dim)
         # The run-time inputs are constant during the step, so the caller gives an array of values.
         given = (self.given,) if plan.held else ()
-        # ``vector`` contains one column of the Jacobian matrix. The matrix is stored row by row.
+        # ``vector`` contains one column of the Jacobian matrix, which is stored row by row.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
@@ -118,8 +113,7 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
-            # The given inputs are copied. In C the caller's array is ``const``, but an input function
-            # receives a pointer to data that are not ``const``.
+            # The given inputs are copied, because the caller's array is ``const`` in C.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),
@@ -143,14 +137,14 @@ class _Jacobian:
         # A substep stores data of its equations in a memory, so each substep has its own memory.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
-        # The substep only computes the state for the next call of ``vary``. The caller's statistics do not
-        # count the substep.
+        # The substep only computes the state for the next call of ``vary``, so the caller's statistics do not
+        # count it.
         more = (*plan.remembering(memories[part]), *(absent(x) for x in plan.counted))
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []
         if plan.kernel.carried is not None:
             # ``vary`` uses the momentum in the space frame, but a substep uses the momentum in the body
-            # frame. Therefore the momentum is converted before and after each substep.
+            # frame.
             moving, before = plan.state(MOVING), momentum_before(plan)
             arrays = [Array(moving), Array(before)]
             moved = [

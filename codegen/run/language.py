@@ -1,21 +1,16 @@
 """The run representation: the code around a kernel as a small imperative program.
 
-The code around a kernel contains, for example, stopping rules and step control. Printers translate the
-representation to C and Python. The module :mod:`codegen.run.execute` executes the representation, for example
-with doubles or with exact numbers.
+The code around a kernel contains, for example, stopping rules and step control. The following rules allow a
+translation to array languages. Array languages express a loop by ``while_loop`` and a branch by ``select``.
 
-Because of the following rules, the representation can also be translated to array languages. Array languages
-express a loop by ``while_loop`` and a branch by ``select``.
-
-- A loop ends only at its test. The test may read a status or flag. There is no ``break`` statement.
+- A loop ends only at its test. There is no ``break`` statement.
 - A :class:`Return` is the last statement of a function or the only statement of an :class:`If`. An If with a
-  Return is not inside a loop or another If. Therefore an array language may execute the rest of the function
-  in every case, and discard the results after a Return.
+  Return is not inside a loop or another If.
 - A function returns its status as a value. There are no pointers, but a function may overwrite entries of the
   arrays in its arguments.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
-- Python may raise an exception where C computes an infinity or a NaN. ``Function.guard`` determines the
-  result of a function in this case.
+- If Python raises an exception where C computes an infinity or a NaN, ``Function.guard`` determines the
+  result.
 """
 
 from __future__ import annotations
@@ -55,8 +50,8 @@ class For:
     - ``independent`` is True if several iterations may be executed at once by vector instructions.
     - ``parallel`` is True if the iterations may be executed in any order and on several processors. Scalar
       variables from outside the loop must be constant in the loop, apart from those in ``reductions``.
-    - ``reductions`` contains pairs of an operation (``+`` or ``max``) and a variable. The variable is the sum
-      or the maximum of values that the iterations compute.
+    - ``reductions`` contains pairs of an operation (``+`` or ``max``) and the variable for the sum or
+      maximum.
     - ``when`` is a test or None. If the test fails, the loop is executed on one processor.
     """
 
@@ -64,13 +59,11 @@ class For:
     count: Term
     body: tuple[Statement, ...]
     reverse: bool = False
-    # Compilers cannot vectorise a loop that calls functions. Such a loop may be parallel, but it is not
-    # independent.
+    # Compilers cannot vectorise a loop that calls functions, so such a loop is not independent.
     independent: bool = False
     parallel: bool = False
     reductions: tuple[tuple[str, Term], ...] = ()
-    # A short loop is slower on several processors than on one. Therefore ``when`` may test the amount of
-    # work.
+    # ``when`` may test the amount of work, because a short loop is slower on several processors than on one.
     when: Term | None = None
 
 
@@ -131,8 +124,7 @@ LANGUAGE = frozenset({"sample", "measure"})
 Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
-# After a division by zero, Python raises an exception, but C continues with an infinity or a NaN. A guard
-# catches the exception, and the function returns the same result as in C.
+# After a division by zero, Python raises an exception, but C continues with an infinity or a NaN.
 RAISES_STATUS, RAISES_NAN = "status", "nan"
 """The values of ``Function.guard``.
 
@@ -149,9 +141,8 @@ class Function:
     - ``returns`` is the kind of the result, or None if the function returns nothing.
     - ``public`` is True if the function can be called from outside the unit.
     - ``often`` is True if the function is called in each step and should be inlined.
-    - ``near`` is True if the function calls fast variants of the sine, the cosine and the Stumpff functions.
-      The variants have no branches, and are valid only near zero. For larger arguments, the variants return
-      NaN (:mod:`codegen.run.batch`).
+    - ``near`` is True if the function calls fast variants of the sine, the cosine and the Stumpff functions,
+      which are valid only near zero (:mod:`codegen.run.batch`).
     """
 
     name: str
@@ -169,11 +160,10 @@ class Function:
 
 @dataclass(frozen=True)
 class Record:
-    """A record type. A record contains values that the emitted functions keep from one call to the next.
+    """A record type, for values that the emitted functions keep from one call to the next.
 
-    ``fields`` contains one pair for each value. The first entry of the pair is a term with the name and the
-    type of the value. The second entry is a comment for the emitted code. If ``public`` is True, the
-    caller of the emitted code creates the records.
+    ``fields`` contains a pair for each value: a term with its name and type, and a comment for the emitted
+    code. If ``public`` is True, the caller of the emitted code creates the records.
     """
 
     name: str
@@ -197,14 +187,14 @@ class Unit:
     """All emitted code of one kernel: its records, tables and functions.
 
     Each function comes after the functions that it calls. ``scalars`` contains the names of t, h and the
-    parameters of the kernel. The identifiers for ``scalars`` do not depend on other names in the kernel.
+    parameters of the kernel.
     """
 
     scalars: tuple[str, ...]
     records: tuple[Record, ...]
     tables: tuple[Table, ...]
     functions: tuple[Function, ...]
-    # The functions by their names. When a printer translates a call, it looks up the called function here.
+    # The functions by their names.
     parts: dict[str, Function] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
@@ -228,7 +218,7 @@ def blocks(statement: Statement) -> tuple[Body, ...]:
 
 
 def direct(statement: Statement) -> tuple[Term, ...]:
-    """Return the terms of a statement. Terms in the bodies of a loop or branch are not included.
+    """Return the terms of a statement, without the terms in the bodies of a loop or branch.
 
     The terms that the statement assigns come before the terms that it only reads.
     """
@@ -261,8 +251,7 @@ def statements(body: Iterable[Statement]) -> Iterator[Statement]:
 
 def terms(body: Iterable[Statement]) -> Iterator[Term]:
     """Yield every term of a body, and all its subterms."""
-    # A sum over many unknowns is a deeply nested term. A recursive function could exceed Python's recursion
-    # limit, so the list ``waiting`` is used as a stack.
+    # For a sum over many unknowns, a recursive function could exceed Python's recursion limit.
     waiting = [term for statement in statements(body) for term in direct(statement)]
     while waiting:
         # The last term of the list is taken, so the terms are not yielded in the order of the code.
@@ -273,7 +262,7 @@ def terms(body: Iterable[Statement]) -> Iterator[Term]:
 
 def root(target: Term) -> Term:
     """Return the variable that contains ``target``, for example ``memory`` for ``memory.values[3]``."""
-    # The term of an array entry or record field has arguments. The first argument is the array or record.
+    # The first argument of an array entry or record field is the array or the record.
     while target.args:
         target = target.args[0]
     return target
@@ -297,12 +286,12 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 
 
 def reads(statement: Statement) -> Iterator[Term]:
-    """Yield the names that a statement reads. The bodies of a loop or branch are not searched.
+    """Yield the names that a statement reads, without the names in the bodies of a loop or branch.
 
     An assignment to one entry of an array also counts as reading the array.
     """
     given = assigned(statement)
-    # An assignment to one entry keeps the other entries. An assignment to the whole array keeps no entry.
+    # An assignment to one entry keeps the other entries, so the array counts as read.
     whole = {id(t) for t in given if t.op == "name"}
     for term in direct(statement):
         if id(term) not in whole:

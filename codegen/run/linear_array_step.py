@@ -6,9 +6,8 @@ its norm is small. Then y is multiplied 2^s times by a Taylor polynomial of exp(
 N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The truncation error of the polynomial, relative to y, is
 about 2^-10 times the unit roundoff (:mod:`codegen.ir.exponential_action`).
 
-If X contains commutators, an upper bound of its norm is used. The upper bound of a sum is the sum of the
-upper bounds of its terms. The upper bound of a commutator Y Z - Z Y is twice the product of the upper bounds
-of Y and Z.
+If X contains commutators, an upper bound of its norm is used. The upper bound of a commutator Y Z - Z Y is
+twice the product of the upper bounds of Y and Z.
 """
 
 from __future__ import annotations
@@ -63,8 +62,8 @@ from codegen.run.terms import (
 HALVINGS = 16
 """The largest number s of halvings of the matrix in an exponential.
 
-The state is multiplied 2^s times by a Taylor polynomial. With s = 16, these multiplications take seconds
-for a tridiagonal matrix with 1000 rows. If a step needs more halvings, it fails with the status TOO_FAR.
+With s = 16, the 2^s multiplications by a Taylor polynomial take seconds for a tridiagonal matrix with 1000
+rows. If a step needs more halvings, it fails with the status TOO_FAR.
 """
 
 EXPONENTIAL = "exponential"
@@ -91,8 +90,7 @@ class _Step:
     """Builds the emitted functions of one step.
 
     A linear combination of the matrices h A(t_i), where t_i are times in the step, is called a letter. An
-    element is a letter, a sum of multiples of commutators, or a letter plus such a sum. Each commutator
-    [X, Y] contains two elements X and Y.
+    element is a letter, a sum of multiples of commutators, or a letter plus such a sum.
     """
 
     plan: Plan
@@ -102,8 +100,7 @@ class _Step:
         step = self.step
         self.size = step.argument.size
         self.stored: StoredMatrix = stored_matrix(step.matrix, step.argument.columns, len(step.times))
-        # For each element with commutators, an own function multiplies a vector by the element. An element
-        # without commutators is a letter. For letters, the function PRODUCT is used.
+        # Each element with commutators has its own function. For letters, the function PRODUCT is used.
         self.elements: list[Element] = []
         for pair in step.commutators:
             self.elements += [e for e in pair if e.commutators and e not in self.elements]
@@ -116,20 +113,18 @@ class _Step:
         """Return all functions of the step. Each function comes after the functions that it calls."""
         listed = self.stored.functions(self.plan.moment(), self.plan.parameters)
         done: set[int] = set()
-        # The function of a commutator [X, Y] calls the functions of X and Y. Therefore the functions of X and
-        # Y are listed before the function of [X, Y].
+        # The function of a commutator [X, Y] calls the functions of X and Y, so these are listed first.
         for number_of, pair in enumerate(self.step.commutators):
             listed += [self.element(e, done) for e in pair if e.commutators and id(e) not in done]
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
-            # An exponent without commutators is a letter. All letters share the function EXPONENTIAL. The
-            # letter is an argument of this function, and ``Element(0)`` is a placeholder for the letter.
+            # An exponent without commutators is a letter. All letters share the function EXPONENTIAL, so
+            # ``Element(0)`` is only a placeholder.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
-        # For two equal elements in different objects, the same function is listed twice. ``_unique`` removes
-        # the repetition.
+        # For two equal elements in different objects, the same function is listed twice.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
@@ -164,8 +159,7 @@ class _Step:
     def element(self, element: Element, done: set[int]) -> Function:
         """Return the function that computes result = X x, where the matrix X is ``element``.
 
-        ``done`` contains ``id(e)`` for each element e that already has a function. The method adds
-        ``id(element)`` to ``done``.
+        ``done`` contains ``id(e)`` for each element e with a function. The method adds ``id(element)``.
         """
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))
@@ -190,13 +184,12 @@ class _Step:
         The matrices X and Y form the commutator number ``number_of`` of the step, counted from 0.
         """
         left, right = self.step.commutators[number_of]
-        # The argument of ``letters`` must be an element. Here the element is 1 times the commutator.
+        # The argument of ``letters`` must be an element, here 1 times the commutator.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
             *map(Array, (first, second)),
-            # A product cannot overwrite the vector that it reads. Therefore Y x and later X x are stored in
-            # the work array ``first``.
+            # A product cannot overwrite the vector that it reads, so the work array ``first`` is needed.
             self.applied(right, x, first),
             self.applied(left, first, y),
             self.applied(left, x, first),
@@ -227,14 +220,13 @@ class _Step:
         precision = self.plan.format
         sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
         # If the norm is at most ``bounds[k]``, a Taylor polynomial of degree ``sizes[k]`` is accurate enough.
-        # The lowest sufficient degree is chosen.
         chosen = number(float(sizes[-1]))
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
         # Horner's rule computes the vector p, the sum of (m!/j!) b^(j - 1) y over j = 1, ..., m. Here m is
-        # the degree, y is the state, and b is X times ``scale``. The integers m!/j! are exact. Rounded
-        # coefficients 1/j! would cause the same error in all steps, and these errors would accumulate.
+        # the degree, y is the state, and b is X times ``scale``. The integers m!/j! are exact, but rounding
+        # errors of 1/j! would accumulate over many steps.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
@@ -259,7 +251,6 @@ class _Step:
             # Halving X cannot make an infinite norm finite.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
             # Commutators are not linear in the letters, so scaled letters would not give a scaled X.
-            # Instead, each product of X and a vector is multiplied by ``scale``.
             Assign(scale, number(1.0)),
             Assign(parts, whole(1)),
             While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),
@@ -312,15 +303,15 @@ class _Step:
         letters = [self.letter(k) for k in range(len(step.letters))]
         body: list[Statement] = [
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
-            # In the array of a banded matrix, short diagonals leave entries unused. The row sums read these
-            # entries, so they must be zero.
+            # In the array of a banded matrix, unused entries must be zero, because the row sums read these
+            # entries.
             *(Array(node, zero=True) for node in nodes),
             *map(Array, (*letters, new)),
         ]
         for k, (time, node) in enumerate(zip(step.times, nodes, strict=True)):
-            # Names in the kernel contain no spaces. Therefore the space in this name prevents a conflict.
+            # Names in the kernel contain no spaces, so the space in this name prevents a conflict.
             at = own(f"time {k + 1}")
-            # ``at`` is the time t_i. If the matrix does not depend on t, this time is not computed.
+            # If the matrix does not depend on t, the time t_i is not computed.
             body += [Assign(at, value(time))] if plan.time else []
             # The matrix is evaluated at t_i, so t_i replaces t in the arguments of VALUE.
             moment = tuple(at if x.text == TIME.text else x for x in plan.moment())
@@ -346,7 +337,7 @@ class _Step:
         ``x`` is the time t or the step size h.
         """
         # For a banded matrix, the function computes h A(t). For a full matrix, the function computes
-        # subexpressions of A(t). These subexpressions do not contain h.
+        # subexpressions of A(t) without h.
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:
@@ -367,7 +358,7 @@ def _constant(c: Number) -> Term:
 
 
 def _unique(functions: Sequence[Function]) -> Iterator[Function]:
-    """Yield the functions in order. If several functions have the same name, yield only the first."""
+    """Yield the functions in order, but only the first of several functions with the same name."""
     seen: set[str] = set()
     for function in functions:
         if function.name not in seen:

@@ -87,7 +87,7 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # Exponentials of matrices of equal size use the same norm function. This function is listed once.
+        # Exponentials of matrices of equal size share the norm function, so it is listed once.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
@@ -111,10 +111,7 @@ def _is_lost(array: Term) -> For:
 
 
 class _Exponential:
-    """Builds the emitted functions for the exponential of a jet. A jet is a matrix with its derivatives.
-
-    The algorithm is described in :mod:`codegen.ir.matrix_exponential`.
-    """
+    """Builds the emitted functions for the exponential of a jet, a matrix with its derivatives."""
 
     def __init__(self, function: MatrixExponential, precision: Precision) -> None:
         self.name, self.n, self.level = function.name, function.n, function.level
@@ -131,7 +128,7 @@ class _Exponential:
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
         """Return an entry of the matrix with the index ``part`` in a jet.
 
-        Index 0 selects the matrix itself. All other indices select derivatives.
+        Index 0 selects the matrix itself, and all other indices select derivatives.
         """
         place = self.n * row + column
         return array[place + self.one * part if part else place]
@@ -170,16 +167,14 @@ class _Exponential:
     ) -> list[Statement]:
         """Return the statements that compute ``entry``, an entry of the product of the jets ``a`` and ``b``.
 
-        The entry belongs to the matrix with the index ``part`` in the product. This matrix is the sum of the
-        products a_p b_q over all pairs (p, q) in ``factors``. Here a_p is matrix p of ``a``, and b_q is
-        matrix q of ``b``.
+        Matrix ``part`` of the product is the sum of a_p b_q over all pairs (p, q) in ``factors``, where a_p
+        is matrix p of ``a``, and b_q is matrix q of ``b``.
         """
 
         def terms(k: Term) -> list[Term]:
             return [self.entry(a, _ROW, k, p) * self.entry(b, k, _COLUMN, q) for p, q in factors]
 
-        # For small matrices, the entry is computed without a loop. The loop below adds the terms in the same
-        # order, so the rounding errors are the same.
+        # The loop below adds the terms in the order of this sum, so the rounding errors are the same.
         if self.n <= UNROLLED:
             return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
         # The sums for different matrices of the jet need different variables.
@@ -201,13 +196,13 @@ class _Exponential:
             Assign(scale, number(1.0)),
             Assign(squarings, whole(0)),
             While(
-                # ``bits`` is the number of bits of the significand. More than ``bits`` squarings would leave
-                # no correct digit.
+                # After more squarings than ``bits``, the number of bits of the significand, no digit would be
+                # correct.
                 both(norm * scale > least, squarings < bits),
                 (Assign(scale, number(0.5) * scale), Assign(squarings, squarings + 1)),
             ),
             Assign(norm, norm * scale),
-            # The jet ``a`` is multiplied by ``scale``. The repeated squaring undoes this scaling.
+            # The repeated squaring undoes the multiplication by ``scale``.
             For(_PLACE, whole(self.size), (Assign(powers[0][_PLACE], a[_PLACE] * scale),)),
             *self._polynomial(powers, work, result, norm),
             If(
@@ -236,13 +231,10 @@ class _Exponential:
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
         """Return the statements that evaluate a Taylor polynomial of exp at the jet ``powers[0]``.
 
-        The possible degrees are 4, 8, 12 and 16. From ``norm``, the norm of the matrix, the statements choose
-        the lowest degree whose truncation error is smaller than the rounding errors.
+        The norm ``norm`` of the matrix determines the degree: 4, 8, 12 or 16.
         """
-        # The method of Paterson and Stockmeyer evaluates a polynomial in b = ``powers[0]``. The degree of the
-        # polynomial is 4 g, where g is 1, 2, 3 or 4. The powers b^2, b^3 and b^4 need three matrix products.
-        # The terms below degree 4 g form g groups of four. Horner's rule in b^4 combines these groups with
-        # g - 1 more products.
+        # The method of Paterson and Stockmeyer evaluates a polynomial of degree 4 g in b = ``powers[0]``. The
+        # terms below degree 4 g form g groups of four, which Horner's rule in b^4 combines.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
         # At norms up to ``first``, ``second`` or ``third``, the degree 4, 8 or 12 is accurate enough.
@@ -254,8 +246,7 @@ class _Exponential:
         start = Assign(work[_PLACE], c[4 * groups] * b4[_PLACE])
 
         def added(base: Term) -> tuple[Statement, ...]:
-            # Terms of high degree are usually small. The sum begins with them, so the rounding errors stay
-            # small.
+            # The sum begins with the terms of high degree, because they are usually small.
             value = ((work[_PLACE] + c[base + 3] * b3[_PLACE]) + c[base + 2] * b2[_PLACE]) + c[base + 1] * b1[
                 _PLACE
             ]
@@ -268,8 +259,7 @@ class _Exponential:
 
         inner = (
             If(
-                # The loop begins with the group of the highest degree. Before a later group is added, the
-                # result is multiplied by b^4.
+                # The loop begins with the group of the highest degree.
                 group + 1 < groups,
                 (self.product(result, b4, work),),
                 (For(_PLACE, whole(self.size), (start,)),),
@@ -288,8 +278,6 @@ class _Exponential:
         """Return the statements that compute ``growth``, a bound of the spectral norm of exp(scale a)."""
         # Let mu be the logarithmic norm of ``a``, the largest eigenvalue of its symmetric part. The spectral
         # norm of exp(``a``) is at most exp(mu). Gershgorin's theorem gives the upper bound ``largest`` of mu.
-        # For each row of the symmetric part, the signed diagonal entry and the absolute values of all other
-        # entries are added. The largest sum is ``largest``.
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (
@@ -310,15 +298,14 @@ class _Exponential:
     def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
         """Return the statements that square the jet ``result``. The number of squarings is ``squarings``.
 
-        ``growth`` bounds the norm of the matrix in ``result``. The statements also bound the error of the
-        matrix. If the relative error may exceed 2^-LEAST_DIGITS, all entries of ``result`` become NaN.
+        ``growth`` bounds the norm of the matrix in ``result``. If the relative error may exceed
+        2^-LEAST_DIGITS, all entries of ``result`` become NaN.
         """
         n, unit = self.n, self.precision.unit
         error, bound = real("error_bound"), real("bound")
         body = (
             self.norm(result, bound),
-            # Two numbers bound the spectral norm of the matrix: the Frobenius norm and ``growth``. The
-            # smaller bound is used.
+            # The Frobenius norm ``bound`` and ``growth`` both bound the spectral norm of the matrix.
             Assign(bound, select(bound < growth, bound, growth)),
             # The norm of the n x n matrix is at most r = ``bound``, and its error is at most e = ``error``.
             # With the unit roundoff u, the error of the computed square is at most about
@@ -364,15 +351,14 @@ def _inverse(function: MatrixInverse) -> Function:
     order, pivot, kept = count("order", n), count("pivot"), real("kept")
     factor, multiple = real("factor"), real("multiple")
     k, i, j = _TERM, _ROW, _COLUMN
-    # Row k is the pivot row. The index of its entry j is ``row``, and the index of the pivot is ``at``.
+    # The index of entry j in the pivot row k is ``row``, and the index of the pivot is ``at``.
     row, at = n * k + j, n * k + k
-    # Of the entries of column k on and below the diagonal, the pivot has the largest absolute value. This
-    # choice keeps rounding errors small.
+    # The pivot has the largest absolute value in column k on and below the diagonal, so rounding errors stay
+    # small.
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
-    # The inverse overwrites the matrix. Step k of the elimination turns column k into a column of the unit
-    # matrix. Instead of this unit column, column k then stores an incomplete column of the inverse. Later
-    # steps complete the stored column.
+    # The inverse overwrites the matrix. After step k, column k stores an incomplete column of the inverse
+    # instead of a unit column.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),
@@ -381,7 +367,7 @@ def _inverse(function: MatrixInverse) -> Function:
     column = (
         Assign(pivot, k),
         For(i, whole(n), (If(i > k, (search,)),)),
-        # If a pivot is zero, its reciprocal is infinite. The result then contains infinite or NaN entries.
+        # If a pivot is zero, the result contains infinite or NaN entries.
         Assign(order[k], pivot),
         For(j, whole(n), exchanged),
         Assign(factor, 1.0 / b[at]),
@@ -390,8 +376,7 @@ def _inverse(function: MatrixInverse) -> Function:
         Assign(b[at], factor),
         For(i, whole(n), (If(i.differs(k), eliminated),)),
     )
-    # An exchange of two rows of a matrix exchanges the same two columns of its inverse. Therefore columns of
-    # the result are exchanged here, in the reverse order of the row exchanges.
+    # An exchange of two rows of a matrix exchanges the same two columns of its inverse.
     swapped = (
         Assign(kept, b[n * i + k]),
         Assign(b[n * i + k], b[n * i + order[k]]),
