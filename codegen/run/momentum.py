@@ -1,10 +1,8 @@
 """Conversion of the momentum between the space frame and the body frame.
 
-The caller's state contains the space momentum, but the steps of a run use the body momentum. A run therefore
-begins with a conversion to the body frame, and ends with a conversion to the space frame.
-
-Rounding makes the group element q slightly non-orthogonal, so a conversion has an error. To reduce this
-error, the run adds only the increase of the space momentum to the caller's momentum.
+The caller's state contains the space momentum, but the steps of a run use the body momentum. Rounding makes
+the group element q slightly non-orthogonal, so a conversion has an error. To reduce this error, the run adds
+only the increase of the space momentum to the caller's momentum.
 """
 
 from __future__ import annotations
@@ -18,7 +16,7 @@ from codegen.run.terms import NOT_FINITE, OK, Kind, Term, all_finite, code, coun
 ENTER, LEAVE = "enter_body", "leave_body"
 
 MOVING = "moving"
-"""The name of the array for the state during a run. In this array the momentum is in the body frame."""
+"""The name of the array for the state with the body momentum during a run."""
 
 
 def momentum_before(plan: Plan) -> Term:
@@ -31,8 +29,7 @@ def momentum_before(plan: Plan) -> Term:
 def turning(plan: Plan) -> tuple[Function, ...]:
     """Return the emitted functions for a run whose steps use the body momentum.
 
-    Two functions convert the momentum between the frames. The third function begins a run, and the fourth
-    ends a run. If ``plan`` needs no conversion, the tuple is empty.
+    If ``plan`` needs no conversion, the tuple is empty.
     """
     carried = plan.kernel.carried
     if carried is None:
@@ -61,8 +58,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         # The group element q is the same in both frames, so it is copied.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
-        # The initial body momentum is converted back to the space frame. ``_leave`` also converts the final
-        # body momentum, and subtracts ``before``. The errors of both conversions nearly cancel.
+        # ``_leave`` subtracts ``before`` from the converted final momentum. The errors of both conversions
+        # nearly cancel.
         Call("to_space", (moving, before)),
     )
     about = (
@@ -82,8 +79,7 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Array(momentum),
         Call("to_space", (moving, momentum)),
         For(i, whole(n), (Assign(momentum[i], gained),)),
-        # A failure must not change the caller's state. Therefore the momentum is tested before the state is
-        # changed.
+        # A failure must not change the caller's state.
         If(negated(all_finite(momentum)), (Return(code(NOT_FINITE)),)),
         Assign(state.part(0, carried.first), moving.part(0, carried.first)),
         Assign(state.part(carried.first, n), momentum),

@@ -17,7 +17,7 @@ class Names:
     """
 
     def __init__(self, reserved: Collection[str]) -> None:
-        # ``reserved`` may be a set. The order of a set differs from run to run, so the words are sorted.
+        # The order of a set differs from run to run, so ``reserved`` is sorted.
         self._taken = dict.fromkeys(sorted(reserved), True)
         self._reserved = len(self._taken)
         self.identifiers: dict[str, str] = {}
@@ -37,10 +37,10 @@ class Names:
         """Return a new identifier: ``proposal``, or a similar name if ``proposal`` is illegal or in use."""
         # Letters outside of ASCII are replaced, because some compilers do not accept them.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
-        # C reserves identifiers that begin with two underscores. Python changes these names inside a class.
+        # C reserves identifiers that begin with two underscores.
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
-        # An underscore is appended. An appended number could be mistaken for an index, as in ``xi_1``.
+        # An appended number could be mistaken for an index, as in ``xi_1``.
         while name in self._taken:
             name += "_"
         self._taken[name] = True

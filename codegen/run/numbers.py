@@ -9,15 +9,14 @@ from codegen.run.language import Array, Call, Function, Unit, assigned, statemen
 from codegen.run.terms import Kind, Term
 
 REGISTERS = 8
-"""The number of arguments that a call can pass in registers. All further arguments are on the stack."""
+"""The number of arguments that a call can pass in registers."""
 
 
 def numbers_held(unit: Unit) -> int:
     """Return an upper bound of the number of scalars on the stack during a call of a public function."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
-    # A private function may call a public function. The public function then runs during another call, so
-    # the public function is counted with the private functions.
+    # A public function that a private function calls is counted with the private functions.
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
@@ -30,13 +29,11 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
     arrays, passed, scalars = 0, 0, set()
     for statement in statements(function.body):
         if isinstance(statement, Call):
-            # Without optimisation, a compiler may give each call its own stack space for arguments. Therefore
-            # the arguments of all calls are added.
+            # Without optimisation, a compiler may give each call its own stack space for arguments.
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
-            # Two arrays with the same name, for example in two loops, may have different addresses. Therefore
-            # each array is counted.
+            # Two arrays with the same name, for example in two loops, may have different addresses.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
         # A scalar that is assigned several times has one place on the stack, so it counts once.
@@ -45,7 +42,7 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
 
 
 def _size(unit: Unit, name: Term) -> int:
-    """Return the number of scalars in one entry of an array. The entry may be a record."""
+    """Return the number of scalars in one entry of an array."""
     if name.kind is not Kind.RECORD:
         return 1
     # A field with an empty shape is a single number, and the product of an empty shape is 1.

@@ -1,16 +1,15 @@
 """Compute the states at output times, and find events, inside the steps of a run.
 
-A state inside a step is computed by one shorter step from the beginning of the step. The state is therefore
-on the manifold, and has the order of the method. If a continuous extension was requested, the states at
-output times are computed by the extension instead (:mod:`codegen.run.dense_output`).
+A state inside a step is computed by one shorter step from the beginning of the step. If a continuous
+extension was requested, the states at output times are computed by the extension instead
+(:mod:`codegen.run.dense_output`).
 
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of the
 sign of an event function between two consecutive times. If a function changes its sign twice between them, no
 event is found. If an event function is exactly zero at the beginning of a run, this zero is no event.
 
-The time of an event is enclosed in an interval that is a few rounding errors long. The Illinois variant of
-the secant method is used, together with bisection. The event state is the state at the end of this interval.
-There the sign has changed, so a run that continues from the event state does not find the event again.
+The Illinois variant of the secant method, together with bisection, encloses an event in a short interval. The
+event state is the state at the end of this interval, where the sign has changed.
 """
 
 from __future__ import annotations
@@ -68,9 +67,10 @@ at most 2 CLOSE u max(|t|, |t'|, |t' - t|), where u is the unit roundoff.
 """
 
 RISING, FALLING = 1, 2
-"""Values of the array ``stops``. The array has one entry for each event function. The run ends if the
-function changes from negative to positive (RISING), from positive to negative (FALLING), or in either
-direction (RISING + FALLING)."""
+"""Values of the array ``stops``, which has one entry for each event function.
+
+The run ends if the function changes from negative to positive (RISING), from positive to negative (FALLING),
+or in either direction (RISING + FALLING)."""
 
 
 class Observation:
@@ -93,9 +93,8 @@ class Observation:
         self.event_times = real("event_times", 0, optional=True)
         self.event_rows = real("event_rows", 0, n, optional=True)
         self.numbers = count("event_numbers", 0, optional=True)
-        # ``signs`` contains the signs of the event functions. Three arrays contain their values: ``values``
-        # at the lower end of the searched interval, ``ahead`` at its upper end, and ``measured`` at the time
-        # of the latest evaluation.
+        # The values of the event functions are in ``values`` (lower end of the searched interval), ``ahead``
+        # (upper end) and ``measured`` (latest evaluation).
         self.signs, self.values, self.measured = (real(x, k) for x in ("signs", "values", "measured"))
         self.ahead = real("ahead", k)
         extension = plan.kernel.observed.extension
@@ -197,7 +196,7 @@ class Observation:
         """Return the function that tests whether the output times are sorted and inside the run."""
         k, ordered, last = count("k"), flag("ordered"), real("last_time")
         time = self.times[k]
-        # A run may also go backwards in time. The output times must then decrease.
+        # In a run backwards in time, the output times must decrease.
         forward = both(self.end >= self.now, time >= last, time <= self.end)
         backward = both(self.end < self.now, time <= last, time >= self.end)
         body = (
@@ -237,8 +236,7 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the test whether the sign of entry ``i`` of ``values`` differs from its stored sign."""
-        # If an event function is zero at the beginning of a run or at an event, the stored sign is zero. Then
-        # the next nonzero value of this function does not count as an event.
+        # After a zero at the beginning of a run or at an event, the next nonzero value is no event.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -304,9 +302,8 @@ class Observation:
     ) -> tuple[Statement, ...]:
         """Return the statements that choose ``middle``, the fraction of the step for the next evaluation."""
         i, estimate = count("i"), real("estimate")
-        # If a function changes its sign in the interval, the secant through its weighted values at both ends
-        # has a zero in the interval. The earliest zero of the secants of all functions is chosen. In every
-        # third iteration, the midpoint is chosen instead.
+        # The earliest zero of the secants through the weighted values at both ends is chosen. In every third
+        # iteration, the midpoint is chosen instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         # The weighted values a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1.
         candidate = (
@@ -318,8 +315,8 @@ class Observation:
             Assign(self.middle, high),
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
-            # ``middle`` keeps at least the distance ``width`` from both ends. If the distance is ``width``,
-            # the interval between ``middle`` and the near end is short enough to end the search.
+            # If ``middle`` has the distance ``width`` from an end, the interval between them is short enough
+            # to end the search.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
         )
@@ -327,8 +324,7 @@ class Observation:
     def _moved(
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
-        """Return two groups of statements. The first group moves the upper end of the searched interval
-        to ``middle``. The second group moves the lower end to ``middle``."""
+        """Return two groups of statements that move the upper or the lower end to ``middle``."""
         # If one end of the interval moves twice in a row, the Illinois method halves the weight of the values
         # at the other end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
         moved_high: tuple[Statement, ...] = (
@@ -394,8 +390,8 @@ class Observation:
     def recorded(self) -> tuple[Statement, ...]:
         """Return the statements that store an event for each function that has changed its sign."""
         i, rising, place = count("i"), count("rising"), self.event_count[0]
-        # If ``stops[i]`` contains the bit RISING = 1, a rising zero ends the run. If it contains the bit
-        # FALLING = 2, a falling zero ends the run.
+        # The bit RISING = 1 of ``stops[i]`` ends the run at a rising zero, and the bit FALLING = 2 at a
+        # falling zero.
         ends = select(rising > 0, self.stops[i] % 2, self.stops[i] // 2)
         stored = (
             Assign(rising, select(self.signs[i] < 0.0, whole(1), whole(0))),
@@ -447,9 +443,8 @@ class Observation:
         )
 
     def observed(self) -> Function:
-        """Return the function that observes one step.
+        """Return the function that finds events and computes the states at output times in one step.
 
-        The function first searches for events. Then it computes the states at the output times in the step.
         If an event ends the run, later output times are omitted.
         """
         plan, state, place = self.plan, self.plan.state(), self.written[0]
@@ -460,7 +455,7 @@ class Observation:
         if self.events:
             # If an event ends the run, the function EVENTS sets ``stop`` to the time of this event.
             search = (Call(EVENTS, (*passed, *self.buffers, *self.memory, self.stop), (STATUS,)),)
-        # The run may go forwards or backwards in time. Output times after ``stop`` belong to later steps.
+        # Output times beyond ``stop``, in the direction of the run, belong to later steps.
         beyond = select(self.following > self.now, time > stop, time < stop)
         inside = select(self.following > self.now, time < stop, time > stop)
         good = STATUS.equals(code(OK))
@@ -476,8 +471,7 @@ class Observation:
             If(good, (Assign(place, place + 1),)),
         )
         outputs = (
-            # The loop needs the status OK, but the search for events may have set the status EVENT. Therefore
-            # the status of the search is restored after the loop.
+            # The loop needs the status OK, but the search for events may have set the status EVENT.
             Assign(outcome, STATUS),
             Assign(STATUS, code(OK)),
             Assign(due, truth(True)),

@@ -31,10 +31,9 @@ class Place:
 def places(kernel: Kernel) -> tuple[Place, ...]:
     """Return the position of each block of a kernel's state.
 
-    A kernel may have a variation (a tangent vector at the state). The variation is the last block, and its
-    array is ``vector``.
+    A variation (a tangent vector at the state) is the last block, and its array is ``vector``.
     """
-    # ``whole`` is the length of the array ``state``. This array does not contain the variation.
+    # The array ``state`` does not contain the variation.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0

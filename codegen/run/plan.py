@@ -16,7 +16,7 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of two record types. An argument of one of these types has the same name as its type."""
+"""The names of two record types, and of the arguments of these types."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""
@@ -66,7 +66,7 @@ class Plan:
     @property
     def parameters(self) -> tuple[Term, ...]:
         """The run-time parameters that the kernel reads."""
-        # The excluded names denote times and durations. The functions have separate arguments for these.
+        # The functions have separate arguments for times and durations.
         return tuple(map(own, (s for s in self._used if s not in ("t", "h", LEAD, ELAPSED))))
 
     @property
@@ -77,7 +77,7 @@ class Plan:
     @property
     def newton(self) -> bool:
         """True if a loop of the kernel uses Newton's method (not simplified Newton)."""
-        # Newton's method stores its matrix for the next step. Simplified Newton stores nothing.
+        # Newton's method stores its matrix for the next step, but simplified Newton does not.
         return any(loop.solver == NEWTON for loop in self.kernel.loops)
 
     @property
@@ -105,7 +105,7 @@ class Plan:
     def memories(self) -> Term:
         """The memory of a step: one record, or an array with one record for each substep."""
         # Substeps have different lengths, so the solutions of one substep are bad initial guesses for the
-        # next substep. A substep reads only its own solutions from earlier steps.
+        # next substep.
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory
 
     @property

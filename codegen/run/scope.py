@@ -1,12 +1,11 @@
 """Choose where a target language such as C declares each scalar variable.
 
-A variable is declared in the innermost block that contains all its uses, as late as possible. There is one
-exception: if all uses are in several inner blocks, and each of these blocks assigns the variable before
-reading it, each of these blocks declares the variable.
+A variable is declared in the innermost block that contains all its uses, as late as possible. But if all uses
+are in several inner blocks, and each of these blocks assigns the variable before reading it, each of these
+blocks declares the variable.
 
-Let B be the block that declares the variable, and let S be the first statement of B that mentions the
-variable. If S assigns only this variable and does not read it, S also declares it, as in ``double x = 1.0;``.
-Otherwise a separate declaration precedes S. If S declares the variable, and no other statement of B assigns
+Let S be the first statement of the block that mentions the variable. If S assigns only this variable and does
+not read it, S also declares it, as in ``double x = 1.0;``. If then no other statement of the block assigns
 the variable, the variable is constant.
 """
 
@@ -38,8 +37,7 @@ class Declarations:
     """The declarations of a function, in two dictionaries with the keys ``id(statement)``.
 
     - ``before`` contains the variables that are declared before a statement, as pairs (identifier, term).
-    - ``by`` contains the variables that a statement itself declares, as a dictionary. In this dictionary, the
-      keys are the identifiers, and a value is True if the variable is constant.
+    - ``by`` contains the identifiers that a statement itself declares, with the value True for constants.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -54,17 +52,14 @@ def declarations(function: Function, identifiers: Identifiers) -> Declarations:
 
 
 def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
-    """Return the scalars that a function assigns, except parameters. The keys are their identifiers.
-
-    The scalars are in the order of their first assignment.
-    """
+    """Return the scalars that a function assigns, except parameters, in the order of first assignment."""
     result: dict[str, Term] = {}
 
     def collect(body: Body) -> None:
         for statement in body:
             if isinstance(statement, Assign | Call):
                 for target in assigned(statement):
-                    # Arrays and records have declarations (Array) in the body. Scalars have none.
+                    # Arrays and records have declarations (Array) in the body.
                     if target.op == "name" and not target.shape and not target.record:
                         result.setdefault(identifiers.variable(target), target)
             # Some variables are assigned only in inner blocks, so inner blocks are visited too.
@@ -83,7 +78,7 @@ class _Scopes:
 
     def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
         self.identifiers, self.result = identifiers, result
-        # Caches of ``mentioned``, ``own`` and ``assignments``. The keys are ``id(statement)``.
+        # Caches of ``mentioned``, ``own`` and ``assignments``, with the keys ``id(statement)``.
         self.known: dict[int, frozenset[str]] = {}
         self.known_own: dict[int, frozenset[str]] = {}
         self.counts: dict[int, Counter[str]] = {}
@@ -94,8 +89,7 @@ class _Scopes:
         No statement outside ``body`` mentions these variables.
         """
         inside: dict[int, dict[str, Term]] = {}
-        # A single loop over the body finds the uses of all variables. A loop for each variable would take
-        # quadratic time.
+        # A loop for each variable would take quadratic time.
         holders: dict[str, list[int]] = {name: [] for name in variables}
         for k, statement in enumerate(body):
             for name in self.mentioned(statement):
@@ -129,8 +123,7 @@ class _Scopes:
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # One inner block may read the value that another inner block has assigned. Then ``body`` must declare
-        # one common variable for both blocks.
+        # One inner block may read the value that another inner block has assigned.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result
@@ -148,13 +141,12 @@ class _Scopes:
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
-            # A loop with ``at_least_once`` executes its body before the first test. Branches and other While
-            # loops may skip their bodies.
+            # Branches and other While loops may skip their bodies.
             if isinstance(statement, While) and statement.at_least_once:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):
                 return False
-            # A For loop may have no iterations. Therefore the statements after the loop are tested, too.
+            # A For loop may have no iterations, so the statements after the loop are tested, too.
             looped = True
         return looped
 

@@ -12,9 +12,8 @@ from codegen.run.solver_choice import Choice
 def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
     """Return the solver of each block of implicit equations of a step on a chain or lattice.
 
-    ``asked`` is the solver that the user requested, and ``name`` is the name of the problem for messages. A
-    lattice can use only fixed-point iteration. A chain can also use simplified Newton. If the method is
-    implicit and ``asked`` is ``newton``, MethodError is raised.
+    ``asked`` is the solver that the user requested, and ``name`` is the name of the problem for messages. If
+    the method is implicit and ``asked`` is ``newton``, MethodError is raised.
     """
     step = kernel.sites
     assert step is not None
@@ -25,8 +24,7 @@ def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
             where=name,
             expected=f"the solver {FIXED_POINT}, or {SIMPLIFIED_NEWTON} for a chain",
         )
-    # In the report, this text follows the number of unknowns. The number of sites is known only at run time,
-    # so the unknowns of all sites cannot be counted.
+    # The number of sites is known only at run time, so the unknowns of all sites cannot be counted.
     reason = "only the unknowns of one site are counted"
     return tuple(
         Choice(block.label, len(step.sweeps[block.last].unknowns), loop_of(block).solver, reason)

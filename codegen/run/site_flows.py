@@ -1,19 +1,16 @@
 """The emitted functions of a lattice step that is a composition of flows.
 
 The vector field of the problem is a sum of parts, and the flow of each part is computed exactly. Most flows
-change single sites, or pairs of neighbours along one axis of the lattice. The pairs form two sets. In one set
-the first site of each pair has an even index, and in the other set an odd index. No two pairs of a set have a
-common site.
+change single sites, or pairs of neighbours along one axis of the lattice. Pairs whose first site has an even
+index form one set, and all other pairs form a second set. No two pairs of a set have a common site.
 
 Part number K has several functions:
 
 - ``flow_K`` is a loop over consecutive sites, or over pairs of one set.
 - ``part_K`` calls ``flow_K`` for all sites, or for all pairs of one set.
-- ``whole_K`` exists only for parts with sines, cosines or Stumpff functions. In such a part, ``flow_K``
-  uses fast variants of sines, cosines and Stumpff functions. The fast variants are valid only near zero.
-  ``whole_K`` accepts all arguments.
-- ``pair_K`` exists in a periodic lattice if the pairs are along the last axis. The function computes the pair
-  of the last and the first site of a row.
+- ``whole_K`` is ``flow_K`` without the fast variants of sines, cosines and Stumpff functions. The fast
+  variants are valid only near zero.
+- ``pair_K`` computes the pair of the last and the first site of a periodic row.
 
 A kick is a flow that reads neighbours and changes only momenta, in place. A kick has the functions
 ``sweep_K``, ``site_K`` and ``pass_K`` (:mod:`codegen.run.sites`).
@@ -71,7 +68,7 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
-    # A sweep with the axis OWN changes single sites. If it also reads neighbours, it is a kick.
+    # A sweep that changes single sites (axis OWN) but reads neighbours is a kick.
     if sweep.axis == OWN and sweep.neighbours:
         # The last flow of a step tests the whole new state, so a kick needs no test for infinities and NaNs.
         return _Kick(Loop(plan, step, sweep, index, tested=False))
@@ -80,7 +77,7 @@ def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick
 
 @dataclass(frozen=True)
 class _Kick:
-    """Builds the functions of a kick. A kick reads neighbours and changes only momenta."""
+    """Builds the functions of a kick."""
 
     loop: Loop
 
@@ -102,15 +99,13 @@ class _Kick:
         # In the kernel of a kick, the symbol h denotes the duration of the kick.
         given = {STEP.text: duration, TIME.text: moment}
         scalars = tuple(given.get(x.text, x) for x in self.loop.scalars)
-        # Only the first flow of a step reads the old state, and the first flow is never a kick. Therefore a
-        # kick needs only the new state.
+        # Only the first flow of a step reads the old state, and the first flow is never a kick.
         return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 
 @dataclass(frozen=True)
 class _Part:
-    """Builds the functions of one part of the vector field. The flow of the part changes single sites, or
-    pairs of neighbours."""
+    """Builds the functions of one part of the vector field that is not a kick."""
 
     plan: Plan
     step: SiteStep
@@ -151,8 +146,8 @@ class _Part:
     def arrays(self) -> tuple[Term, ...]:
         """The arrays that the flow reads or changes, as arguments of the emitted functions.
 
-        A flow of pairs changes the new state in place. A flow of single sites has two arrays: it reads the
-        first and writes the second. A call may pass one array for both.
+        A flow of pairs changes the new state in place. A flow of single sites reads the first of two arrays
+        and writes the second.
         """
         # The first flow of a step reads the old state and writes the new state, so no state is copied.
         return (ARRAYS[RESULT],) if self.paired else (ARRAYS[STATE], ARRAYS[RESULT])
@@ -160,16 +155,14 @@ class _Part:
     def functions(self) -> list[Function]:
         """Return the functions of this flow. Each function comes after the functions that it calls."""
         loops = [self.loop("flow", self.special), *([self.loop("whole", False)] if self.special else [])]
-        # In a periodic row, the last and the first site are neighbours but not adjacent in memory. A separate
-        # function computes this pair.
+        # In a periodic row, the last and the first site are neighbours but not adjacent in memory.
         ends = [self.single_pair()] if self.strided and self.step.periodic else []
         return [*loops, *ends, self.pairs() if self.paired else self.all_sites()]
 
     def entry(self, row: Row, neighbour: int) -> Term:
         """Return the entry of a row at one site.
 
-        If ``neighbour`` is OWN, this is the site itself, or the first site of the pair. Otherwise it is the
-        second site of the pair.
+        If ``neighbour`` is not OWN, the site is the second site of a pair.
         """
         place = PLACE if neighbour == OWN else _NEAR
         array = ARRAYS[row.array]
@@ -179,21 +172,18 @@ class _Part:
         )
 
     def loop(self, name: str, near: bool) -> Function:
-        """Return the function ``flow_K`` or ``whole_K``. The argument ``name`` is ``flow`` or ``whole``.
+        """Return the function ``flow_K`` or ``whole_K``.
 
-        The function contains a loop over consecutive sites, or over pairs of neighbours. If ``near`` is True,
-        the loop calls fast variants of sines, cosines and Stumpff functions. The fast variants are valid only
-        near zero.
+        ``name`` is ``flow`` or ``whole``. If ``near`` is True, the function calls fast variants of sines,
+        cosines and Stumpff functions, which are valid only near zero.
         """
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
         if self.paired:
-            # PLACE is the index of the first site of a pair. If ``strided`` is True, the index of the second
-            # site is PLACE + 1. Then compilers can load both sites with one instruction.
+            # With the index PLACE + 1, compilers can load both sites of a pair with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # The last flow of a step always changes single sites. Therefore pairs need no test for infinities and
-        # NaNs.
+        # The last flow of a step always changes single sites, so pairs need no test for infinities and NaNs.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
@@ -212,8 +202,7 @@ class _Part:
 
     def _moved(self, inside: list[Statement], ends: list[Term]) -> list[Statement]:
         """Return the statements that apply this flow to one site or to one pair of sites."""
-        # The old and the new state may be the same array. Therefore all entries of the site or pair are
-        # loaded before the first entry is stored.
+        # The old and the new state may be the same array, so all loads precede the first store.
         read = symbols_of(self.own.kernel)
         body: list[Statement] = [
             Assign(own(x.symbol), self._loaded(x)) for x in self.own.loads if x.symbol in read
@@ -221,8 +210,7 @@ class _Part:
         body += inside
         body += [Assign(new, end) for new, end in zip(self._news, ends, strict=True)]
         for k, (row, new) in enumerate(zip(self.own.stores, self._news, strict=True)):
-            # The first ``size`` values belong to the site, or to the first site of the pair. All other values
-            # belong to the second site.
+            # The values after the first ``size`` values belong to the second site of a pair.
             body.append(Assign(self.entry(row, OWN if k < self.step.size else 0), new))
         return body
 
@@ -238,8 +226,7 @@ class _Part:
         if self.paired:
             given = (WHOLE, shape_of(self.step), whole(flow.colour), SITES, new, *scalars)
             return Call(f"part_{flow.sweep}", given)
-        # BAD is the number of sites whose new state is not finite. Later flows overwrite BAD, because only
-        # the value of the last flow of a step is needed.
+        # Later flows overwrite BAD, because only the value of the last flow of a step is needed.
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
@@ -261,10 +248,7 @@ class _Part:
         return Function(name, about, parameters, tuple(body), Kind.COUNT, often=True, near=near)
 
     def _called(self, arguments: tuple[Term, ...], *results: Term) -> list[Statement]:
-        """Return the statements that call ``flow_K`` or ``whole_K``.
-
-        If ``whole_K`` exists, the emitted code calls it if the flag WHOLE is true.
-        """
+        """Return the statements that call ``whole_K`` if it exists and WHOLE is true, else ``flow_K``."""
         given = (*arguments, SITES, *self.arrays, *self.scalars)
         call = Call(f"flow_{self.index}", given, results)
         if not self.special:
@@ -282,8 +266,8 @@ class _Part:
     def pairs(self) -> Function:
         """Return the function ``part_K`` for a flow of pairs.
 
-        The argument ``colour`` of ``part_K`` selects the pairs. It is 0 for the pairs whose first site has an
-        even index, and 1 for the other pairs.
+        The argument ``colour`` of ``part_K`` is 0 for the pairs whose first site has an even index, and 1 for
+        the other pairs.
         """
         shape = shape_of(self.step)
         last, periodic = self.step.dimension - 1, self.step.periodic
@@ -297,21 +281,18 @@ class _Part:
             body = [Assign(_ROW, first_site(outer, shape))]
             # ``pairs`` does not count the pair of the last and the first site of a row.
             pairs = (COLUMNS - _COLOUR) // 2
-            # In a lattice, different processors compute different rows. A chain has a single row. This row
-            # is divided into chunks for different processors.
+            # Different processors compute different rows. A chain divides its single row into chunks.
             if last:
                 body += self._called((_ROW + _COLOUR, pairs))
             else:
                 body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
-                # In a periodic row, the last site forms a pair with the first site of the row. The last site
-                # has an odd index, so this pair has colour 1.
+                # The pair of the last and the first site has colour 1, because the last index is odd.
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:
             body = self._rows(outer, shape)
-        # The loops are built from the innermost to the outermost. The loop along the axis of the pairs visits
-        # pairs of rows.
+        # The loop along the axis of the pairs visits pairs of rows.
         for e in range(last - 1, -1, -1):
             mine = e == self.own.axis
             loop = For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))
@@ -323,10 +304,7 @@ class _Part:
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 
     def _rows(self, outer: list[Term], shape: Term) -> list[Statement]:
-        """Return the statements that apply the flow to all pairs between two adjacent rows.
-
-        Each pair consists of one site of the first row and one site of the second row.
-        """
+        """Return the statements that apply the flow to all pairs between two adjacent rows."""
         axis, length = self.own.axis, shape[self.own.axis]
         index = outer[axis]
         there = count("there")
@@ -348,6 +326,6 @@ def _advance(plan: Plan, step: SiteStep, parts: list[_Part | _Kick]) -> Function
     body: list[Statement] = []
     for number, flow in enumerate(step.flows):
         duration = value(domain.number(flow.duration) * domain.space.sym("h"))
-        # The first flow reads the old state. All later flows read the new state.
+        # Only the first flow reads the old state.
         body.append(parts[flow.sweep].called(flow, duration, number == 0))
     return Function(ADVANCE, ABOUT_STEP, advance_parameters(plan, step), (*body, RETURNED), Kind.STATUS)

@@ -1,19 +1,17 @@
 """Newton's method for the equations of a chain, with a block-tridiagonal matrix.
 
-The equations are u = g(u). Each site has the same number of unknowns. Newton's matrix is 1 - g', where g' is
-the Jacobian of g. The matrix is computed to first order in the step size h, because higher orders would cost
-more. In each step, the matrix is factored once. The rows for site i contain three blocks of the matrix: A_i,
-B_i and C_i. These blocks multiply the unknowns of the left neighbour, of site i, and of the right neighbour.
+The equations are u = g(u). Newton's matrix is 1 - g', where g' is the Jacobian of g. The matrix is computed
+to first order in the step size h, because higher orders would cost more. In each step, the matrix is factored
+once. The rows for site i contain three blocks of the matrix: A_i, B_i and C_i. These blocks multiply the
+unknowns of the left neighbour, of site i, and of the right neighbour.
 
 Block elimination (the Thomas algorithm) visits the sites from left to right. The pivot block of site i is
 D_i = B_i - A_i D_{i-1}^{-1} C_{i-1}. The products D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i overwrite A_i, B_i
 and C_i. Rows are exchanged only within a pivot block.
 
-In a periodic chain the first and the last site are neighbours. The columns of the matrix for the unknowns of
-the last site are called the border. First, the equations of all other sites are solved for several right-hand
-sides: the residuals and the columns of the border. Second, the equations of the last site give its unknowns.
-Third, the unknowns of all other sites are computed. The work and the memory of a step are proportional to the
-number of sites.
+In a periodic chain, the columns of the matrix for the unknowns of the last site are called the border. First,
+the equations of all other sites are solved for the residuals and the columns of the border. Then the
+equations of the last site give its unknowns, and the unknowns of all other sites follow.
 """
 
 from __future__ import annotations
@@ -115,15 +113,15 @@ class ChainSolver:
 
         The border consists of the columns of the matrix that multiply the unknowns of the last site.
         """
-        # A column of the border is stored in the same way as the residuals. Therefore ``substitute`` can
-        # overwrite a column with a solution.
+        # ``substitute`` overwrites a column with a solution, so a column is stored in the same way as the
+        # residuals.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
         """Return the statements that assign the variables ``_BASE`` and ``_INNER``.
 
-        ``_BASE`` is the index of the first matrix entry in the workspace. ``_INNER`` is the number of sites.
-        In a periodic chain, the last site is not counted.
+        ``_BASE`` is the index of the first matrix entry in the workspace. ``_INNER`` is the number of sites,
+        in a periodic chain without the last site.
         """
         # A periodic chain has at least two sites, so ``SITES - 1`` is positive.
         inner = SITES - 1 if self.step.periodic else SITES
@@ -146,8 +144,7 @@ class ChainSolver:
             nears[k] = count(f"near_{k}")
             body.append(Assign(nears[k], place))
         read = symbols_of(newton.kernel)
-        # Each symbol in ``newton.exists`` is 1 if the neighbour exists, and 0 otherwise. The formulas use the
-        # symbol to choose between the value of the neighbour and the value for a missing neighbour.
+        # Each symbol in ``newton.exists`` is 1 if the neighbour exists, and 0 otherwise.
         for k, symbol in enumerate(newton.exists):
             there, _ = moved(PLACE, step.offsets[k][0], SITES, step.periodic)
             if symbol in read and there is not None:
@@ -168,9 +165,9 @@ class ChainSolver:
         return Function(self.name("linearise"), about, (SITES, *given, *scalars), (start, *before, loop))
 
     def substitute(self) -> Function:
-        """Return the function that solves the linear equations for one right-hand side.
+        """Return the function that solves the factored linear equations for one right-hand side.
 
-        The matrix is already factored. The solution overwrites the right-hand side.
+        The solution overwrites the right-hand side.
         """
         n, value = self.n, real("value", self.n)
 
@@ -190,11 +187,9 @@ class ChainSolver:
                 Assign(value[_I], _SUM),
             ),
         )
-        # Each new component depends on all old components of the site. Therefore ``value`` stores the new
-        # components until all new components are computed.
+        # Each new component depends on all old components of the site, so ``value`` stores the new ones.
         taken = For(_I, whole(n), (Assign(x(_SITE, _I), value[_I]),))
-        # In back substitution, a new component does not depend on other components of the site. It depends
-        # only on its old value and on the next site. Therefore the new value can overwrite the old value.
+        # In back substitution, a new component depends only on its old value and on the next site.
         right = self.cell(_SITE, RIGHT, _I, _K) * x(_SITE + 1, _K)
         backward = For(
             _I,
@@ -216,10 +211,9 @@ class ChainSolver:
         """Return the emitted function that factors the matrix and counts the singular pivot blocks."""
         n, diagonal, column = self.n, real("diagonal", self.n * self.n), real("column", self.n)
         invert = Call("invert", (whole(n), diagonal), (_REGULAR,))
-        # A singular pivot block does not end the elimination. The caller tests the number of such blocks.
+        # The caller tests the number of singular pivot blocks.
         counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
-        # The pivot block is OWN_BLOCK minus LEFT times R. Here R is the product that has overwritten the
-        # block RIGHT of the previous site.
+        # The pivot block is OWN_BLOCK minus LEFT times the product that replaced RIGHT of the previous site.
         left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
         pivot = (
             Assign(_SUM, self.cell(_SITE, OWN_BLOCK, _I, _J)),
@@ -237,8 +231,7 @@ class ChainSolver:
                 ),
                 Assign(column[_I], _SUM),
             )
-            # Each new entry depends on all old entries of its column. Therefore ``column`` stores the new
-            # entries until all new entries are computed.
+            # Each new entry depends on all old entries of its column, so ``column`` stores the new entries.
             back = Assign(self.cell(_SITE, block, _I, _J), column[_I])
             scaled.append(For(_J, whole(n), (For(_I, whole(n), entry), For(_I, whole(n), (back,)))))
         stored = Assign(self.cell(_SITE, OWN_BLOCK, _I, _J), diagonal[_I * n + _J])
@@ -269,7 +262,6 @@ class ChainSolver:
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
             # In a chain of two sites, both blocks have the same place in the border (``_LAST`` is 0).
-            # Therefore the blocks are added.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -278,14 +270,12 @@ class ChainSolver:
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that compute and invert the pivot block of the last site.
 
-        These statements first solve the equations of all other sites. The right-hand sides are the columns of
-        the border (:meth:`border`). Each column is overwritten with its solution.
+        Each column of the border (:meth:`border`) is overwritten with its solution at all other sites.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # All three blocks belong to the last site. The right neighbour of the last site is site 0, and the
-        # left neighbour is site ``_LAST``.
+        # The right neighbour of the last site is site 0, and the left neighbour is site ``_LAST``.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (
@@ -312,15 +302,14 @@ class ChainSolver:
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
                 Assign(most, greatest([most, size(change)])),
-                # A maximum may ignore a NaN, but a sum does not. Therefore the sum is computed, too.
+                # A maximum may ignore a NaN, but a sum does not.
                 Assign(moves, moves + size(change)),
                 Assign(largest, greatest([largest, size(unknown)])),
                 Assign(unknown, unknown + change),
             ]
         base, inner_sites = self.opening()
         body: list[Statement] = [
-            # Only the statements for a periodic chain use the variable ``_BASE``. In an open chain, C
-            # compilers would warn about an unused variable.
+            # In an open chain, C compilers would warn about the unused variable ``_BASE``.
             *([base] if self.step.periodic else []),
             inner_sites,
             Call(self.name("substitute"), (_INNER, SITES, self.work, first)),
@@ -336,7 +325,6 @@ class ChainSolver:
     def border_solved(self, first: Term) -> list[Statement]:
         """Return the statements that complete the solution of the linear equations in a periodic chain.
 
-        First the solution at the last site is computed. Then the solution at all other sites is corrected.
         ``first`` is the index in the workspace at which the right-hand side begins.
         """
         n, value = self.n, real("value", self.n)
@@ -344,8 +332,7 @@ class ChainSolver:
         def x(site: Term, k: Term) -> Term:
             return self.work[first + k * STRIDE + site]
 
-        # The equations of the last site contain the solution at both neighbours. The terms of the neighbours
-        # are subtracted from the right-hand side.
+        # The terms of both neighbours are subtracted from the right-hand side of the last site.
         rest = (
             Assign(_SUM, x(_INNER, _I)),
             *self.dot(self.cell(_INNER, RIGHT, _I, _K) * x(whole(0), _K)),
@@ -357,8 +344,7 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
-        # The function ``factor`` has overwritten the columns of the border with solutions. The product of the
-        # border and the solution at the last site is subtracted at all other sites.
+        # The function ``factor`` has overwritten the columns of the border with solutions.
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),

@@ -1,13 +1,13 @@
 """The solution of implicit equations on a lattice, by fixed-point iteration or by Newton's method.
 
 The equations are u = g(u), with unknowns u at each site. One iteration consists of one or more sweeps over
-all sites. Iterations are repeated until the unknowns converge.
+all sites.
 
-In fixed-point iteration, the last sweep of each iteration replaces u by g(u). This sweep also stores two
-numbers for each site: the largest change of an unknown, and the largest absolute value of an unknown. The
-stopping rule (:mod:`codegen.run.stopping`) uses the maxima of these numbers over all sites.
+In fixed-point iteration, the last sweep of each iteration replaces u by g(u). The stopping rule
+(:mod:`codegen.run.stopping`) uses the largest change and the largest absolute value of an unknown over
+all sites.
 
-Newton's method for chains (:mod:`codegen.run.site_newton`) stores the residuals g(u) - u. Then it corrects u.
+Newton's method for chains (:mod:`codegen.run.site_newton`) stores the residuals g(u) - u instead.
 """
 
 from __future__ import annotations
@@ -44,8 +44,7 @@ from codegen.run.terms import (
 MEASURE, REACH = "measured", "largest_state"
 """The names of two functions that compute maxima over all sites.
 
-MEASURE computes the largest change of an unknown and the largest absolute value of an unknown. REACH computes
-the largest absolute value of the state variables."""
+MEASURE is for the unknowns and their changes, and REACH is for the state variables."""
 
 _REACH, _PLACE = real("reach"), count("place")
 
@@ -55,12 +54,10 @@ class _Stopping(Stopping):
 
     def converged(self) -> list[Statement]:
         """Return the statements that test whether the unknowns have converged."""
-        # The function ``REACH`` loops over the states of all sites. To save time, it is called only if the
-        # changes no longer decrease.
+        # To save time, ``REACH`` is called only if the changes no longer decrease.
         still = both(self.previous > 0.0, CHANGE >= self.previous)
         measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
-        # Compilers require that ``_REACH`` always has a value, so zero is assigned first. The stopping rule
-        # never uses the zero.
+        # Compilers require that ``_REACH`` always has a value, but the stopping rule never uses this zero.
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
@@ -75,7 +72,7 @@ class _Stopping(Stopping):
 def loop_of(block: SiteBlock) -> Loop:
     """Return the data that the stopping rule needs about a block of equations."""
     newton = None if block.newton is None else Newton((), (), leading=True)
-    # The starting value (zero) is never used. A loop without starting values would count as a warm start.
+    # A loop without starting values would count as a warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
 
 
@@ -124,8 +121,7 @@ def solvers(plan: Plan, step: SiteStep) -> list[Function]:
     """
     listed = [_reach(step)] if step.blocks else []
     for number_of_block, block in enumerate(step.blocks, 1):
-        # With Newton's method, each block of equations has its own functions. With fixed-point iteration, all
-        # blocks share one function.
+        # With fixed-point iteration, all blocks share one function.
         if block.newton is not None:
             listed += ChainSolver(plan, step, block, number_of_block).functions()
         elif number_of_block == 1:
@@ -142,13 +138,13 @@ def _measure(step: SiteStep) -> Function:
     start = [count("changes"), count("sizes")]
     most, all_changes, largest = real("most"), real("sum"), real("largest_unknown")
     change = real("change")
-    # If several processors execute the loop, their maxima and sums must be combined. Reductions do this.
+    # If several processors execute the loop, their maxima and sums must be combined.
     reductions = (("max", most), ("max", largest), ("+", all_changes))
     body = (
         Assign(change, work[start[0] + _PLACE]),
         Assign(most, greatest([most, change])),
-        # A maximum may ignore a NaN, but a sum does not. The sum is NaN if a change is not finite. Otherwise
-        # all terms are 0, so the order of the additions has no influence.
+        # A maximum may ignore a NaN, but this sum is NaN if a change is not finite. Otherwise all terms are
+        # 0, so the order of the additions has no influence.
         Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )
