@@ -1,7 +1,7 @@
 """Sums over all sites of a lattice.
 
-The sites are divided into chunks of consecutive sites. Each chunk has its own sum, and these sums are added
-in a fixed order. Therefore the result does not depend on the number of threads.
+The sums of chunks of consecutive sites are added in a fixed order. Therefore the result does not depend on
+the number of threads.
 """
 
 from __future__ import annotations
@@ -12,9 +12,7 @@ from codegen.run.site_terms import ARRAYS, CHUNK, FIRST, SITES, SIZE, chunks, ro
 from codegen.run.terms import Kind, count, number, own, real
 
 SUM = "sum_of_terms"
-"""The name of the function that adds the numbers in one row of the workspace.
-
-A row contains one number for each site."""
+"""The name of the function that adds the numbers in one row of the workspace."""
 
 _START, _PLACE, _CHUNK, _SUM, _PART = count("start"), count("place"), count("k"), real("sum"), real("part")
 
@@ -38,8 +36,7 @@ def sum_of_terms() -> Function:
         # The first number of a chunk is no longer needed, so the sum of the chunk overwrites this number.
         Assign(work[_START + FIRST], _PART),
     )
-    # One processor adds the sums of the chunks in a fixed order. The number of chunks is rounded up, because
-    # the last chunk may have fewer sites.
+    # One processor adds the sums of the chunks in a fixed order.
     whole = For(_CHUNK, (SITES + (CHUNK - 1)) // CHUNK, (Assign(_SUM, _SUM + work[_START + _CHUNK * CHUNK]),))
     return Function(
         SUM,

@@ -18,28 +18,30 @@ Count = TypeVar("Count", int, Term)
 SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
 """SITES is the number of all sites, and COLUMNS is the number of sites in one row of the lattice.
 
-COLUMN is the position of a site in its row. ROW is the index of the first site of this row. Indices count all
-sites of the lattice."""
+COLUMN is the position of a site in its row. ROW is the index of the first site of this row among all sites.
+"""
 
 STRIDE = count("stride")
 """The distance between the beginnings of two consecutive rows of the workspace, in array entries."""
 
 SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), count("i")
 BAD, WHOLE = count("bad"), flag("whole")
-"""BAD is the number of sites whose new state is not finite, and WHOLE is a flag.
+"""BAD is the number of sites whose new state is not finite.
 
-If WHOLE is true, all sites are computed with sines, cosines and Stumpff functions that accept all arguments.
-Otherwise most sites are computed with fast variants for arguments near zero."""
+If the flag WHOLE is true, all sites are computed with sines, cosines and Stumpff functions that accept all
+arguments.
+"""
 
 # The size 0 means that the length of an array is known only at run time.
 _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
 """A loop over consecutive sites is divided into chunks of CHUNK sites.
 
-Several processors can share the chunks. For fewer than MANY_SITES sites, one processor executes all loops,
-because threads save no time on small lattices. On 1024 spins, a step of the method ``cf4`` takes the same
-time with one and with two threads. On 4096 spins, two threads need 0.55 times as long as one thread. These
-times were measured with ``benchmarks/lattice.py --threads 2``, without the limit MANY_SITES."""
+For fewer than MANY_SITES sites, one processor executes all loops, because threads save no time on small
+lattices. On 1024 spins, a step of the method ``cf4`` takes the same time with one and with two threads. On
+4096 spins, two threads need 0.55 times as long as one thread. These times were measured with
+``benchmarks/lattice.py --threads 2``, without the limit MANY_SITES.
+"""
 
 _PASS, FIRST, SIZE = count("chunk"), count("first"), count("size")
 """The index of a chunk, its first site, and its number of sites."""
@@ -50,7 +52,7 @@ ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str, Term], ...] = ()) -> For:
     """Return a parallel loop over the chunks of ``number`` consecutive sites.
 
-    ``body`` computes one chunk. The chunk has SIZE sites, and its first site has the index FIRST.
+    ``body`` computes the SIZE sites that begin at the index FIRST.
     """
     rest = number - FIRST
     # The last chunk may have fewer sites than the other chunks.
@@ -83,8 +85,7 @@ def padded(sites: Count) -> Count:
 
     If the distance were a large power of two, such as 512, the numbers of one site would compete for the same
     few lines of a cache. A step of the method ``cf4`` would then take 1.7 times as long on 1024 x 1024 spins
-    (``benchmarks/lattice.py --side 1024``). On a rod of 512 sections, a step would take 2.3 times as long
-    (``benchmarks/rod.py``).
+    (``benchmarks/lattice.py --side 1024``).
 
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
@@ -96,7 +97,7 @@ def padded(sites: Count) -> Count:
 def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
     """Return the array entry that ``row`` contains for the site with the index ``place``."""
     array = ARRAYS[row.array]
-    # Only the workspace has padded rows. The rows of a state have exactly ``sites`` entries.
+    # Only the workspace has padded rows.
     if row.array == WORK:
         return array[row_of(step, row.number) + place]
     return array[(row.number * SITES if row.number > 1 else SITES) + place] if row.number else array[place]
@@ -105,7 +106,7 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 def row_of(step: SiteStep, number: int | Term) -> Term:
     """Return the index at which row ``number`` of the workspace begins.
 
-    The first ``step.size`` rows of the workspace contain a state. Row 0 comes after these rows.
+    Row 0 comes after the ``step.size`` rows of a state.
     """
     first = number + step.size
     return STRIDE if isinstance(first, int) and first == 1 else first * STRIDE
@@ -124,19 +125,14 @@ def with_stride(function: Function) -> Function:
 def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
     """Return a test and an index for the neighbour at ``index + offset`` in a dimension with ``size`` sites.
 
-    The test is true if ``index + offset`` is in the range 0, ..., ``size`` - 1. If the test is true, the
-    returned index is ``index + offset``. If the test is false, the returned index depends on the lattice:
-
-    - In an open lattice, the neighbour does not exist, and the returned index is ``index``.
-    - In a periodic lattice, the returned index is ``index + offset`` minus or plus ``size``. The emitted
-      functions reject a ``size`` for which this index is out of range.
-
-    If the offset is zero, the test is None.
+    The test is true if ``index + offset`` is in the range 0, ..., ``size`` - 1. Then the returned index is
+    ``index + offset``. Otherwise, the returned index is ``index`` in an open lattice, and ``index + offset``
+    minus or plus ``size`` in a periodic lattice. If the offset is zero, the test is None.
     """
     if not offset:
         return None, index
     far = abs(offset)
-    # Unsigned variables cannot be negative. Therefore the test avoids the difference ``size - far``.
+    # The variables are unsigned, so the test avoids the difference ``size - far``, which may be negative.
     there = index + far < size if offset > 0 else index >= far
     moved = index + far if offset > 0 else index - far
     wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index
@@ -144,17 +140,16 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
 
 
 def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
-    """Split the statements of a kernel into two lists. Return both lists and the outputs of the kernel.
+    """Split the statements of a kernel into two lists, and also return the outputs of the kernel.
 
     The first list contains the statements whose results depend only on the scalars ``shared``, such as h.
-    The second list contains all other statements.
     """
     before: list[Statement] = []
     inside: list[Statement] = []
     known = set(shared)
     arranged = arrange(kernel)
     for statement in arranged.statements:
-        # The kernel of a sweep contains no loops. Implicit equations are solved by repeated sweeps.
+        # The kernel of a sweep contains no loops.
         assert isinstance(statement, Simple)
         for single in simple(statement):
             if all(term.text in known for term in reads(single)):

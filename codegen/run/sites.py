@@ -3,17 +3,12 @@
 The number of sites in each dimension is an argument of the emitted functions. Row k of an array contains
 component k of all sites. Within a row of an array, the last index of a site changes fastest.
 
-A sweep computes the same formulas at all sites. Sweep number K has three functions. ``sweep_K`` computes
-consecutive sites whose neighbours all exist. The loop in ``sweep_K`` has no branches, so compilers can use
-vector instructions. ``site_K`` computes one site, which may be at the boundary. ``pass_K`` calls both
-functions and computes all sites.
+Sweep number K has three functions. ``sweep_K`` computes consecutive sites whose neighbours all exist.
+``site_K`` computes one site, which may be at the boundary. ``pass_K`` computes all sites with both functions.
 
-``sweep_K`` uses fast sines, cosines and Stumpff functions. For arguments far from zero, these fast functions
-return NaN.
-``site_K`` accepts all arguments. If the new state is not finite at some site, the step is repeated with
-``site_K`` for all sites. A finite result of ``sweep_K`` is equal to the result of ``site_K``, bit for bit.
-Sweeps for implicit equations are repeated until the unknowns of all sites converge
-(:mod:`codegen.run.site_solver`).
+``sweep_K`` uses fast sines, cosines and Stumpff functions, which return NaN for arguments far from zero. If
+the new state is not finite at some site, the step is repeated with ``site_K`` for all sites. A finite result
+of ``sweep_K`` is equal to the result of ``site_K``, bit for bit.
 """
 
 from __future__ import annotations
@@ -111,7 +106,7 @@ def complete(plan: Plan, step: SiteStep, listed: list[Function]) -> list[Functio
     """Return all functions of a step: the functions ``listed``, followed by the public functions."""
     shape = shape_of(step)
     counted = Assign(SITES, _product(shape, step.dimension))
-    # The user of the emitted code allocates the workspace. The function ``workspace`` returns its length.
+    # The user of the emitted code allocates the workspace.
     size = Return(step.workspace * STRIDE)
     workspace = Function(
         "workspace", "", (shape,), (counted, Assign(STRIDE, padded(SITES)), size), Kind.COUNT, public=True
@@ -125,7 +120,7 @@ def _product(shape: Term, dimension: int) -> Term:
 
 def checked(values: Sequence[Term]) -> list[Statement]:
     """Return the statements that add 1 to BAD if one of the ``values`` is not finite."""
-    # ``x - x`` is 0 for a finite x, and NaN otherwise. If a value is not finite, the sum ``check`` is NaN.
+    # ``x - x`` is 0 for a finite x, and NaN otherwise.
     check = real("check")
     bad = select(check.equals(number(0.0)), whole(0), whole(1))
     return [Assign(check, paired([x - x for x in values])), Assign(BAD, BAD + bad)]
@@ -184,9 +179,10 @@ class Loop:
     def loaded(
         self, load: Load, place: Term, around: dict[int, Term], exist: Mapping[int, Term] | None = None
     ) -> Term:
-        """Return the entry that a load reads. ``around`` contains the site index of each neighbour.
+        """Return the entry that a load reads.
 
-        ``exist`` contains a flag for each neighbour. If ``exist`` is None, all neighbours exist.
+        ``around`` contains the site index of each neighbour, and ``exist`` contains a flag for each
+        neighbour. If ``exist`` is None, all neighbours exist.
         """
         if load.row.array == EXISTS:
             one = number(1.0)
@@ -195,8 +191,7 @@ class Loop:
 
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
         """Return the statements that store and test the results ``ends`` of one site."""
-        # The first results are the new values of the unknowns. For Newton's method, the residuals are stored
-        # in place of the new values.
+        # For Newton's method, the residuals are stored in place of the new values of the unknowns.
         body, images = self._images(ends)
         tested = []
         replaced = images if self.own.measured else self._residuals(images)
@@ -230,8 +225,8 @@ class Loop:
         body: list[Statement] = [
             Assign(c, size(x - u)) for c, x, u in zip(changes, images, unknowns, strict=True)
         ]
-        # A maximum may ignore a NaN. If a change is not finite, the sum s of the changes is not finite, and
-        # ``s - s`` is NaN. Therefore ``s - s`` is added to the largest change.
+        # A maximum may ignore a NaN. For the sum s of the changes, ``s - s`` is NaN if a change is not
+        # finite.
         sum_of_changes = real("total")
         body.append(Assign(sum_of_changes, total(changes)))
         largest = (greatest(changes) + (sum_of_changes - sum_of_changes), greatest(map(size, unknowns)))
@@ -308,8 +303,7 @@ class Loop:
         before, inside, ghosts = split(self.own.outside, set())
         body += [*before, *inside]
         for load, ghost in zip(around, ghosts, strict=True):
-            # This load is executed even if the neighbour is missing. In this case, the load reads an
-            # existing site.
+            # If the neighbour is missing, this load reads an existing site.
             there = self.loaded(load, PLACE, nears)
             body.append(Assign(own(load.symbol), select(exist[load.neighbour], there, ghost)))
         return body
@@ -317,9 +311,9 @@ class Loop:
     def rows(self) -> tuple[Term, ...]:
         """Return the arguments that describe one row of the lattice.
 
-        The first argument is the index of the first site of the row. The next arguments are the indices of
-        the first sites in the rows of the neighbours. In an open lattice with several rows, the last
-        arguments are flags, one for each neighbour. A flag is true if the row of its neighbour exists.
+        The first arguments are the indices of the first sites of this row and of the neighbours' rows. In an
+        open lattice with several rows, the last arguments are flags for the existence of the neighbours'
+        rows.
         """
         starts = [count(f"row_{k}") for k in self.neighbours]
         flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours
@@ -362,16 +356,16 @@ class Loop:
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
         regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
-        # The first loop calls ``site_K``. If ``sweep_K`` computes no sites, this loop computes the whole row.
+        # If ``sweep_K`` computes no sites, the first loop computes the whole row.
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
         lead = self._peeled(_LEAD, INDEX)
-        # If WHOLE is true, this loop computes all sites of a chain. Therefore it is executed in parallel.
+        # In a chain, this loop is parallel, because it computes all sites if WHOLE is true.
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER
-        # A chain has a single row. Several processors compute the chunks of this row.
+        # Several processors compute the chunks of the single row of a chain.
         if chain:
             places, number = [place + FIRST for place in places], SIZE
         arguments = (places[0], number, *places[1:], SITES, *self.arrays, *self.scalars)
@@ -399,7 +393,7 @@ def first_site(indices: Sequence[Term], shape: Term) -> Term:
     """Return the index of the first site of a row. ``indices`` is the position of the row in the lattice."""
     if not indices:
         return whole(0)
-    # Horner's rule counts the rows before this row. For two indices i and j, it gives ``i * shape[1] + j``.
+    # For two indices i and j, Horner's rule gives ``i * shape[1] + j``.
     total = indices[0]
     for e, index in enumerate(indices[1:], 1):
         total = total * shape[e] + index
@@ -415,7 +409,7 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
-        # One loop repeats all sweeps of a block of equations. ``calls`` collects the calls of these sweeps.
+        # One loop repeats all sweeps of a block of equations.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls
@@ -431,14 +425,12 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 def _too_small(step: SiteStep) -> Term:
     """Return a test that is true if the step cannot be computed on a lattice of the given shape.
 
-    The test is true if a dimension has too few sites. In a periodic lattice, a sweep may act on pairs of
-    neighbours. Then the number of sites in the direction of the pairs must be even.
+    In a periodic lattice, the number of sites in the direction of paired neighbours must be even.
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
-        # In a periodic lattice, ``shape[e]`` is added once to an index that is too small, or subtracted once
-        # from an index that is too large. A single addition or subtraction is enough only if ``shape[e]``
-        # is larger than all offsets.
+        # In a periodic lattice, ``shape[e]`` is added to an index or subtracted only once. Therefore
+        # ``shape[e]`` must be larger than all offsets.
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
@@ -450,8 +442,7 @@ def _too_small(step: SiteStep) -> Term:
 def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
     """Return the public function that makes several steps of equal size.
 
-    If ``twice`` is True, a step whose result is not finite is repeated once. The repeated step uses sines,
-    cosines and Stumpff functions that accept all arguments.
+    If ``twice`` is True, a step whose result is not finite is repeated once with the flag WHOLE.
     """
     later = exact_time(TIME, _DONE, STEP)
 
@@ -463,14 +454,13 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
         )
 
     def tried(old: Term, new: Term) -> tuple[Statement, ...]:
-        # The first attempt uses fast sines, cosines and Stumpff functions. If an argument is large, they
-        # return NaN, and the step is repeated.
+        # The fast sines, cosines and Stumpff functions return NaN for large arguments, and the step is
+        # repeated.
         again = If(STATUS.equals(code(NOT_FINITE)), (advance(old, new, True),))
         return (advance(old, new, False), *((again,) if twice else ()))
 
     even = (_DONE % 2).equals(whole(0))
-    # Steps read the state alternately from ``state`` and from the workspace, and write the new state to the
-    # other array. Therefore the state is not copied after each step.
+    # Steps alternate between ``state`` and the workspace, so the state is not copied after each step.
     body = (
         If(even, tried(_STATE, _WORK), tried(_WORK, _STATE)),
         If(STATUS.equals(code(OK)), (Assign(_DONE, _DONE + 1),)),

@@ -2,30 +2,23 @@
 Newton.
 
 Newton's method can keep its matrix for several steps. Simplified Newton computes a matrix in each step or
-substep, correct to first order in h. :class:`codegen.ir.kernel.Newton` describes the matrices of both
-methods. Fixed-point iteration needs no matrix, and each sweep multiplies the error by a factor O(h).
+substep, correct to first order in h. Fixed-point iteration needs no matrix, and each sweep multiplies the
+error by a factor O(h).
 
-The solver with the shortest predicted time is chosen, but robust solvers are preferred (see below). The first
-trial of a solver (:mod:`codegen.run.trial`) makes :data:`STEPS` steps from the initial state of the problem's
-example. The trial counts the sweeps and the computed matrices. From these counts the cost model
-(:mod:`codegen.run.step_cost`) predicts the time of a step. ``benchmarks/solver_choice.py`` compares the
-choices with measured times.
+The solver with the shortest predicted time is chosen, but robust solvers are preferred. The first trial of a
+solver (:mod:`codegen.run.trial`) makes :data:`STEPS` steps from the initial state of the problem's example.
+From the counted sweeps and matrices, the cost model (:mod:`codegen.run.step_cost`) predicts the time of a
+step. ``benchmarks/solver_choice.py`` compares the choices with measured times.
 
 The first trial uses the step size of the example, called the usual step size. The second trial makes one step
 of :data:`LONGER` times this size. A solver is robust if it converges in both trials and needs at most
-:data:`SWEEPS` sweeps in the second trial. Fixed-point iteration needs more sweeps in longer steps. For linear
-equations, the number of sweeps of Newton's method does not grow with the step size.
+:data:`SWEEPS` sweeps in the second trial.
 
 A robust solver is preferred if its predicted time is at most :data:`PRICE` times the time of the fastest
 solver. Without this limit, a step would take 5 to 14 times as long for some problems of the gallery with 24
 or 36 unknowns (``benchmarks/README.md``).
 
-For linear equations, a robust solver is preferred at any cost. A step may take more time, but the step size
-can be much larger, so the whole run may be faster.
-
-A kernel with many unknowns takes long to build and to try. Therefore a lower bound of its step time is
-computed first. If another solver is known to be preferred even at this bound, the kernel is not built
-(:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
+For linear equations, a robust solver is preferred at any cost, because the step size can be much larger.
 """
 
 from __future__ import annotations
@@ -49,22 +42,23 @@ from orderconds.errors import UnknownName
 
 AUTO = "auto"
 CHOICES = (AUTO, NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
-"""The values of the option for the solver. With AUTO, this module chooses the solver."""
+"""The values of the option for the solver."""
 
 ASKED = "as asked for"
 """The reason that is reported for a solver that the user has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""The first trial of a solver makes STEPS steps of the usual size.
+"""The first trial of a solver makes STEPS steps of the usual size, or FEW_STEPS with more than LARGE
+unknowns.
 
-If there are more than LARGE unknowns, the first trial makes only FEW_STEPS steps. If the solver converges, a
-second trial makes one step of LONGER times the usual size.
+The second trial makes one step of LONGER times the usual size.
 """
 
 SWEEPS = 50
 """The largest number of sweeps that a robust solver may need in the long step of the second trial.
 
-SWEEPS is half of ``Loop.limit``. An iteration fails if it has not converged after ``Loop.limit`` sweeps."""
+SWEEPS is half of ``Loop.limit``, the largest number of sweeps of an iteration.
+"""
 
 PRICE = 4.0
 """A robust solver is preferred if its step takes at most PRICE times as long as a step with the fastest
@@ -138,7 +132,7 @@ def solved(
     - ``iterated`` is the kernel with fixed-point iteration, if the caller has already built it.
 
     UnknownName is raised if ``asked`` is not in :data:`CHOICES`. MethodError is raised if the requested
-    solver needs a matrix that cannot be computed, for example because a derivative is not known.
+    solver needs a matrix that cannot be computed.
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)
@@ -180,7 +174,7 @@ def is_linear(loop: Loop) -> bool:
     """Return True if the equations u = g(u) of ``loop`` are linear in the unknowns u."""
     # A symbol that is not in this dictionary does not depend on the unknowns, so its degree is 0.
     degrees: dict[str, int] = dict.fromkeys(loop.unknowns, 1)
-    # The statements are visited in order. Each statement uses only names that are assigned above it.
+    # Each statement uses only names that are assigned above it.
     for let in loop.body:
         degrees[let.name] = _degree(let.value, degrees)
     return all(_degree(image, degrees) <= 1 for image in loop.images)
@@ -189,8 +183,7 @@ def is_linear(loop: Loop) -> bool:
 def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
     """Return the degree of an expression as a polynomial in the unknowns: 0, 1 or NONLINEAR.
 
-    ``degrees`` contains the degree of each symbol that depends on the unknowns. All other symbols have the
-    degree 0.
+    Symbols that are not in ``degrees`` have the degree 0.
     """
     degree_of: dict[int, int] = {}
     for e in walk((root,)):
@@ -266,7 +259,7 @@ def amount(x: float, one: str, several: str) -> str:
     >>> [amount(x, "matrix", "matrices") for x in (1.0, 0.35, 2.0)]
     ['1 matrix', '0.35 matrices', '2 matrices']
     """
-    # Trailing zeros are removed. If no decimals are left, the decimal point is removed too.
+    # Trailing zeros and a trailing decimal point are removed.
     number = f"{x:.2f}".rstrip("0").rstrip(".")
     return f"{number} {one if number == '1' else several}"
 
@@ -293,7 +286,7 @@ class _Selection:
 
     def chosen(self) -> tuple[Kernel, tuple[Choice, ...]]:
         """Return the kernel, and the choice of the solver for each block."""
-        # Newton's method is tried first. If it is fast, simplified Newton is not tried.
+        # Newton's method is first, because simplified Newton is not tried if Newton's method is fast.
         for solver in (NEWTON, SIMPLIFIED_NEWTON):
             self.consider(solver)
         able = {s: c for s, c in self.candidates.items() if c.usual.converged}
@@ -330,8 +323,7 @@ class _Selection:
         If a lower bound of the step time shows that the solver would not be chosen, no kernel is built.
         """
         least = self.least(solver)
-        # For linear equations a robust solver is preferred even if it is slow. If fixed-point iteration is
-        # not robust, Newton's method is therefore tried, whatever its lower bound is.
+        # For linear equations a robust solver is preferred even if it is slow.
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust
         if not needed and any(
             self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged
@@ -356,7 +348,7 @@ class _Selection:
     def allowed(self, solver: str, candidate: Candidate) -> float:
         """Return the step time in nanoseconds below which another solver is worth a trial.
 
-        ``candidate`` has been tried and converges. ``solver`` is its solver.
+        ``candidate`` uses ``solver`` and converges in its first trial.
         """
         # If ``candidate`` is not robust, a robust solver may take PRICE times as long. For Newton's method
         # with more than LARGE unknowns, PRICE is omitted, to avoid a slow trial of simplified Newton.
@@ -370,10 +362,9 @@ class _Selection:
     def least(self, solver: str) -> float:
         """Return a lower bound of the time of a step with ``solver``, in nanoseconds.
 
-        The bound assumes that each solution of a block takes one sweep. The bound omits the inversion of
-        small matrices, because the formulas for their inverses are not known before the kernel is built.
+        The bound assumes one sweep for each solution of a block, and omits the inversion of small matrices.
         """
-        # First ``total`` is the work without matrices. The loop below adds the work with matrices.
+        # Here ``total`` is the work without matrices.
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
         )
@@ -395,27 +386,23 @@ class _Selection:
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
-        """Return the candidate that solves each block with its best solver.
+        """Return the candidate that solves each block with its solver in ``best``.
 
-        ``best`` contains the best solver for each block. If these solvers differ, their combination is tried.
-        If the combination fails or is less robust, the fastest candidate of ``robust`` is returned instead.
-        That candidate uses one solver for all blocks.
+        If this candidate fails or is less robust, the fastest candidate of ``robust`` is returned instead.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
             return robust[best[0]]
         solvers = {loop.label: s for loop, s in zip(self.fixed.loops, best, strict=True)}
-        # Each solver converged when it solved all blocks, but their combination may fail. Therefore the
-        # combination needs a trial.
+        # Each solver converged when it solved all blocks, but their combination may fail.
         mixed = Candidate(self.kernel(solvers), self.scene, self.initial)
         return mixed if mixed.robust or (mixed.usual.converged and not uniform.robust) else uniform
 
     def by_continuation(self) -> tuple[Kernel, tuple[Choice, ...]]:
         """Return the kernel and the choices for a problem on which every solver failed in its first trial.
 
-        With at most LARGE unknowns, each solver is tried with continuation in h. Among the solvers that
-        converge, the solver with the shortest predicted time is chosen. In all other cases Newton's method is
-        chosen. If there is no kernel with Newton's method, fixed-point iteration is chosen.
+        With at most LARGE unknowns, the fastest solver that converges with continuation in h is chosen. In
+        all other cases, Newton's method is chosen, or fixed-point iteration if Newton's method has no kernel.
         """
         kernels = {s: c.kernel for s, c in self.candidates.items()}
         small = unknowns_of(self.fixed) <= LARGE
@@ -436,7 +423,7 @@ class _Selection:
             if able:
                 reasons.append(f"{failed} directly; with continuation in h, {counted(trials[solver], k)}")
             else:
-                # Continuation was tried only if ``small`` is True. A text times False is empty.
+                # Continuation was tried only if ``small`` is True.
                 reasons.append(f"{failed}{', nor by continuation in h' * small}: take shorter steps")
         choices = self.choices(kernels[solver], reasons)
         return kernels[solver], tuple(replace(choice, converges=bool(able)) for choice in choices)

@@ -37,8 +37,7 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     total = statistics.field("sweeps", Kind.COUNT, (len(plan.kernel.loops),))[block]
     adding = (
         Assign(total, total + sweeps),
-        # A single step with many sweeps is the first sign that the step size is too large. The sum over all
-        # steps does not show such a step.
+        # A single step with many sweeps is the first sign that the step size is too large.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )

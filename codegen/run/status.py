@@ -92,8 +92,7 @@ MODE_MEANINGS = {
 def reason(status: str, block: str, h: float) -> str:
     """Return the text that explains a failure in an error message.
 
-    ``block`` is the label of the block of equations that failed, or '' if no block failed. ``h`` is the step
-    size.
+    ``block`` is the label of the block of equations that failed, or '' if no block failed.
 
     >>> reason("SINGULAR", "the equations of x", 0.1)
     'the matrix of the equations of x is singular'

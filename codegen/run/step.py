@@ -1,8 +1,7 @@
 """Build the emitted functions for one step and for one substep.
 
-A step evaluates the kernel once, or once in each substep. If a step fails, the state is unchanged. A step
-fails if the step size, the new state, or an entry of the old state that the kernel does not read is not
-finite. A step also fails if the iteration for an implicit equation does not converge.
+A step fails if the step size or the new state is not finite, or if an iteration does not converge. If a step
+fails, the state is unchanged.
 """
 
 from __future__ import annotations
@@ -63,15 +62,12 @@ def kernel_step(plan: Plan) -> Function:
     parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
     parameters += (*plan.remembering(plan.memory), *plan.counted)
     parameters += (plan.error,) if plan.kernel.estimate is not None else ()
-    # The formulas of the new entries read the old state. Therefore all new entries are computed before the
-    # first entry of the state is overwritten.
+    # All new entries are computed before the first entry is overwritten, because they depend on the old
+    # state.
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The kernel does not read some entries of the state. A NaN in such an entry would not appear in the
-    # results of the kernel, so these entries are tested separately.
+    # A NaN in an entry that the kernel does not read would not appear in the results of the kernel.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
-    # The initial guess for the next step does not depend on the outputs of the kernel. The statements
-    # for the guess are placed before the outputs. Then a processor can compute the guess and the outputs at
-    # the same time.
+    # The guess for the next step comes before the outputs, so that a processor can compute both at once.
     inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
     array = whole_result(plan.arrangement.outputs)
     finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)
@@ -94,7 +90,6 @@ def kernel_step(plan: Plan) -> Function:
 def _remembered(plan: Plan) -> list[Statement]:
     """Return the statements that compute the initial guess for the next step (warm start).
 
-    The initial guess is extrapolated from the solutions of the equations in this step and in earlier steps.
     If the kernel has no warm start, the list is empty.
     """
     if plan.start is None:
@@ -106,7 +101,7 @@ def _remembered(plan: Plan) -> list[Statement]:
 
 
 def _errors(plan: Plan) -> list[Statement]:
-    """Return the statements that store the error estimate. If there is no estimate, the list is empty."""
+    """Return the statements that store the error estimate, if there is an estimate."""
     if plan.kernel.estimate is None:
         return []
     errors = stored(plan.error, [value(x) for x in plan.arrangement.errors])
@@ -117,8 +112,7 @@ def _errors(plan: Plan) -> list[Statement]:
 def _aged(plan: Plan) -> list[Statement]:
     """Return the statements that update the age of each stored inverse matrix after a step.
 
-    A new matrix has the age 1, and each step adds 1. After ``period`` steps the age becomes 0, and the next
-    step computes a new matrix. If a loop has no period, its matrix has no such age limit.
+    After ``period`` steps the age becomes 0, and the next step computes a new matrix.
     """
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):
@@ -133,8 +127,7 @@ def _aged(plan: Plan) -> list[Statement]:
 
 def exact_time(start: Term, steps: Term, h: Term) -> Term:
     """Return the time ``start + steps * h``. It is computed in double precision and then rounded once."""
-    # Repeated updates ``t += h`` would accumulate rounding errors. In single precision, a short step might
-    # not change t at all.
+    # Repeated updates ``t += h`` would accumulate rounding errors.
     return narrow(wide(start) + wide(steps) * wide(h))
 
 
@@ -162,8 +155,8 @@ def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
 def composed_step(plan: Plan) -> Function:
     """Return the emitted function that makes one step as a sequence of substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
-    # The initial guess is extrapolated from earlier solutions. These solutions must lie on a smooth curve, so
-    # they must belong to one substep of successive steps. Therefore each substep has its own memory.
+    # The initial guess is extrapolated from solutions of the same substep, so each substep has its own
+    # memory.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)
@@ -175,7 +168,7 @@ def composed_step(plan: Plan) -> Function:
         Assign(part, part + 1),
     )
     body: tuple[Statement, ...] = (
-        # The substeps change a copy of the state. If a substep fails, the caller's state remains unchanged.
+        # The substeps change a copy, so that a failed substep leaves the caller's state unchanged.
         Array(following),
         Assign(following, state),
         Assign(STATUS, code(OK)),

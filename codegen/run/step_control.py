@@ -10,16 +10,13 @@ limited to [0.2, 5]. If the trial directly before the accepted step was rejected
 The limits of the factors are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
 I, section II.4. The controller is by Gustafsson (Hairer and Wanner, Solving Ordinary Differential Equations
 II, section IV.2). With the exponents 0.7/p and 0.4/p in place of 0.8/p and 0.2/p, the step size would
-oscillate less, but it would follow the solution more slowly. For example, the method ``dop853`` would need 15
-to 20 % more steps for the problem ``heavy_top``.
+oscillate less, but it would follow the solution more slowly.
 
 If the caller gives no step size, the first trial step has 1/16 of the length of the interval of integration.
-If the step is accepted, the step size is multiplied by 0.9 norm^(-1/p), limited to [0.2, 16]. If the guess
-1/16 is too large, a few steps are rejected. With a much smaller guess, many steps of a short run would be too
-small.
+If the step is accepted, the step size is multiplied by 0.9 norm^(-1/p), limited to [0.2, 16].
 
-The solutions of earlier steps are bad initial guesses after a change of the step size. Therefore implicit
-steps do not use them.
+Implicit steps do not use solutions of earlier steps, which are bad initial guesses after a change of the step
+size.
 """
 
 from __future__ import annotations
@@ -62,13 +59,15 @@ After the first accepted step, the step size grows at most by the factor FIRST."
 SHARE = 0.2
 """A constant in the exponents of the controller.
 
-Let p be the order of the error estimate. In the factor for the step size, the error norm of the current step
-has the exponent -4 SHARE/p. The error norm of the previous accepted step has the exponent SHARE/p."""
+Let p be the order of the error estimate. The error norms of the current step and of the previous accepted
+step have the exponents -4 SHARE/p and SHARE/p.
+"""
 
 FLOOR = 1e-4
 """The least error norm that the controller stores for the next step.
 
-A smaller norm may occur by accident. FLOOR is stored in place of such a norm."""
+A smaller norm may occur by accident.
+"""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -86,8 +85,8 @@ def weighted(plan: Plan) -> Function:
     n, i = plan.size, count("i")
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
-    # |y_i| is the larger of the absolute values before and after the step. One of the two values may
-    # be nearly zero by accident. A tolerance computed from this value alone would be too small.
+    # |y_i| is the larger of the absolute values before and after the step. One of the two values may be
+    # nearly zero by accident.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),
@@ -114,8 +113,7 @@ def weighted(plan: Plan) -> Function:
 def between() -> Function:
     """Return the emitted function that limits a factor to an interval."""
     least, x, most = real("least"), real("x"), real("most")
-    # A comparison with a NaN is false. The test ``x > least`` comes first, so the result for a NaN is
-    # ``least``.
+    # The test ``x > least`` comes first, because this test is false for a NaN.
     bounded = select(x > least, select(x < most, x, most), least)
     about = "Clamp x to [least, most]; a NaN gives least."
     return Function("between", about, (least, x, most), (Return(bounded),), Kind.REAL)
@@ -152,14 +150,12 @@ class Controlled:
 
     def body(self) -> tuple[Statement, ...]:
         """Return the statements in the body of the emitted function."""
-        # The run may go forwards or backwards in time. The test uses two comparisons in place of ``!=``,
-        # because for a NaN both comparisons are false, and no step is made.
+        # For a NaN, both comparisons are false and no step is made, but ``!=`` would be true.
         moving = either(self.now < self.end, self.now > self.end)
         return (
             *self.begin(),
             While(both(STATUS.equals(code(OK)), moving), self.step()),
-            # The time and the step size are stored even after a failure. The caller can continue from this
-            # time, the end of the last accepted step.
+            # The time and the step size are stored even after a failure, so that the caller can continue.
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.length),
             If(given(self.accepted), (Assign(self.accepted[0], self.accepted_steps),)),
@@ -171,7 +167,7 @@ class Controlled:
         """Return the statements before the first step."""
         plan = self.plan
         # The arguments are tested for NaNs and infinities only here. In the loop, the step size is multiplied
-        # by results of ``between``. These results are finite even if the error norm is a NaN.
+        # by results of ``between``, which are always finite.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # If a tolerance is a NaN, this test is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
@@ -203,8 +199,7 @@ class Controlled:
             # A step that would go beyond the end is shortened.
             Assign(self.last, self.length >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
-            # After the last step the time is exactly ``end``. The sum ``t + h`` could differ from ``end`` by
-            # a rounding error, and a tiny step would follow.
+            # The sum ``t + h`` could differ from ``end`` by a rounding error, and a tiny step would follow.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
                 either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),
@@ -220,16 +215,14 @@ class Controlled:
         known = {"t": self.now, "h": self.taken}
         arguments = (*(known.get(x.text, x) for x in plan.moment()), *plan.parameters, *plan.sampled())
         arguments += (*plan.remembering(plan.memory), *plan.counted, self.error)
-        # The memory contains solutions of earlier steps for the initial guess. These solutions are useful
-        # only if all steps have the same size. Here the step size varies, so the memory is cleared.
+        # The solutions of earlier steps are useful initial guesses only if all steps have the same size.
         forgotten = [Assign(plan.memory, fresh(plan.memory))] if plan.remembers else []
         measured = Call("weighted", (state, self.trial, self.error, RTOL, ATOL), (self.norm,))
         return (
             Assign(self.trial, state),
             *forgotten,
             Call(ADVANCE, (self.trial, *arguments), (STATUS,)),
-            # If the step fails, the norm remains infinite, so the step is rejected. A shorter step may
-            # succeed.
+            # If the step fails, the norm remains infinite, so the step is rejected.
             Assign(self.norm, INFINITY),
             If(STATUS.equals(code(OK)), (measured,)),
         )
@@ -251,9 +244,8 @@ class Controlled:
         """Return the statements that are executed after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p). ``previous`` is ``root`` from the previous accepted step, at most
-        # FLOOR^(-SHARE/p). The factor ``1 / previous`` damps oscillations of the step size. If the caller
-        # gave no step size, the first accepted step has the factor ``root``. The product is norm^(-1/p).
+        # ``root`` is norm^(-SHARE/p), and ``previous`` is the limited ``root`` of the previous accepted step.
+        # If the caller gave no step size, the product in the first accepted step is norm^(-1/p).
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # If the trial directly before this step was rejected, the step size does not grow after this step
         # (Hairer, Norsett and Wanner).
@@ -266,8 +258,8 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step is often shortened to end at ``end``. Therefore, after the
-                # last step, the step size ``length`` changes only if the factor is below 1.
+                # The last step is often shortened, so after this step ``length`` changes only if the factor
+                # is below 1.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -279,8 +271,8 @@ class Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed after a rejected step.
 
-        The status is set to OK, and the run continues with a shorter step. If the shorter step is too short
-        to change the time in floating-point arithmetic, the status is unchanged.
+        The status is set to OK, unless the shorter step is too short to change the time in floating-point
+        arithmetic.
         """
         # If a step fails and no shorter step is possible, the run ends with the status of the failed step.
         following = real("next")

@@ -1,25 +1,20 @@
 """The cost model predicts the CPU time of a step.
 
-A solver of implicit equations makes several sweeps (iterations) in a step. Newton's method also computes and
-inverts matrices.
+A sweep is one iteration of a solver of implicit equations.
 
 The predicted time is a sum of amounts of work, each multiplied by its weight (:data:`WEIGHTS`). The amounts
 are:
 
-- Operations (:mod:`codegen.kernel.operations`). The operations of a sweep are counted in each sweep. If a
-  matrix is computed several times, its operations are counted each time. All other operations are counted
-  once in each step.
-- Unknowns. The time of the warm start is proportional to the number of unknowns. The time of the stopping
-  rule in a sweep is also proportional to this number.
-- Corrections. For equations u = g(u), a sweep of Newton's method ends with a matrix-vector product. The
-  next sweep must wait for this product. The delay is counted as one correction in each sweep. For equations
-  r(u) = 0, no corrections are counted.
+- Operations (:mod:`codegen.kernel.operations`). Operations of sweeps and matrices are counted at each
+  execution, and all other operations once in each step.
+- Unknowns. The times of the warm start and of the stopping rule are proportional to the number of unknowns.
+- Corrections. For equations u = g(u), the next sweep of Newton's method must wait for a matrix-vector
+  product. This delay is counted as one correction in each sweep.
 - Cubes. The inversion of an n x n matrix by elimination is counted as n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` measures the time of emitted C for all implicit methods, solvers and
-problems of the gallery. This program writes predictions and measurements into ``benchmarks/README.md``. With
-the option ``--fit`` it prints the weights that minimise the sum of the squared relative errors of the
-predictions. No weight may be negative.
+problems of the gallery. With the option ``--fit`` this program prints the non-negative weights that minimise
+the sum of the squared relative errors of the predictions.
 """
 
 from __future__ import annotations
@@ -41,8 +36,7 @@ The parts are the sweep of each loop, the matrix of each loop, and all other sta
 class Amounts:
     """Amounts of work, with one field for each kind of work.
 
-    The weights of the cost model (:data:`WEIGHTS`) are also an object of this class. Each weight is the time
-    of one unit of work in nanoseconds.
+    The weights of the cost model (:data:`WEIGHTS`) are also an object of this class.
 
     - ``unknowns`` is the number of unknowns.
     - ``swept`` counts the unknowns of a loop once in each sweep.
@@ -81,10 +75,10 @@ class Amounts:
 WEIGHTS = Amounts(
     unknowns=2.1, swept=1.7, arithmetic=0.097, divisions=1.5, calls=3.4, corrections=6.1, cubes=0.26
 )
-"""The weights of the cost model, in nanoseconds per unit of work.
+"""The weights of the cost model in nanoseconds per unit of work, fitted by ``benchmarks/solver_choice.py``.
 
-The weights are fitted to measured times (``benchmarks/solver_choice.py``). The choice of a solver depends on
-the ratios of the weights, and not on the speed of the machine."""
+The choice of a solver depends only on the ratios of the weights.
+"""
 
 
 CHEAP = ("add", "mul", "choose", "fabs")
@@ -100,24 +94,21 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
     True
     """
     arithmetic, divisions = sum(counts.get(name, 0) for name in CHEAP), counts.get("div", 0)
-    # All function calls have the same weight. Nearly all calls evaluate Stumpff functions of small arguments.
-    # For small arguments, each Stumpff function is a short polynomial. Their times are about equal.
+    # Nearly all calls evaluate Stumpff functions of small arguments, and their times are about equal.
     calls = sum(counts.values()) - arithmetic - divisions
     return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
 
 
 def of_step(kernel: Kernel, work: Work) -> Amounts:
     """Return the amounts of work in a step, without the sweeps and the matrices of the loops."""
-    # ``work`` does not include the warm start. The time of the warm start is proportional to the number of
-    # unknowns in all substeps.
+    # The time of the warm start is proportional to the number of unknowns in all substeps.
     unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
     return of_operations(work[STEP]) + Amounts(unknowns=unknowns)
 
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of work in one sweep."""
-    # For equations u = g(u), a sweep of Newton's method ends with a matrix-vector product. A processor cannot
-    # begin the next sweep before this product is computed.
+    # For equations u = g(u), the next sweep of Newton's method must wait for a matrix-vector product.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 
@@ -137,7 +128,7 @@ def of_matrix(loop: Loop, work: Work) -> Amounts:
 
 def inversion(n: int) -> Amounts:
     """Return the amounts of work for the inversion of an n x n matrix."""
-    # The elimination takes O(n^3) operations. The weight of ``cubes`` includes the constant factor.
+    # The weight of ``cubes`` includes the constant factor of the elimination.
     return Amounts(cubes=n**3)
 
 

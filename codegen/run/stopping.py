@@ -7,13 +7,12 @@ rule for equations r(u) = 0.
 unknown. ``previous`` is the change in the previous sweep. The rate of convergence is change/previous. The
 loop has converged in three cases:
 
-- *close*: the change and the predicted next change are about as small as the rounding errors. The predicted
-  next change is the rate times the change. A small change alone does not prove convergence, because a slow
-  iteration makes small changes far from the solution.
+- *close*: the change and the predicted next change (the rate times the change) are about as small as the
+  rounding errors. A small change alone does not prove convergence, because a slow iteration makes small
+  changes far from the solution.
 - *still*: the change no longer decreases and is nearly as small as the rounding errors.
-- *lost*: the change no longer decreases. The step size h times the change is below the rounding errors of the
-  state. This case is needed if an unknown is a small difference of large numbers. The rounding errors of the
-  large numbers keep the change of this unknown large.
+- *lost*: the change no longer decreases, and the step size h times the change is below the rounding errors of
+  the state. This case is needed if an unknown is a small difference of large numbers.
 
 If a change is not finite, the loop ends with the status NOT_FINITE.
 
@@ -58,17 +57,13 @@ LEAST_RATE = 2.0**-13
 """The stopping test of a loop over residuals (equations r(u) = 0) adds this number to the rate of
 convergence.
 
-The test estimates the error that remains in the unknowns after a sweep. The estimate is the change in this
-sweep, multiplied by the sum of the rate and LEAST_RATE. Even if the measured rate is zero, the estimate is at
-least LEAST_RATE times the change.
+Even if the measured rate is zero, the estimated error is at least LEAST_RATE times the change.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
-"""A factor in the stopping test of a loop over residuals (equations r(u) = 0).
+"""A factor in the stopping test of a loop over residuals (:meth:`Stopping.converged_by_residuals`).
 
-The bound in the test is this factor times the sum of the absolute values of the unknowns (see
-:meth:`Stopping.converged_by_residuals`). The factor is four times 2^-52, and 2^-52 is the distance between 1
-and the next double.
+The factor is four times 2^-52, the distance between 1 and the next double.
 """
 
 CHANGE, SCALE = real("change"), real("scale")
@@ -95,8 +90,8 @@ class Stopping:
     def rate(self) -> Term:
         """The rate of convergence.
 
-        In the first sweep, the rate is the value that the previous step has stored. If no value is stored,
-        the rate is 1.
+        In the first sweep, the rate is the value that the previous step has stored, or 1 if no value is
+        stored.
         """
         return real(f"rate_{self.number}")
 
@@ -109,7 +104,7 @@ class Stopping:
     @cached_property
     def warm(self) -> bool:
         """True if the initial guess is extrapolated from previous steps (a warm start)."""
-        # ``starts`` contains formulas for the initial guess. A loop with a warm start has no such formulas.
+        # A loop with a warm start has no formulas for the initial guess.
         return not self.loop.starts
 
     def before(self) -> list[Statement]:
@@ -117,9 +112,8 @@ class Stopping:
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            # In steps of equal size, the rate hardly changes. With the rate of the previous step, a loop can
-            # end after one sweep (Hairer and Wanner). If no rate is stored, the cautious value is 1: the next
-            # change is predicted to be as large as the first.
+            # With the rate of the previous step, a loop can end after one sweep (Hairer and Wanner). If no
+            # rate is stored, the cautious value is 1.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -142,8 +136,8 @@ class Stopping:
             return []
         first = self.plan.memory.field("first")
         return [
-            # The change in the first sweep measures the error of the initial guess. ``first`` is the largest
-            # such change in a step. If ``first`` is too large, the warm start discards the earlier solutions.
+            # ``first`` is the largest change in the first sweeps of a step. If ``first`` is too large, the
+            # warm start discards the earlier solutions.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
                 # If the changes are as small as rounding errors, their quotient may be tiny by accident, so
@@ -158,19 +152,15 @@ class Stopping:
         # The tolerances are multiples of the unit roundoff, so they are larger in single precision.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # The predicted next change must be at most the rounding error of the largest unknown. A loop without
-        # a warm start has no variable for the rate ``CHANGE / previous``. To avoid a division, both sides of
-        # its test are multiplied by ``previous``. In the first sweep ``previous`` is 0, so this test is true
-        # only if the change is zero.
+        # Without a warm start, both sides of the test are multiplied by ``previous`` to avoid a division. In
+        # the first sweep ``previous`` is 0, so this test is true only if the change is zero.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        # Rounding errors can keep the change too large for the test ``close``. Then the change no longer
-        # decreases, and more sweeps are useless. If an iteration diverges, the change does not decrease
-        # either. Therefore the change must also be small: at most ``tolerance * SCALE``, or small enough for
-        # the test :meth:`lost`.
+        # Rounding errors can keep the change too large for the test ``close``. If an iteration diverges, the
+        # change does not decrease either, so the change must also be small.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -184,10 +174,10 @@ class Stopping:
     def lost(self) -> Term:
         """Return the test whether the step size times the change is below the rounding errors of the state.
 
-        Some loops solve equations for a variation (a tangent vector at the state). For these loops, the
-        rounding errors of the variation are used.
+        For equations for a variation (a tangent vector at the state), the rounding errors of the variation
+        are used.
         """
-        # The array ``vector`` contains the variation. All other arrays contain parts of the state.
+        # The array ``vector`` contains the variation.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -203,8 +193,7 @@ class Stopping:
         For equations r(u) = 0, the stopping rule uses these sums in place of the maxima of :meth:`measured`.
         """
         return [
-            # If a change is a NaN, the sum is a NaN. Therefore :meth:`decided` needs no other test for NaNs.
-            # A maximum could ignore the NaN.
+            # If a change is a NaN, the sum is a NaN, but a maximum could ignore the NaN.
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
         ]
@@ -214,8 +203,7 @@ class Stopping:
 
         Let ``change`` be the sum of the absolute values of all changes in a sweep, and ``scale`` the sum of
         the absolute values of the unknowns. The rate is ``change`` divided by its value in the previous
-        sweep. In the first sweep, the rate is the value that the previous step has stored. The bound is
-        :data:`FOUR_ROUNDINGS` times ``scale``. The loop has converged in these cases:
+        sweep. The bound is :data:`FOUR_ROUNDINGS` times ``scale``. The loop has converged in these cases:
 
         - The rate is below 1/2, and the predicted next change is at most the bound.
         - The rate is between 1/2 and 1, and the predicted sum of all later changes is at most the bound.
@@ -234,19 +222,16 @@ class Stopping:
                 (Assign(first, first + CHANGE),),
             ),
             # At a constant rate below 1/2, the sum of all later changes is less than twice the next change.
-            # Therefore it is enough to test the predicted next change.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
                 flag("converged"),
                 select(
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
-                    # In the first sweep, the rate is only the stored value. At a stored rate of 1/2 or more,
-                    # the loop makes a second sweep and measures the rate.
+                    # In the first sweep, the rate is only the stored value and not measured.
                     both(
                         SWEEPS > 1,
-                        # If the changes decrease slowly, the remaining error is larger than the change. At
-                        # the rate 0.9, the sum of all later changes is nine times the change.
+                        # If the changes decrease slowly, the remaining error is larger than the change.
                         either(
                             CHANGE * rate <= close * SCALE * (1.0 - rate),
                             both(rate >= 1.0, either(CHANGE <= tolerance * SCALE, self.lost())),
@@ -259,17 +244,16 @@ class Stopping:
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
         """Return the statement that sets the status after a sweep.
 
-        The status is given by the first rule in this list that applies:
+        The first rule that applies gives the status:
 
-        - It is NOT_FINITE if the value of the term ``finite`` is an infinity or a NaN.
-        - It is OK if the flag ``converged`` and the test ``possible`` are true.
-        - It is NOT_CONVERGED in all other cases.
+        - NOT_FINITE if the value of the term ``finite`` is an infinity or a NaN.
+        - OK if the flag ``converged`` and the test ``possible`` are true.
+        - NOT_CONVERGED in all other cases.
 
         If the matrix of Newton's method is singular, the test ``possible`` is false. For loops without this
         test, ``possible`` is None.
         """
-        # If a change is a NaN, the flag ``converged`` is never set, because comparisons with a NaN are false.
-        # The status NOT_FINITE ends the loop.
+        # Comparisons with a NaN are false, so a NaN never sets the flag ``converged``.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))
         outcome = select(converged, code(OK), code(NOT_CONVERGED))
         return Assign(STATUS, select(is_finite(finite), outcome, code(NOT_FINITE)))
@@ -277,7 +261,7 @@ class Stopping:
     def going_on(self, astray: Term | None = None) -> Term:
         """Return the condition under which the loop continues.
 
-        ``astray`` is a test for a loop that cannot converge. If this test is true, the loop ends.
+        The test ``astray`` is true if the loop cannot converge.
         """
         # If an iteration converges too slowly, the loop ends at the largest number of sweeps.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
@@ -286,9 +270,8 @@ class Stopping:
     def after(self) -> list[Statement]:
         """Return the statements that store the rate of a converged loop for the next step.
 
-        If a loop for equations u = g(u) makes only one sweep, it measures no rate, and the stored rate is
-        doubled. After several doublings, the rate is so large that the loop makes a second sweep and measures
-        the rate. The rate of a loop for equations r(u) = 0 is never doubled.
+        If a loop for equations u = g(u) makes only one sweep, the stored rate is doubled. After several
+        doublings, the loop makes a second sweep and measures the rate.
         """
         if not self.warm:
             return []
