@@ -4,9 +4,8 @@ norms.
 A banded n x n matrix is stored diagonal by diagonal. Each diagonal has n places, and the entry in row i is at
 place i of its diagonal. If the diagonal has no entry in row i, the place contains zero.
 
-The entries of a full matrix are formulas in the row i and the column j. The entries are not stored. Only the
-values of the subexpressions that are independent of i and j are stored. Each product with a vector computes
-the entries from the stored values.
+The entries of a full matrix are formulas in the row i and the column j. Only the values of the subexpressions
+that are independent of i and j are stored.
 """
 
 from __future__ import annotations
@@ -25,10 +24,7 @@ from codegen.run.plan import STEP
 from codegen.run.terms import Kind, Term, count, number, own, real, select, size, value, whole
 
 VALUE, ROW_SUM, PRODUCT = "matrix_value", "row_sum", "product"
-"""The names of three emitted functions.
-
-The functions evaluate A(t), compute the largest sum of absolute values in a row of the matrix, and multiply
-the matrix by a vector."""
+"""The names of the functions for A(t), the infinity norm, and the product of a matrix with a vector."""
 
 _PRODUCT = "result = a x."
 
@@ -40,9 +36,8 @@ _ENTRY, _TOTAL, _NORM = real("entry"), real("total"), real("norm")
 class Hoisted:
     """Replaces subexpressions of formulas by names.
 
-    Let i be the row and j the column of an entry. A subexpression gets a name if it is independent of i and
-    j. The emitted code computes the values of the names once, before the loops over i and j. ``names``
-    contains the name of each such subexpression.
+    A subexpression gets a name if it is independent of the row i and the column j of an entry. The emitted
+    code computes the values of the names once, before the loops over i and j.
     """
 
     names: dict[Expr, str] = field(default_factory=dict)
@@ -90,8 +85,7 @@ class StoredMatrix(ABC):
     """The layout of matrices in arrays, and the emitted functions that evaluate and multiply matrices.
 
     A step evaluates the matrix A at the times t_i. A linear combination of the matrices h A(t_i) is called a
-    letter. The emitted step multiplies letters by n x k matrices, where k is the number of columns of the
-    state.
+    letter.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
@@ -128,9 +122,9 @@ class StoredMatrix(ABC):
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
         """Return an entry of a linear combination of constant matrices.
 
-        The entry is in row ``row`` and column ``column``. For each constant matrix, ``entries`` contains the
-        index of its coefficient, its entries, and the name of a table. If the entries of a
-        matrix are numbers, its entry is read from its table at the index ``place``.
+        For each constant matrix, ``entries`` contains the index of its coefficient, its entries, and the name
+        of a table. If the entries of a matrix are numbers, its entry is read from its table at the index
+        ``place``.
         """
         total: Term | None = None
         for term, given, table in entries:
@@ -219,8 +213,7 @@ class BandedMatrix(StoredMatrix):
 
     def _product(self, a: Term, x: Term, y: Term) -> Function:
         # If the matrix has a main diagonal, this diagonal comes first. The main diagonal has an entry in each
-        # row, so its products overwrite the old result. Without a main diagonal, the result is first set to
-        # zero.
+        # row, so its products overwrite the old result.
         k, covered = self.columns, self.matrix.offsets[0] == 0
         zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
         body: list[Statement] = [] if covered else [zero]
@@ -242,8 +235,8 @@ class FullMatrix(StoredMatrix):
     The array for a time t_i contains the values of those subexpressions of the entries that are independent
     of i and j.
 
-    A linear combination of the matrices h A(t_i) is called a letter. The array of a letter contains h times
-    the coefficients of the letter, followed by the arrays for all times t_i.
+    The array of a linear combination of the matrices h A(t_i) contains h times the coefficients, followed by
+    the arrays for all times t_i.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
@@ -324,21 +317,16 @@ class FullMatrix(StoredMatrix):
             values.append(Assign(own(name), a[at]))
         row, column = _ROW, _COLUMN
         one = self.entry(self.entries, row, column, self.n * row + column)
+        # The coefficient ``a[node]`` of A(t_i) contains the factor h.
         added = (*values, Assign(_ENTRY, _ENTRY + a[node] * one))
         added = (*added, *(self._on_diagonal(a[node], *given) for given in self.banded))
-        # For each time t_i, the entry of A(t_i) is multiplied by the coefficient of A(t_i) and added to
-        # ``_ENTRY``. The coefficient contains the factor h.
         total = added if self.nodes == 1 else (For(_NODE, whole(self.nodes), added),)
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
-        """Return the statement that adds ``weight`` times an entry of a diagonal to ``_ENTRY``.
-
-        If the current row and column do not lie on the diagonal, nothing is added.
-        """
-        # The entry in row i and column j is on the diagonal if j = i + ``offset``. In the table of the
-        # diagonal, the index of this entry is the smaller of i and j. A difference of unsigned indices could
-        # be negative, so the test adds |offset| to one index.
+        """Return the statement that adds ``weight`` times an entry of a diagonal to ``_ENTRY``."""
+        # In the table of the diagonal, the index of an entry is the smaller of i and j. A difference of
+        # unsigned indices could be negative, so the test adds |offset| to one index.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]

@@ -3,15 +3,14 @@
 The equations are u = g(u) or r(u) = 0. One iteration of a loop is called a sweep. The images of the unknowns
 u are the components of g(u) or r(u).
 
-Fixed-point iteration assigns the images to the unknowns. The last sweep omits this assignment. Therefore the
-unknowns keep the values from which the last sweep has computed its results.
+Fixed-point iteration assigns the images to the unknowns. The last sweep omits this assignment.
 
 Newton's method multiplies the residuals g(u) - u or r(u) by the inverse of a matrix and adds the product to
 the unknowns. The three forms of Newton's method use different matrices:
 
 - *Newton*: the matrix 1 - g'(u). The inverse matrix is stored for later sweeps and steps. If a change exceeds
-  ``Newton.CONTRACTION`` times the previous change, the next sweep computes a new matrix. If a new matrix is
-  singular, the loop fails. If the change does not decrease with a new matrix, the loop fails, too.
+  ``Newton.CONTRACTION`` times the previous change, the next sweep computes a new matrix. The loop fails if a
+  new matrix is singular or does not reduce the change.
 - *simplified Newton*: the matrix 1 - g'(u), expanded to first order in h. Each step computes the matrix
   before its sweeps.
 - *residuals*: the matrix -r'(u), expanded to first order in h. Each inverse matrix is used for
@@ -62,9 +61,8 @@ WIDE = 12
 """The largest number of unknowns for which each entry of a matrix has its own emitted statement."""
 
 WIDEST = 20
-"""The largest number of unknowns for which fixed-point iteration computes the changes in separate statements.
-
-For more unknowns, an emitted loop computes the changes."""
+"""The largest number of unknowns for which fixed-point iteration computes the changes in separate
+statements."""
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
@@ -109,8 +107,7 @@ class _Loop:
     def images(self) -> list[Term]:
         """The variables that contain the images: the components of g(u) or r(u).
 
-        If a variable other than an unknown contains an image, no new variable is needed. The name of a new
-        variable is ``next`` followed by the name of the unknown.
+        An image without its own variable gets a variable called ``next`` and the name of the unknown.
         """
         loop = self.iteration.loop
         return [
@@ -154,7 +151,7 @@ class _Loop:
         ``singular`` is true, the status becomes SINGULAR.
         """
         # Array languages have no ``break`` statement. Therefore the loop condition tests the status and the
-        # number of sweeps. After too many sweeps the status is NOT_CONVERGED.
+        # number of sweeps.
         sequence: list[Statement] = [Assign(SWEEPS, whole(0)), Assign(STATUS, code(NOT_CONVERGED))]
         sequence.append(While(self.rule.going_on(astray), tuple(body), at_least_once=True))
         if singular is not None:
@@ -180,9 +177,9 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # If the loop continues, the unknowns get new values. After convergence the unknowns keep their
-        # values, because later statements read results that the last sweep has computed from these values. A
-        # single ``If`` is cheaper than a ``select`` for each unknown.
+        # After convergence the unknowns keep their values, because later statements read results that the
+        # last sweep has computed from these values. A single ``If`` is cheaper than a ``select`` for each
+        # unknown.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
@@ -265,7 +262,7 @@ class _Newton(_Loop):
             body.append(Assign(residual, x - u))
         finite = total(residuals)
         if self.kept:
-            # The age of a stored matrix is at least 1. The age 0 means that no usable matrix is stored.
+            # The age 0 means that no usable matrix is stored.
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
             # If the residuals are not finite, a new matrix could contain NaNs. In this case no matrix is
@@ -276,8 +273,7 @@ class _Newton(_Loop):
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
-        # ``SCALE`` belongs to the unknowns before this correction. If the initial guess is zero, ``SCALE`` is
-        # 0 in the first sweep. Then the first sweep converges only if all changes are 0.
+        # ``SCALE`` belongs to the unknowns before this correction.
         body += self.corrected(changes)
         body += rule.converged()
         # The function ``invert`` sets the age to 1 on success, and to 0 if the matrix is singular. With a
@@ -301,8 +297,7 @@ class _Newton(_Loop):
     def singular(self) -> Term:
         """Return the test whether the loop has failed because its matrix is singular.
 
-        The test is for matrices that are inverted by elimination. The inverse of a small matrix is computed
-        by a formula. If such a matrix is singular, the formula divides by 0, and the status is NOT_FINITE.
+        The test is only for matrices that are inverted by elimination.
         """
         return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
@@ -379,11 +374,7 @@ class _Newton(_Loop):
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
-        """Return entry number ``place`` of the inverse matrix, counted row by row from 0.
-
-        Simplified Newton iteration keeps the inverse of a small matrix in scalar variables. All other inverse
-        matrices are arrays.
-        """
+        """Return entry number ``place`` of the inverse matrix, counted row by row from 0."""
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
             # The inverse is used in one step only and is not stored, so its entries can be scalar variables.
             # A compiler can keep scalar variables in registers.

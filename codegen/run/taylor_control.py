@@ -1,11 +1,9 @@
 """Step control for Taylor methods: the Taylor coefficients of the solution determine the size of each step.
 
 No step is rejected. Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree
-of the Taylor polynomial. All norms are maximum norms. Let epsilon = atol + rtol |y|. The number
-(epsilon/|c_k|)^(1/k) is computed for k = p - 1 and for k = p. The step size is the smaller of the two
-numbers, times exp(-0.7/(p - 1)). With this step size, the last two terms of the polynomial are smaller than
-epsilon. The formula is taken from A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1.
-In the paper the tolerance determines the degree, too. In this module the degree is given.
+of the Taylor polynomial. All norms are maximum norms. Let epsilon = atol + rtol |y|. The step size is
+exp(-0.7/(p - 1)) times the smaller of the numbers (epsilon/|c_k|)^(1/k) for k = p - 1 and k = p. The formula
+is taken from A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1.
 """
 
 from __future__ import annotations
@@ -102,12 +100,11 @@ def polynomial_step(plan: Plan) -> tuple[Function, ...]:
 def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list[Statement]:
     """Return the statements that compute the inner sums for products of Taylor series.
 
-    Let n be k + 1. The inner sum of order n of two series a and b is the sum of a_j b_{n-j} over 0 < j < n.
-    The number of products is ``width``. Each product has one column in the arrays ``left`` and ``right`` and
-    one entry in ``sums``. Row j - 1 of ``left`` contains a_j, and row j - 1 of ``right`` contains b_j.
+    The inner sum of order n = k + 1 of two series a and b is the sum of a_j b_{n-j} over 0 < j < n. Each of
+    the ``width`` products has one column in the arrays ``left`` and ``right`` and one entry in ``sums``. Row
+    j - 1 of ``left`` contains a_j, and row j - 1 of ``right`` contains b_j.
     """
-    # The orders of the two factors add up to k + 1. The row index of a coefficient is its order minus 1, so
-    # the two row indices add up to k - 1.
+    # The row index of a coefficient is its order minus 1, so the row indices of two factors add up to k - 1.
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
@@ -147,7 +144,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
 
 
 class _Controlled:
-    """Builds the run with step control. The attributes are variables of the emitted function."""
+    """Builds the run with step control."""
 
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
     end, limit = real("end"), count("limit")
@@ -207,8 +204,7 @@ class _Controlled:
 
     def arrays(self) -> tuple[Statement, ...]:
         """Return the declarations of all local arrays of a step."""
-        # ``start`` can be the array ``state``, and ``moved`` can be the array ``trial``. Then ``start`` or
-        # ``moved`` needs no declaration.
+        # ``start`` can be the array ``state``, and ``moved`` can be the array ``trial``.
         separate = [x for x, y in ((self.start, self.state), (self.moved, self.trial)) if x is not y]
         return tuple(map(Array, (self.series, self.trial, *separate)))
 
@@ -240,8 +236,7 @@ class _Controlled:
     def is_sound(self) -> Term:
         """Return the test whether the old state and the new state are finite.
 
-        An entry of the old state may have no effect on the new state. A NaN in this entry would not be found
-        in the new state, so the old state is tested too.
+        A NaN in the old state may have no effect on the new state, so both states are tested.
         """
         return both(all_finite(self.trial), all_finite(self.state))
 
@@ -267,8 +262,7 @@ class _Controlled:
             *self.numbers(symbols),
             *inner_sums(k, width, left, right, sums),
             *(
-                # In iteration k the order is k + 1. Row k of ``series`` contains the coefficients of order
-                # k + 1.
+                # Row k of ``series`` contains the coefficients of order k + 1.
                 Assign(own(s), self.series[k * n + i])
                 for i, s in enumerate(coordinate_names(n))
                 if s in symbols
@@ -434,7 +428,7 @@ class _Controlled:
                     Assign(self.steps, self.steps + 1),
                 ),
                 # The highest Taylor coefficients are finite here. If the old state is finite, too, a shorter
-                # step would succeed. Therefore the status is TOO_FAR.
+                # step would succeed.
                 (Assign(STATUS, select(all_finite(self.state), code(TOO_FAR), code(NOT_FINITE))),),
             ),
         )

@@ -1,8 +1,7 @@
 """Terms: the symbolic expressions in the statements of the run representation (:mod:`codegen.run.language`).
 
-A term is an expression with reals, counts, flags, status codes or arrays. Each term has a kind and a shape.
-An expression of the class :class:`codegen.ir.expr.Expr` becomes a single term (:func:`value`). Python
-operators build terms and compute nothing:
+A term is an expression with reals, counts, flags, status codes or arrays. Python operators build terms and
+compute nothing:
 
 >>> change, scale = real("change"), real("scale")
 >>> (change <= 0.5 * scale).op
@@ -54,8 +53,7 @@ class Term:
     """A symbolic expression: an operation on terms, a name, or a constant.
 
     - ``text`` is the name of a variable, function or field.
-    - ``own`` is True for a name from the kernel (:class:`codegen.ir.kernel.Kernel`). If the target language
-      does not allow this name, the emitted code uses another name.
+    - ``own`` is True for a name from the kernel (:class:`codegen.ir.kernel.Kernel`).
     - ``shape`` is the shape of an array, and () for a single value. A size of 0 means that the size is known
       only at run time.
     - ``optional`` is True for an argument that the caller may omit.
@@ -158,16 +156,15 @@ class Term:
 
 Operand = Term | float | int
 
-# In an expression, the other operand determines the kind of a Python number. The index of an array has no
-# other operand. The placeholder _COUNT makes the index a count.
+# The index of an array has no other operand that determines its kind. The placeholder _COUNT makes the index
+# a count.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
 def _term(x: Operand, like: Term) -> Term:
     if isinstance(x, Term):
         return x
-    # If the other operand ``like`` is a count or a flag, the Python number becomes a count. In all other
-    # cases, the Python number becomes a real.
+    # If the other operand ``like`` is a count or a flag, the Python number becomes a count.
     counted = like.kind in (Kind.COUNT, Kind.FLAG)
     return Term("number", kind=Kind.COUNT if counted else Kind.REAL, number=x)
 
@@ -274,8 +271,7 @@ def select(test: Term, yes: Operand, no: Operand) -> Term:
 
     An array language computes both values and selects one (:mod:`codegen.run.language`).
     """
-    # If only one of ``yes`` and ``no`` is a term, this term determines the kind of the Python number. Two
-    # Python numbers become reals.
+    # If only one of ``yes`` and ``no`` is a term, this term determines the kind of the Python number.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)
@@ -376,14 +372,14 @@ def names(terms: Iterable[Term]) -> Iterator[Term]:
 
 @lru_cache(maxsize=4096)
 def _read(name: str) -> Term:
-    """Return the variable for the symbol ``name``. Calls with the same name return the same object."""
+    """Return the variable for the symbol ``name``."""
     return own(name)
 
 
 def symbols(root: Expr) -> Iterator[str]:
     """Yield the symbols of an expression in the order in which they first occur."""
-    # Subexpressions are shared. Without the set ``seen``, a shared subexpression would be visited many times,
-    # and the walk could take exponential time.
+    # Without the set ``seen``, a shared subexpression would be visited many times, and the walk could take
+    # exponential time.
     seen: set[int] = set()
     waiting = [root]
     while waiting:

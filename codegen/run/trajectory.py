@@ -2,8 +2,6 @@
 
 If a step fails, the run ends, and the caller gets the state before the failed step. The first row of the
 trajectory is the initial state. After every ``stride`` steps, the run adds one row.
-
-A small explicit kernel is inlined in the loop of the run. Therefore the state can remain in registers.
 """
 
 from __future__ import annotations
@@ -57,14 +55,13 @@ DONE = count("step")
 COMPLETED = count("completed", 1, optional=True, cell=True)
 
 LOOP = "loop"
-"""The name of the emitted function with the loop of a run. The kernel is inlined in this loop."""
+"""The name of the emitted function with the loop of a run in which the kernel is inlined."""
 
 
 def is_looped(plan: Plan) -> bool:
     """Return True if the kernel is inlined in a run.
 
-    The state must be small, and the step must be explicit. Substeps, deferred flows, error estimates, a
-    dependence on time and possible exceptions prevent inlining.
+    The state must be small, and the step must be explicit.
     """
     kernel = plan.kernel
     # In an inlined kernel, a small state remains in registers. A function call would store it in memory.
@@ -120,7 +117,7 @@ class Rows:
 def own_memory(plan: Plan) -> list[Statement]:
     """Return a list with the statement that creates the memory of a step or a run.
 
-    A step stores data for the next step in this memory. If steps store nothing, the list is empty.
+    If steps store no data for later steps, the list is empty.
     """
     # The memory is a local variable of the emitted function. Therefore several threads can call the emitted
     # function at the same time.
@@ -141,8 +138,7 @@ def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, 
 def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statements that make one step from ``state`` and set the status.
 
-    If the kernel has a warm start, a failed step is repeated by continuation in h. If a step has substeps,
-    the emitted function for the step repeats a failed substep.
+    Without substeps, a failed step of a kernel with a warm start is repeated by continuation in h.
     """
     # Steps of constant size need no error estimate, so no array is passed for the estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
@@ -192,8 +188,7 @@ def run_parameters(plan: Plan) -> tuple[Term, ...]:
 def looped_runs(plan: Plan) -> tuple[Function, ...]:
     """Return the three functions of a run with an inlined kernel.
 
-    The first function contains the loop over the steps. The second function finds the cause of a failure. The
-    third function is public.
+    The functions are the loop over the steps, the search for the cause of a failure, and the public function.
     """
     # The loop is a separate function, because both ``run`` and ``cause`` call it.
     loop = replace(run(plan), name=LOOP, about="The loop over the steps of a run.", public=False)
@@ -219,14 +214,13 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # ``state`` remains the initial state, and ``moving`` is the current state in the body frame.
             # LEAVE adds the increase of the momentum to the initial momentum. Therefore ``rows.add`` first
-            # copies ``state`` to the row.
+            # copies the initial state ``state`` to the row.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.
         later = exact_time(TIME, DONE, STEP)
-        # DONE is the number of completed steps. A failed step does not increase DONE.
+        # A failed step does not increase DONE, the number of completed steps.
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
@@ -247,12 +241,12 @@ def completed() -> list[Statement]:
 
 
 def _looped(plan: Plan, rows: Rows) -> list[Statement]:
-    """Return the loop of a run. The loop contains the statements of the kernel."""
+    """Return the loop of a run in which the kernel is inlined."""
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The new state is tested for NaN. A NaN in an entry that the kernel does not read would not appear in the
-    # new state. Therefore the ``unread`` entries are tested, too.
+    # A NaN in an entry that the kernel does not read would not appear in the new state. Therefore the
+    # ``unread`` entries are tested, too.
     unread = [x for x in numbers if x.text not in read]
     row = [Assign(rows.written, rows.written + 1)]
     row += [Assign(rows.trajectory[rows.written][k], x) for k, x in enumerate(numbers)]
@@ -267,9 +261,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
-        # The loop changes local copies of the state. The copies can remain in registers. The compiler cannot
-        # exclude that the trajectory overlaps ``state``. Without copies, the compiler would therefore store
-        # ``state`` to memory in each step.
+        # The compiler cannot exclude that the trajectory overlaps ``state``. Without local copies, the
+        # compiler would therefore store ``state`` to memory in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),
