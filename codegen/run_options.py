@@ -75,7 +75,7 @@ class RunRequest:
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
     """Raise :class:`MethodError` if one of ``options`` is requested.
 
-    ``options`` are the options that exclude compensated summation. A requested option has the value True.
+    ``options`` are the options that exclude compensated summation.
     """
     for option, requested in options.items():
         if requested:
@@ -89,9 +89,8 @@ def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
 def observed_run(method: Method, scene: Problem, degree: int, events: int, dense: bool) -> Observed:
     """Return the description of a run to a given end time with ``events`` event functions.
 
-    If ``dense`` is True, the result also contains the continuous extension of the method. ``degree`` is the
-    degree of the Taylor polynomial of a step, or 0 if a step has no Taylor polynomial. MethodError is raised
-    for a Taylor method with step control.
+    ``degree`` is the degree of the Taylor polynomial of a step, or 0 if a step has no Taylor polynomial.
+    MethodError is raised for a Taylor method with step control.
     """
     if count(events, "events") > MOST_EVENTS:
         raise InputError(

@@ -42,10 +42,9 @@ class RunToEnd(ABC):
         """Integrate from t to end, with output at the times ``t_eval``, and find zeros of event functions.
 
         An adaptive module chooses step sizes between ``least`` and ``greatest``. The first step size is
-        ``h``. If ``h`` is 0, the module chooses the first step size. All other modules make steps of size
-        ``h``, but the last step can be shorter. All other modules ignore ``rtol``, ``atol``, ``least`` and
-        ``greatest``. Output times and events do not change the step sizes. A terminal event ends the run. By
-        default, ``end`` is the last output time.
+        ``h``, or a choice of the module if ``h`` is 0. All other modules make steps of size ``h``, but the
+        last step can be shorter. All other modules ignore ``rtol``, ``atol``, ``least`` and ``greatest``.
+        Output times and events do not change the step sizes. By default, ``end`` is the last output time.
 
         TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised if
         output times are not monotone, or if an output time is not between t and end. StepFailed is raised if
@@ -76,8 +75,7 @@ class RunToEnd(ABC):
     ) -> Arrival:
         """Integrate to the end by one or more calls of ``_integrate``.
 
-        If the buffer of events is full, a call returns before the end. The next call continues at the time
-        at which this call stopped.
+        If the buffer of events is full, a call returns before the end.
         """
         t, end, h = span
         restore = begun.form.restore
@@ -118,8 +116,7 @@ class RunToEnd(ABC):
     ) -> Begun:
         """Check the arguments of a run, and return them in the form that ``_integrate`` accepts.
 
-        TypeError is raised for wrong names of parameters or wrong inputs. ValueError is raised for a wrong
-        state.
+        TypeError is raised for wrong parameter names or inputs, ValueError for a wrong state.
         """
 
     @abstractmethod
@@ -132,8 +129,7 @@ class RunToEnd(ABC):
         limit: int,
         times: Sequence[float],
     ) -> Reached:
-        """Call the emitted function. The run stops at the end, or when the buffer of events is full.
+        """Call the emitted function, which stops at the end or when the buffer of events is full.
 
-        ``span`` is (t, end, h), ``bounds`` is (rtol, atol, least, greatest), and ``times`` are the output
-        times.
+        ``span`` is (t, end, h), and ``bounds`` is (rtol, atol, least, greatest).
         """

@@ -27,9 +27,8 @@ class Trial:
     """The results of a trial that makes ``steps`` steps of size ``h``.
 
     For each block of equations, ``sweeps`` contains the average number of sweeps in a step. ``matrices``
-    contains the average number of Newton matrices that are computed in a step. ``most`` is the largest number
-    of sweeps over one block in one step (or in one substep, if the step has substeps). If all steps
-    succeeded, ``converged`` is True.
+    contains the average number of Newton matrices in a step. ``most`` is the largest number of sweeps over
+    one block in one step or substep. If all steps succeeded, ``converged`` is True.
     """
 
     steps: int
@@ -54,8 +53,8 @@ class Trials:
         # Error estimates, derivatives and integrations to an end time do not change the number of sweeps, so
         # a trial omits them.
         plain = replace(kernel, estimate=None, vary=None, observed=None)
-        # The results of trials determine the solver. Trials always use doubles. Therefore the choice of the
-        # solver does not depend on the precision of the emitted code.
+        # Trials use doubles, so the choice of the solver does not depend on the precision of the emitted
+        # code.
         self.plan = Plan(plain, DOUBLE, tries=None if continuation else 1)
         # ``EmittedFloats`` rounds Stumpff functions as the emitted code does. A different rounding could
         # change the number of sweeps.
@@ -66,8 +65,7 @@ class Trials:
     def run(self, steps: int, longer: int = 1) -> Trial:
         """Make ``steps`` steps from the initial state and return the results.
 
-        The example in the emitted code uses the step size T/PARTS, where T is the time span of the problem.
-        The step size of the trial is ``longer`` times T/PARTS.
+        The step size is ``longer`` times T/PARTS, where T is the time span of the problem.
         """
         first, last = self.span
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops

@@ -60,7 +60,7 @@ def unit_of(plan: Plan) -> Unit:
 
 
 def _steps(plan: Plan) -> list[Function]:
-    """Return the functions for a step and a run. Each function comes after the functions that it calls."""
+    """Return the functions for a step and a run, each after the functions that it calls."""
     listed: list[Function] = []
     if plan.counting:
         listed += counters(plan)

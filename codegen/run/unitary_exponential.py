@@ -64,8 +64,8 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
             # copied.
             (Call(f"{function.name}_square", (result, work)), Assign(result, work)),
         ),
-        # If the norm is still too large after all halvings, all results are set to NaN. The same happens if
-        # the norm is a NaN: then ``norm <= least`` is false, and its negation is true.
+        # If the norm is still too large after all halvings, all results are set to NaN. The negation of
+        # ``norm <= least`` is also true if the norm is a NaN.
         If(
             negated(norm <= least),
             (For(_PLACE, whole(2 * SIZE), (Assign(result[_PLACE], INFINITY - INFINITY),)),),
@@ -85,14 +85,13 @@ def _polynomial(
 ) -> list[Statement]:
     """Return the statements that evaluate a Taylor polynomial of the exponential.
 
-    The matrix has the coordinates ``y``, and its norm is at most ``norm``. The degree is the lowest of 4, 8,
-    12 and 16 for which the remainder of the series is below the rounding errors.
+    The matrix has the coordinates ``y``, and its norm is at most ``norm``.
     """
     first, second, third, _ = largest_norms(precision.bits)
     groups, group = count("groups"), count("group")
     trace, det = real("half_trace"), real("determinant")
     # Horner's rule multiplies the complex coefficients only by real numbers. Therefore the real parts
-    # ``even`` and the imaginary parts ``odd`` are computed separately. Even powers of i are real.
+    # ``even`` and the imaginary parts ``odd`` are computed separately.
     parts = [[real(f"{name}_{k}") for k in range(3)] for name in ("even", "odd")]
     zero, coordinates = number(0.0), _coordinates(y)
     steps: list[Statement] = []
@@ -131,10 +130,9 @@ def _coordinates(array: Term) -> tuple[Term, ...]:
 def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | None) -> list[Statement]:
     """Return the statements of one step of Horner's rule for the real or the imaginary part.
 
-    The step replaces a polynomial P in the matrix H by i^k/k! + H P. The characteristic equation
-    H^3 = ``trace`` H + ``det`` keeps the degree of P at 2. ``part`` contains the real or the imaginary parts
-    of the coefficients of P. ``added`` contains 1/k! and k modulo 4. If ``part`` does not depend on i^k/k!,
-    ``added`` is None.
+    The step replaces a polynomial P in the matrix H by i^k/k! + H P, modulo H^3 = ``trace`` H + ``det``.
+    ``part`` contains the real or the imaginary parts of the coefficients of P. ``added`` is
+    (1/k!, k modulo 4), or None if ``part`` does not depend on i^k/k!.
     """
     last = real("last")
     # ``added[1]`` is k modulo 4. The sign is negative for k = 2 and k = 3, because i^2 = -1 and i^3 = -i.

@@ -48,10 +48,7 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 
 
 def _part(arguments: Sequence[Expr]) -> Term | None:
-    """Return the part of a result array that consists of ``arguments``, in this order.
-
-    If ``arguments`` are not consecutive results of one call, None is returned.
-    """
+    """Return the part of a result array that consists of ``arguments``, in this order, or None."""
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
     # If a function has a single result, the result is a scalar and not an array.
     if results[0] is None or len(results) == 1:

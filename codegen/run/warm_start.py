@@ -1,16 +1,12 @@
 """Warm start: the initial guess of a step is extrapolated from the solutions of previous steps.
 
 The guess is the value of a polynomial through the latest solutions. The degree of the polynomial is adapted
-to the sizes of the backward differences. If ``Start.depth`` solutions are stored, the ring buffer is full.
-The degree is then adapted only once in :data:`SELDOM` steps.
+to the sizes of the backward differences. If the error of the guess exceeds ``Start.ROUGH`` times the change
+of the unknowns over the step, the earlier solutions are discarded. The next guess is then the latest
+solution.
 
-If the error of the guess exceeds ``Start.ROUGH`` times the change of the unknowns over the step, the earlier
-solutions are discarded. The next guess is then the latest solution.
-
-Each solution is stored twice in a ring buffer. Therefore the last ``depth`` solutions are always contiguous
-in memory. The guess for each unknown is a sum over these solutions. If there are at most :data:`FEW`
-unknowns, the sums are scalar variables. For these few unknowns, loops over arrays would take as long as the
-iterations that the warm start saves.
+For at most :data:`FEW` unknowns, loops over arrays would take as long as the iterations that the warm start
+saves. Therefore scalar variables are used for these unknowns.
 """
 
 from __future__ import annotations
@@ -111,7 +107,7 @@ def memory_record(plan: Plan) -> Record:
 def differences(start: Start) -> Table:
     """Return the table of the coefficients of backward differences.
 
-    Row k contains the coefficients of order k. The first coefficient multiplies the latest solution.
+    Row k contains the coefficients of order k, latest solution first.
     """
     rows = tuple(
         tuple(float((-1) ** j * comb(order, j)) for j in range(order + 1)) for order in range(start.depth + 1)
@@ -130,7 +126,7 @@ def _factors(start: Start) -> Term:
 def each(n: int, statement: Callable[[Term], Statement]) -> list[Statement]:
     """Return the statements that execute ``statement`` for the indices 0 to n - 1.
 
-    If n is at most FEW, the result contains n separate statements. Otherwise it contains one loop.
+    If n is at most FEW, the result contains n separate statements.
     """
     if n <= FEW:
         # For few indices, separate statements are faster than a loop.
@@ -161,8 +157,7 @@ class WarmStart:
     def difference(self) -> Function:
         """Return the function that writes a backward difference of the solutions to the array ``sum``.
 
-        The latest solution is added last. The processor can then add the other terms before the latest
-        solution is known.
+        The latest solution is added last, because it is known last.
         """
         order, first, sign, result = count("order"), count("first"), real("sign"), real("sum", self.n)
         body = self.difference_of_few(order, first, sign, result) if self.n <= FEW else []
@@ -191,11 +186,7 @@ class WarmStart:
         return Function("difference", about, parameters, tuple(body), often=True)
 
     def difference_of_few(self, order: Term, first: Term, sign: Term, result: Term) -> list[Statement]:
-        """Return the statements that compute a backward difference for at most FEW unknowns.
-
-        Each unknown has a scalar variable for its sum. Each iteration of the emitted loop adds two terms to
-        these sums.
-        """
+        """Return the statements that compute a backward difference for at most FEW unknowns."""
         pair, place, column = count("pair"), count("row"), count("column")
         sums = [real(f"sum_{k}") for k in range(self.n)]
         newer, older = real("newer"), real("older")
@@ -285,9 +276,7 @@ class WarmStart:
     def chosen(self, place: Term) -> list[Statement]:
         """Return the statements that adapt the degree of the extrapolation.
 
-        Let d be the degree. If the difference of order d + 1 is smaller than the difference of order d, the
-        degree is increased by one. Otherwise, if the difference of order d - 1 is smaller, the degree is
-        reduced by one.
+        The degree changes by at most one, towards the smaller backward difference.
         """
         size_now = real("size")
 
@@ -304,10 +293,9 @@ class WarmStart:
         )
         grows = flag("grows")
         adapt = (
-            # If the solutions vary smoothly on the scale of h, their backward differences decrease with the
-            # order. Rounding errors double with each order and dominate at high orders. The best degree of
-            # the extrapolation is the order of the smallest difference. The best degree changes slowly, so
-            # the current degree is compared only with the next lower and the next higher degree.
+            # The best degree of the extrapolation is the order of the smallest difference. The best degree
+            # changes slowly, so the current degree is compared only with the next lower and the next higher
+            # degree.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
             # A backward difference of order k is computed from k + 1 solutions.

@@ -17,7 +17,8 @@ from codegen.run.terms import Term, own
 SHORTEST = 25
 """The least number of entries of an array that is passed, tested or copied as a whole.
 
-The entries of a shorter array are scalar variables. A compiler can keep scalar variables in registers."""
+The entries of a shorter array are scalar variables, which a compiler can keep in registers.
+"""
 
 
 def whole_result(outputs: Sequence[Expr]) -> Term | None:
@@ -41,8 +42,8 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
 def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term) -> list[Statement]:
     """Return the statements of ``sequence`` without long copies of parts of the array ``state``.
 
-    An ``Array`` statement is removed if it copies at least SHORTEST consecutive entries of ``state``. Calls
-    use this part of ``state`` instead of the copy. ``symbols`` are the names of the entries of ``state``.
+    An ``Array`` statement is removed if it copies at least SHORTEST consecutive entries of ``state``.
+    ``symbols`` are the names of the entries of ``state``.
     """
     places = {s: k for k, s in enumerate(symbols)}
     parts: dict[str, Term] = {}

@@ -5,10 +5,6 @@ problem, its internal form.
 
 A scene file imports names from this package, for example
 ``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``.
-
-Scenes with large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and
-``full``. Chains and lattices use ``SiteScene`` or ``HamiltonianSiteScene``, with ``neighbour``, ``left`` and
-``right``. Semilinear partial differential equations use ``SemilinearScene`` and ``Dx``.
 """
 
 from __future__ import annotations

@@ -20,10 +20,8 @@ def ambient(problem: Problem) -> Problem:
     """Return the ambient equation y' = F(y) of ``problem``. The group of the result is R^n.
 
     The exact solution stays on the manifold of ``problem``, but a numerical solution leaves this manifold.
-    The distance from the manifold is about as large as the integration error.
 
-    Raise :class:`SceneError` if ``problem`` has no formulas in coordinates. Problems with large matrices have
-    no such formulas.
+    Raise :class:`SceneError` if ``problem`` has no formulas in coordinates.
     """
     problem.require_formulas()
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)
@@ -33,8 +31,7 @@ def ambient(problem: Problem) -> Problem:
 
     def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
         if problem.matrices is not None:
-            # The scene gives y' as a matrix formula. This matrix formula is shorter than the general formula
-            # below.
+            # The matrix formula of the scene for y' is shorter than the general formula below.
             return problem.matrices.velocity(domain, state, values)
         f = tuple(evaluate(roots, domain, values))
         return field.action.velocity(Formulas(domain), field.group, f, state)

@@ -46,8 +46,7 @@ def check_points(reader: Reader, group: LieGroup, action: object) -> None:
         )
     try:
         width = len(action.velocity(domain, group, zero, y))
-    # The formula of the action may fail for a wrong number of coordinates. The value -1 makes the test below
-    # raise SceneError.
+    # The formula of the action may fail for a wrong number of coordinates.
     except (ValueError, IndexError):
         width = -1
     if width != len(y):

@@ -1,8 +1,7 @@
 """A Hamiltonian and its field in the body frame.
 
-The Hamiltonian H is a function of q and of the momentum P = Ad*_q mu in the body frame. The field in the body
-frame consists of the velocity W and the force N. The velocity W is the gradient of H with respect to P. The
-force is
+The Hamiltonian H is a function of q and of the momentum P = Ad*_q mu in the body frame. The velocity
+W in the body frame is the gradient of H with respect to P. The force in the body frame is
 
     N = tau + ad*_W P,   tau_b = -d/deps H(q exp(eps e_b), P) at eps = 0.
 
@@ -36,8 +35,8 @@ if TYPE_CHECKING:
 
 DIGITS, AGREEING = 40, 30
 POINTS = 6
-"""A numerical test compares two formulas. The formulas are evaluated with DIGITS digits at POINTS random
-points. At each point, AGREEING digits must agree.
+"""A numerical test evaluates two formulas with DIGITS digits at POINTS random points. At each point, AGREEING
+digits must agree.
 """
 
 
@@ -45,10 +44,9 @@ points. At each point, AGREEING digits must agree.
 class BodyField:
     """The field in the body frame, as formulas in q and in the momentum P in the body frame.
 
-    The formulas use the symbols of the momentum mu in the space frame for the components of P.
-
-    The equations of motion are q' = q.W and P' = N. ``velocity`` is W, and ``force`` is N. If W = A P
-    with a constant invertible matrix A, ``inverse`` contains the rows of A^-1. Otherwise ``inverse`` is None.
+    The formulas use the symbols of the momentum mu in the space frame for the components of P. The equations
+    of motion are q' = q.W and P' = N, where ``velocity`` is W and ``force`` is N. If W = A P with a constant
+    invertible matrix A, ``inverse`` contains the rows of A^-1.
     """
 
     velocity: tuple[Expr, ...]
@@ -102,7 +100,7 @@ def field_in_body(
 
     ``roots`` are the velocity xi and the force n in the space frame, as formulas in q and mu. The result is
     W = Ad_{q^-1} xi and N = Ad*_q n, with P = Ad*_q mu. The formulas of W and N use the symbols of mu for P.
-    The field need not have a Hamiltonian. A component that does not depend on q has a formula without q.
+    A component that does not depend on q has a formula without q.
     """
     space = roots[0].space
     domain = ExprDomain(space)
@@ -125,10 +123,7 @@ def field_in_body(
 def _in_body(
     group: BodyFrame, q: Sequence[str], mu: Sequence[str], hamiltonian: Expr, normal: NormalForms
 ) -> Expr:
-    """Return the Hamiltonian as a formula in q and the momentum P in the body frame.
-
-    If possible, the formula is a sum V(q) + T(P) of a potential energy and a kinetic energy.
-    """
+    """Return the Hamiltonian as a formula in q and the body momentum P, if possible a sum V(q) + T(P)."""
     space = hamiltonian.space
     domain = ExprDomain(space)
     element, P = tuple(space.sym(s) for s in q), tuple(space.sym(s) for s in mu)
@@ -143,8 +138,8 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        # The potential is singular at the neutral element, so the kinetic energy cannot be computed there.
-        # If the kinetic energy is missing in ``split``, the test ``_same`` fails.
+        # If the potential is singular at the neutral element, ``split`` lacks the kinetic energy, and the
+        # test ``_same`` fails.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
@@ -182,10 +177,7 @@ def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, 
 
 
 def _row(normal: NormalForms, w: Expr, P: Sequence[Expr]) -> list[Number] | None:
-    """Return the coefficients of P in the formula w.
-
-    The result is None if w is not a linear function of P with constant coefficients.
-    """
+    """Return the coefficients of P in w, or None if w is not linear in P with constant coefficients."""
     row = [Number.rational(0)] * len(P)
     place = {p.id: k for k, p in enumerate(P)}
     for monomial, c in normal.polynomial(w).items():
@@ -196,9 +188,7 @@ def _row(normal: NormalForms, w: Expr, P: Sequence[Expr]) -> list[Number] | None
 
 
 def _inverse(rows: Sequence[list[Number] | None]) -> tuple[tuple[Number, ...], ...] | None:
-    """Return the inverse of a matrix of exact numbers. The result is None if the matrix is singular or one of
-    its rows is None.
-    """
+    """Return the inverse of a matrix of exact numbers, or None if the matrix is singular or a row is None."""
     n = len(rows)
     zero, one = Number.rational(0), Number.rational(1)
     work: list[list[Number]] = []

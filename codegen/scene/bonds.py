@@ -1,8 +1,6 @@
 """Bonds: energies of pairs of neighbours on a lattice.
 
-The offset of a bond is the lattice index of its second site minus the lattice index of its first site. For
-each offset, a site belongs to two bonds. The site is the first site of one bond and the second site of the
-other bond.
+The offset of a bond is the lattice index of its second site minus the lattice index of its first site.
 """
 
 from __future__ import annotations
@@ -25,9 +23,8 @@ if TYPE_CHECKING:
 class Bond:
     """The energy of the sites with the lattice indices i and i + offset.
 
-    ``energy`` is a formula in the coordinates of both sites. The formula can also contain parameters and the
-    time. The coordinates are y for the site i and ``neighbour(y, offset)`` for the site i + offset. In a
-    Hamiltonian scene, y contains only the coordinates of q.
+    ``energy`` is a formula in the coordinates y of the site i and ``neighbour(y, offset)`` of the site
+    i + offset. In a Hamiltonian scene, y contains only the coordinates of q.
     """
 
     offset: Sequence[int]
@@ -37,14 +34,11 @@ class Bond:
 def energies_of_bonds(
     reader: Reader, y: Sequence[sympy.Symbol], bonds: Sequence[Bond], offsets: Sequence[Offset]
 ) -> tuple[tuple[int, Expr], ...]:
-    """Return a pair (k, V) for each bond of a site. V is the energy of the bond, and ``offsets[k]`` is the
-    offset from the site to its neighbour.
+    """Return a pair (k, V) for each bond of a site.
 
-    V can depend on the coordinates ``y`` of the site. In a Hamiltonian scene, ``y`` contains the coordinates
-    of q. In other scenes, ``y`` contains all coordinates.
-
-    Each element of ``bonds`` gives two energies of the site i. The energies are V(y_i, y_{i+offset})
-    and V(y_{i-offset}, y_i).
+    V is the energy of the bond, and ``offsets[k]`` is the offset from the site to its neighbour. V can depend
+    on the coordinates ``y`` of the site. Each element of ``bonds`` gives the energies V(y_i, y_{i+offset})
+    and V(y_{i-offset}, y_i) of the site i.
 
     SceneError is raised if an energy does not contain coordinates of both sites, or if an energy contains
     coordinates of the site that are not in ``y``.

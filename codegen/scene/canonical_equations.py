@@ -20,10 +20,11 @@ from codegen.ir.formulas import Formulas
 
 
 def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
-    """Return the components of the force. ``slope`` contains the partial derivatives of the Hamiltonian H
-    with respect to the coordinates ``qs`` of q.
+    """Return the components of the force.
 
-    Component a is -d/deps H(exp(eps e_a) q, mu) at eps = 0. Here e_a is basis element a of the Lie algebra.
+    Component a is -d/deps H(exp(eps e_a) q, mu) at eps = 0, with basis element e_a of the Lie algebra.
+    ``slope`` contains the partial derivatives of the Hamiltonian H with respect to the coordinates
+    ``qs`` of q.
     """
     domain = ExprDomain(space)
     q = tuple(space.sym(s) for s in qs)

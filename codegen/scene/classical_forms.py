@@ -1,13 +1,9 @@
 """Classical forms of a scene: its equations in the coordinates that are usual for a general ODE solver.
 
 A form is a problem on R^n with a map to the state of the scene. The first form uses the coordinates of the
-scene. If the group has left translations, another form can use the body frame. The equations in the body
-frame are q' = q.W and P' = N (:mod:`codegen.scene.body_frame`). Here W is the velocity, P = Ad*_q mu is the
-momentum, and N is the force in the body frame.
-
-If a factor of the group has a covering group, a form uses coordinates of the covering group. The
-covering group has fewer coordinates than the factor. For example, a heavy top has twelve equations for a
-rotation matrix and the momentum. For a unit quaternion and the momentum in the body frame, the top has seven.
+scene. If the group has left translations, another form can use the body frame
+(:mod:`codegen.scene.body_frame`). If a factor of the group has a covering group, a form uses coordinates of
+the covering group. The covering group has fewer coordinates than the factor.
 """
 
 from __future__ import annotations
@@ -72,11 +68,10 @@ class ClassicalForm:
 
 
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
-    """Return the classical forms of a scene. The first form uses the coordinates of the scene. Each later
-    form uses the body frame, coordinates of covering groups, or both.
+    """Return the classical forms of a scene.
 
-    A later form uses the frame in which its equations need fewer operations. The body frame is chosen if the
-    inertia is fixed in the body. The space frame is chosen if the inertia is fixed in space.
+    The first form uses the coordinates of the scene. Each later form uses the body frame, coordinates of
+    covering groups, or both. A later form uses the frame in which its equations need fewer operations.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)
@@ -111,12 +106,7 @@ def operations(roots: Sequence[Expr]) -> int:
 
 
 def _changes(problem: Problem) -> Iterator[_Change]:
-    """Yield the changes of coordinates that define classical forms.
-
-    If the equations need fewer operations in the body frame than in the space frame, one change leads to the
-    body frame. If a factor of the group has a covering group, another change leads to coordinates of covering
-    groups.
-    """
+    """Yield the changes of coordinates that define classical forms."""
     framed = problem.group.offers(LeftTranslation) is not None or not problem.paired
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
@@ -132,8 +122,8 @@ class _Leaf:
 
     ``symbols`` are the coordinates of the factor in the scene. ``own`` are the coordinates of the factor in
     the classical form. ``at`` is the index of the first component of the factor in a vector of the Lie
-    algebra. If ``own`` are coordinates of a covering group, ``cover`` contains this group and its
-    covering map. Otherwise ``cover`` is None, and ``own`` is equal to ``symbols``.
+    algebra. If ``own`` are coordinates of a covering group, ``cover`` contains this group and its covering
+    map.
     """
 
     group: LieGroup
@@ -154,8 +144,8 @@ class _Leaf:
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
         """Return the element of the factor as a formula in ``own``, for the state of the scene.
 
-        Numerical errors can move the coordinates off a covering group. The formula first projects the
-        coordinates onto the covering group. Therefore, the result is an element of the factor.
+        Numerical errors can move ``own`` off a covering group, so the formula first projects ``own`` onto
+        this group.
         """
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
@@ -172,8 +162,7 @@ class _Leaf:
     def start(self, d: ExprDomain, initial: Vector[float]) -> Vector[Expr]:
         """Return formulas for the coordinates ``own`` in the symbols of the scene.
 
-        ``initial`` contains the coordinates of the factor in the initial state. The formulas hold near
-        ``initial``.
+        The formulas hold near the coordinates ``initial`` of the factor in the initial state.
         """
         g = tuple(d.space.sym(s) for s in self.symbols)
         if self.cover is None:
