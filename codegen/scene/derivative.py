@@ -26,7 +26,7 @@ class Dx(sympy.Function):  # type: ignore[misc]
     def eval(cls, formula: sympy.Expr, order: object = 1) -> Any:
         """Return the simplified derivative, or None if SymPy must keep ``Dx(formula, order)`` as it is.
 
-        The derivative of a constant is 0. The derivative of Dx(u, m) is Dx(u, m + order).
+        The derivative of Dx(u, m) is Dx(u, m + order).
         """
         number = next((m for m in range(1, MOST_DERIVATIVES + 1) if m == order), 0)
         if not number:

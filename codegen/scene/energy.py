@@ -1,11 +1,8 @@
 """The operations from which discrete gradient methods are built: the energy, its trivialised differential,
-the discrete gradient (secant), and the bivector.
+the discrete gradient (secant), and the bivector (section 2.6 of H. Marthinsen's thesis).
 
-The source is section 2.6 of H. Marthinsen's thesis. A Lie group with the algebra g acts on the states x. The
-trivialised differential gamma(x) of the energy H is an element of the dual g*. For an element e of g, the
-pairing <gamma(x), e> is the derivative of H(exp(eps e).x) with respect to eps at eps = 0.
-
-The bivector omega is a skew bilinear form on g*. A field that preserves H has the form x' = f(x).x with
+Let gamma be the trivialised differential of the energy H (:func:`differential`). The bivector omega is a skew
+bilinear form on the dual g* of the Lie algebra g. A field that preserves H has the form x' = f(x).x with
 f = omega(gamma, .). For Hamilton's equations on T*G, omega is the canonical bivector. For all other
 equations, omega is (gamma wedge f)/|gamma|^2. This formula identifies gamma with the element of g that
 has the same coordinates. The formula requires that f is zero wherever gamma is zero.
@@ -74,9 +71,8 @@ class Conservative(Protocol):
 def energy_of(problem: Conservative) -> Expr | None:
     """Return the energy of a problem, or None if the problem has no energy.
 
-    For one site of a lattice, the result includes the energies of all bonds of the site. For any other
-    Hamiltonian problem, the result is the Hamiltonian. For a problem without a Hamiltonian, the result is the
-    invariant with the name ``energy``.
+    For one site of a lattice, the result includes the energies of all bonds of the site. For a problem
+    without a Hamiltonian, the result is the invariant with the name ``energy``.
     """
     if problem.sites is not None:
         return problem.sites.energy
@@ -121,9 +117,9 @@ def differential(problem: Conservative, d: Domain, y: Vector[S]) -> Vector[S]:
 
 
 def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
-    """Apply the bivector omega at the state y to the covector alpha. Return an element of the Lie algebra.
+    """Apply the bivector omega at the state y to the covector alpha.
 
-    For alpha = ``differential(problem, d, y)``, this element is the field f(y).
+    For alpha = ``differential(problem, d, y)``, the result is the field f(y).
     """
     if canonical(problem):
         return _canonical(problem.group, d, y, alpha)
@@ -154,10 +150,9 @@ def _canonical(group: LieGroup, d: Domain, y: Vector[S], alpha: Vector[S]) -> Ve
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
     """Return the discrete gradient for a displacement by exp(x) (eq. 2.31 of Marthinsen's thesis).
 
-    ``before`` and ``after`` are the energies before and after the displacement. The covector g approximates
-    the differential of the energy between both points. Among all covectors p with
-    <p, x> = ``after - before``, the result is nearest to g in the Euclidean norm. If x is zero, the result
-    is g.
+    The covector g approximates the differential of the energy between both points. Among all covectors p for
+    which <p, x> is the energy increment ``after - before``, the result is nearest to g in the Euclidean norm.
+    If x is zero, the result is g.
     """
     factor: S = d.call("quotient", after - before - dot(g, x), dot(x, x))
     return tuple(a + factor * b for a, b in zip(g, x, strict=True))

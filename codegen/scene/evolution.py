@@ -3,10 +3,9 @@
 Each product of two power series costs a convolution. Therefore this module chooses the coordinates whose
 equations contain the fewest products.
 
-The state of a Hamiltonian scene consists of a group element q and a momentum mu. The momentum in the body
-frame is P = Ad*_q mu. Let W be the velocity and N the force in the body frame
-(:mod:`codegen.scene.body_frame`). The equations q' = q.W and P' = N may contain fewer products than the
-equations for q and mu.
+In a Hamiltonian scene with the group element q, the momentum mu can be replaced by P = Ad*_q mu, the momentum
+in the body frame. The equations are then q' = q.W and P' = N with the velocity W and the force N in the body
+frame (:mod:`codegen.scene.body_frame`).
 
 Coordinates of q are omitted if the remaining coordinates determine them, and if the equations of the
 remaining coordinates do not contain them.
@@ -57,8 +56,7 @@ class Evolution:
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
         """Convert the state y to these coordinates.
 
-        If y contains the momentum in the body frame, ``frame`` must be the group of q. In all other cases,
-        ``frame`` must be None.
+        Pass the group of q as ``frame`` if and only if y contains the momentum in the body frame.
         """
         if self.body is not None and frame is None:
             q, mu = self._split(y)
@@ -72,8 +70,8 @@ class Evolution:
     ) -> Vector[S]:
         """Convert the coordinates ``moved`` after a step to a state, and project the state onto the manifold.
 
-        ``y`` is the state before the step. If y and the result contain the momentum in the body frame,
-        ``frame`` must be the group of q. In all other cases, ``frame`` must be None.
+        ``y`` is the state before the step. Pass the group of q as ``frame`` if and only if y and the result
+        contain the momentum in the body frame.
         """
         z = self._completed(domain, moved)
         if self.body is None:
@@ -87,8 +85,8 @@ class Evolution:
             return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
-        # Rounding errors make q slightly non-orthogonal, so a conversion changes the length of a momentum.
-        # Therefore only the increment of the momentum in the step is converted.
+        # Only the increment of the momentum is converted, because rounding errors of q change the length of a
+        # converted momentum.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
@@ -96,13 +94,12 @@ class Evolution:
 
         The coordinates are the values of Taylor polynomials of degree ``degree``.
         """
-        # The coefficient of degree k includes the factor h^k. Therefore the value of a polynomial at the end
-        # of the step is the sum of its coefficients.
+        # The coefficient of degree k includes the factor h^k.
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:
-            # The coefficient of degree 0 is the old value of the coordinate. The old value is added last,
-            # because the sum of the other coefficients is usually small and has small rounding errors.
+            # The old value ``first`` is added last, because the sum of the other coefficients is
+            # usually small and has small rounding errors.
             change = None
             for x in further:
                 change = x if change is None else change if x is None else change + x
@@ -172,15 +169,12 @@ def evolution(scene: Problem) -> Evolution:
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:
         forms.append(_flat(scene, outer, group, _in_body(scene, group)))
-    # If two forms need equally few products, min returns the earlier form. The first form uses the
-    # coordinates of the scene.
+    # The form in the coordinates of the scene is listed first, because min returns the first minimum.
     return min((each for form in forms for each in (form, *_shorter(form))), key=lambda e: e.products())
 
 
 def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
-    """Return the :class:`Evolution` in all coordinates of ``outer``. ``roots`` are the time derivatives of
-    the coordinates.
-    """
+    """Return the :class:`Evolution` in all coordinates of ``outer``, with the time derivatives ``roots``."""
     return Evolution(_problem(scene, outer.symbols, gathered(roots)), outer, body)
 
 
@@ -214,9 +208,7 @@ def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
 
 
 def _shorter(form: Evolution) -> Iterator[Evolution]:
-    """Yield variants of ``form`` that omit some coordinates. The remaining coordinates determine the omitted
-    coordinates.
-    """
+    """Yield variants of ``form`` without some coordinates that the other coordinates determine."""
     on_itself = form.outer.action.on_itself
     group = _of_element(form.outer.group).offers(DependentCoordinates) if on_itself else None
     inner = form.inner

@@ -4,10 +4,6 @@ The time becomes the coordinate tau, and u is the momentum conjugate to tau. The
 is K(q, tau, mu, u) = H(q, mu, tau) + u. The equations of tau and u are tau' = 1 and u' = -dH/dtau. The
 initial value of u is -H at the initial state. Therefore K is zero along the exact solution (H. Marthinsen's
 thesis, section 4.3.2).
-
-Variational methods preserve the symplectic form of T*(G x R). In a step of size h, they add to u a weighted
-sum of the values of -h dH/dtau at the stages (Example 4.4.5 of the thesis). Discrete gradient methods
-preserve K.
 """
 
 from __future__ import annotations
@@ -32,12 +28,9 @@ def extended(problem: Problem) -> Problem:
     The problem must have a Hamiltonian that depends on time, or it must be a linear Hamiltonian equation
     y' = A(t).y. For all other problems SceneError is raised.
 
-    A linear problem is extended by :mod:`codegen.scene.linear_extension`. In a Hamiltonian problem, the new
-    coordinates are the time tau and its conjugate momentum u. If a coordinate or a parameter of the problem
-    is called tau or u, underscores are appended to the name of the new coordinate.
-
-    If the problem lists the parts of its Hamiltonian, u is added to the first part that does not depend on
-    time. If all parts depend on time, u becomes a new part.
+    The new coordinates are the time tau and its conjugate momentum u; for a linear problem only u. If a name
+    is already used, underscores are appended. If the Hamiltonian has parts, u is added to the first part that
+    does not depend on time, or becomes a new part.
     """
     if problem.linear and not problem.paired and not problem.carries_momentum:
         return extended_linear(problem, _fresh("u", {*problem.symbols, *problem.parameters}))

@@ -1,9 +1,8 @@
-"""The figures of a scene. A figure draws the values of formulas along runs of emitted code.
+"""The figures of a scene, which draw the values of formulas along runs of emitted code.
 
-A scene file lists its figures in the variable ``figures``. Each subclass of :class:`Figure` is a kind of
-figure. ``codegen.lab.pictures`` contains one drawing function for each kind. Formulas are sympy formulas in
-the symbols of the scene, in its parameters and in the time ``t``. In a formula, the name of an invariant of
-the scene means the formula of the invariant.
+A scene file lists its figures in the variable ``figures``. Formulas are sympy formulas in the symbols of the
+scene, in its parameters and in the time ``t``. In a formula, the name of an invariant of the scene means the
+formula of the invariant.
 """
 
 from __future__ import annotations
@@ -49,8 +48,7 @@ class Run:
       figure, extended by the momentum conjugate to the time.
     - ``tolerance``: the relative and absolute tolerance. If the tolerance is positive, the method chooses its
       own step sizes, and the states at every ``stride``-th multiple of ``h`` are shown.
-    - ``sweep``: values of a parameter or of ``h``. The run is repeated for each value, and the final states
-      are shown.
+    - ``sweep``: the run is repeated for each value of the sweep, and the final states are shown.
     """
 
     method: str
@@ -72,10 +70,8 @@ class Run:
 class Figure:
     """A figure: its name, its title, its caption, and the runs that it shows.
 
-    The command ``figure`` selects a figure by its name. ``source`` is the published figure that is
-    reproduced, for example "Fig. 2.6 of Marthinsen's thesis". ``reference`` is a run. The other runs are
-    compared with this run, or this run is drawn as a thin line. Some kinds of figures do not use
-    ``reference``. ``shows_lattices`` is True for the kinds of figures that show chains and lattices.
+    ``source`` is the published figure that is reproduced, for example "Fig. 2.6 of Marthinsen's thesis".
+    The other runs are compared with the run ``reference``, or this run is drawn as a thin line.
     """
 
     shows_lattices: ClassVar[bool] = False
@@ -90,12 +86,12 @@ class Figure:
 
 @dataclass(frozen=True, kw_only=True)
 class PlaneCurves(Figure):
-    """Curves in a plane. ``point`` contains two formulas, and ``axes`` contains the labels of the axes.
+    """Curves in a plane.
 
-    If ``panels`` is True, each run has a panel of its own. ``bounds`` contains the limits of the axes as
-    (left, right, bottom, top). By default the limits include all points of the panel. If ``marked`` is True,
-    markers are drawn at every state. If ``dots`` is True, the states are drawn as dots without lines between
-    them.
+    - ``panels``: True if each run has a panel of its own.
+    - ``bounds``: the limits (left, right, bottom, top) of the axes. By default they include all points.
+    - ``marked``: True if markers are drawn at every state.
+    - ``dots``: True if the states are drawn as dots without lines between them.
     """
 
     point: tuple[Quantity, Quantity]
@@ -108,11 +104,11 @@ class PlaneCurves(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class SphereCurves(Figure):
-    """Curves on a sphere about the origin, in orthogonal projection. ``point`` has three formulas.
+    """Curves on a sphere about the origin, in orthogonal projection.
 
-    ``direction`` is the direction from the origin to the viewer, as (azimuth, elevation) in degrees. If
-    ``panels`` is True, each run has a panel of its own. If ``dots`` is True, the states are drawn as dots
-    without lines between them.
+    - ``direction``: the direction from the origin to the viewer, as (azimuth, elevation) in degrees.
+    - ``panels``: True if each run has a panel of its own.
+    - ``dots``: True if the states are drawn as dots without lines between them.
     """
 
     point: tuple[Quantity, Quantity, Quantity]
@@ -149,8 +145,6 @@ class Motion(Figure):
     - ``seconds``: the duration of one cycle of the animation.
     - ``direction``: the direction from the origin to the viewer, as (azimuth, elevation) in degrees.
 
-    The animation is repeated. While the pointer is on the figure, the animation stops.
-
     The figure shows only one run.
     """
 
@@ -164,8 +158,7 @@ class Motion(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class TorusCurves(Figure):
-    """Curves on a torus, drawn in the plane of its two angles. Opposite edges of the picture show the
-    same line on the torus.
+    """Curves on a torus, drawn in the plane of its two angles.
 
     - ``angles``: formulas for the two angles in radians.
     - ``axes``: the labels of the two angles.
@@ -174,8 +167,7 @@ class TorusCurves(Figure):
     - ``directions``: formulas for the time derivatives of the angles, drawn as arrows.
     - ``levels``: a formula that is drawn as level lines.
 
-    On a grid of angles, ``state`` gives the states. The formulas in ``directions`` and ``levels`` are
-    evaluated at these states.
+    ``directions`` and ``levels`` are evaluated at the states that ``state`` gives on a grid of angles.
     """
 
     angles: tuple[Quantity, Quantity]
@@ -188,12 +180,10 @@ class TorusCurves(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class TimeSeries(Figure):
-    """Quantities, plotted against time. ``quantities`` maps labels to formulas.
+    """Quantities, plotted against time, with one panel for each run.
 
-    The reference curve is the first quantity along the run ``reference``. If ``difference`` is False, the
-    reference curve is drawn as a separate line with the label ``reference_label``. If ``difference`` is True,
-    the reference curve is subtracted from all quantities. ``window`` is the interval of time that is shown.
-    If there are several runs, each run has a panel of its own.
+    The reference curve is the first quantity along the run ``reference``. If ``difference`` is True, the
+    reference curve is subtracted from all quantities. ``window`` is the interval of time that is shown.
     """
 
     quantities: Mapping[str, Quantity] = field(default_factory=dict)
@@ -205,12 +195,11 @@ class TimeSeries(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class LatticeMeans(Figure):
-    """Means over all sites of a lattice, plotted against time. ``quantities`` maps labels to formulas.
+    """Means over all sites of a lattice, plotted against time.
 
-    The formulas contain the coordinates of a site. On a periodic lattice, the formulas may also contain the
-    coordinates of neighbours. ``shape`` = (n1, ..., nd) contains the number of sites in each dimension.
-    ``start(shape)`` returns the initial states as an array of shape (n1, ..., nd, m), where m is the number
-    of coordinates of a site.
+    The formulas contain the coordinates of a site and, on a periodic lattice, of its neighbours. ``shape`` =
+    (n1, ..., nd) contains the number of sites in each dimension. ``start(shape)`` returns the initial states
+    as an array of shape (n1, ..., nd, m), where m is the number of coordinates of a site.
     """
 
     shows_lattices: ClassVar[bool] = True
@@ -222,12 +211,11 @@ class LatticeMeans(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class Deviation(Figure):
-    """The largest deviation of a quantity, plotted against time. The vertical axis is logarithmic.
+    """The largest deviation of a quantity, plotted against time on a logarithmic axis.
 
-    The deviation is the difference between the quantity and its value along the reference run. Without a
-    reference run, the deviation is the difference from the initial value. If ``window`` is 0, the figure
-    shows at each time t the maximum up to t. Otherwise the figure shows the maximum over each group of
-    ``window`` consecutive states.
+    The deviation is the difference from the value along the reference run, or from the initial value if there
+    is no reference run. If ``window`` is 0, the figure shows at each time t the maximum up to t. Otherwise
+    the figure shows the maximum over each group of ``window`` consecutive states.
     """
 
     quantity: Quantity
@@ -240,8 +228,7 @@ class Scan(Figure):
     """The distance of the final state of a run from that of the reference run, plotted against a parameter.
 
     Each run needs a :class:`Sweep` with the values of the parameter. The figure marks the parameter value
-    with the least distance. This parameter value is computed by minimisation and may lie between two
-    values of the sweep.
+    with the least distance, computed by minimisation.
     """
 
     axis: str = ""

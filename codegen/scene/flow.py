@@ -1,11 +1,10 @@
-"""The interface of exact flows. The Hamiltonian is a sum of parts H_k.
+"""The interface of the exact flows of the parts H_k of a Hamiltonian.
 
 The exact flow of a part H_k moves the group element q and the momentum mu along the exact solution of
 
     q' = xi.q,   mu' = n - ad*_xi mu,   xi = D_2 H_k,   n = -(D_1 H_k).q^-1.
 
-The velocity is xi, and the force is n. D_1 and D_2 are the derivatives with respect to q and mu (eq. 2.27
-of H. Marthinsen's thesis). :mod:`codegen.flows` has one class for each kind of flow in closed form.
+D_1 and D_2 are the derivatives with respect to q and mu (eq. 2.27 of H. Marthinsen's thesis).
 """
 
 from __future__ import annotations

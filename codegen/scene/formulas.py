@@ -69,7 +69,7 @@ class Reader:
             raise self._taken(f"the parameter {symbol.name} has two default values")
 
     def _admit_signal(self, symbol: Signal) -> None:
-        """Record the formula of a signal. The formula may contain only the time and parameters."""
+        """Record the formula of a signal, which may contain only the time and parameters."""
         self._allow(symbol.name)
         what = f"signal {symbol.name}"
         for inner in _free_symbols(symbol.formula):
@@ -102,9 +102,7 @@ class Reader:
         """Return one formula as an expression.
 
         The formula may contain coordinates, t, parameters, signals, and the symbols in ``more``.
-
-        If ``constant`` is True, the formula may contain only parameters. ``what`` is the name of the formula
-        in messages.
+        If ``constant`` is True, the formula may contain only parameters.
         """
         shape = getattr(formula, "shape", None)
         if shape == (1, 1):
@@ -153,10 +151,7 @@ class Reader:
 
 
 def _flat(formulas: Iterable[sympy.Expr]) -> Iterator[sympy.Expr]:
-    """Yield the entries of a matrix row by row.
-
-    ``formulas`` is a matrix of sympy, an array of NumPy, or a list of rows.
-    """
+    """Yield the entries of a matrix row by row."""
     # A matrix of sympy yields its entries, but an array of NumPy and a list of rows yield rows.
     for entry in formulas:
         if isinstance(entry, list | tuple) or getattr(entry, "ndim", 0) > 0:
@@ -166,6 +161,6 @@ def _flat(formulas: Iterable[sympy.Expr]) -> Iterator[sympy.Expr]:
 
 
 def _free_symbols(formula: sympy.Expr) -> Iterable[sympy.Symbol]:
-    """Return the symbols of a formula. A Python number has no symbols."""
+    """Return the symbols of a formula, which may be a Python number."""
     symbols: Iterable[sympy.Symbol] = getattr(formula, "free_symbols", ())
     return symbols

@@ -138,7 +138,7 @@ class _CanonicalSystem:
 
     - ``summands``: the parts of H.
     - ``roots``: the components of xi and n.
-    - ``loads``: the components of the wrench. Without a wrench, this tuple is empty.
+    - ``loads``: the components of the wrench, or an empty tuple.
     - ``open_roots``: the components of xi and of the sum n + wrench.
     """
 
@@ -187,8 +187,7 @@ class _CanonicalSystem:
     def invariants(self, energy: Expr, declared: Mapping[str, sympy.Expr]) -> dict[str, Expr]:
         """Return all invariants of the scene.
 
-        If H does not depend on time and there is no wrench, the energy is the first invariant. The
-        ``declared`` invariants follow.
+        If H does not depend on time and there is no wrench, the energy is the first invariant.
         """
         timeless = not any(node.op == "sym" and node.payload == TIME for node in walk([energy]))
         known = {"energy": energy} if timeless and not self.loads else {}
@@ -197,7 +196,7 @@ class _CanonicalSystem:
     def derived(self, key: str, column: Column) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
         """Return two tuples of components: the formulas in ``column``, and the formulas computed from H.
 
-        If ``key`` is "xi", the components belong to xi. If ``key`` is "n", they belong to n.
+        ``key`` is "xi" or "n".
         """
         dim = self.group.dim
         own = self.roots[:dim] if key == "xi" else self.roots[dim:]

@@ -6,9 +6,6 @@ total energy E is the sum of h over all sites and of V over all bonds.
 The equations are q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i. Here xi_i is the derivative of h with
 respect to mu_i. The force n_i = -D_i.q_i^-1 contains the derivative D_i of E with respect to q_i
 (:mod:`codegen.scene.canonical_equations`).
-
-For each offset d, the site i belongs to two bonds, one with the site i + d and one with the site i - d.
-Therefore the energies V(q_i, q_{i+d}) and V(q_{i-d}, q_i) both contribute to n_i.
 """
 
 from __future__ import annotations
@@ -60,13 +57,12 @@ def HamiltonianSiteScene(
     - ``q``, ``mu``: the coordinates of a site (``group.point``, ``group.dual``).
     - ``H``: the Hamiltonian of one site, without bonds, as a formula in q, mu, t and parameters.
     - ``bonds``: the energies of bonds (:class:`Bond`). Each energy gives the forces on both sites.
-    - ``q0``, ``mu0``: one initial state for all sites. Emitted code also accepts one state for each site.
+    - ``q0``, ``mu0``: one initial state for all sites.
     - ``boundary``: "periodic" or "open".
     - ``outside``: the group element that replaces q of a missing neighbour at an open boundary. Give a column
-      of ``group.size`` formulas in q, t and parameters, or a mapping from offsets to columns. Constants
-      describe a clamped end. Formulas in t describe a driven end. For a free end, the element must give
-      zero force; often ``q`` does.
-    - ``parts``: named summands of ``H``. Splittings compose the exact flows of the parts and of the bonds.
+      of ``group.size`` formulas in q, t and parameters, or a mapping from offsets to columns. For a
+      free end, the element must give zero force; often ``q`` does.
+    - ``parts``: named summands of ``H``.
 
     :class:`SceneError` is raised for the errors that :func:`codegen.scene.HamiltonianScene` and
     :func:`codegen.scene.SiteScene` list, and for bonds that contain the momentum.
@@ -141,7 +137,7 @@ def _with_momenta(
 ) -> Column | dict[Sequence[int], Column] | None:
     """Return ``outside`` with ``mu`` appended to each column, because a state consists of q and mu.
 
-    The appended values have no effect. The force of a bond does not depend on the momentum of a neighbour.
+    The appended values have no effect.
     """
     if outside is None:
         return None

@@ -54,9 +54,7 @@ def LargeLinearScene(
       from 0. By default, the columns of the initial state are the first k unit vectors.
     - ``span``: the rational time interval.
 
-    The scene permits methods of the families magnus, cf_magnus, fer, rkmk, cf and cg. Emitted code
-    computes no n x n products or exponentials (:mod:`codegen.ir.linear_array_step`). If the entries of ``A``
-    are formulas and not lists, the length of the emitted code does not depend on n.
+    The scene permits methods of the families magnus, cf_magnus, fer, rkmk, cf and cg.
 
     :class:`SceneError` is raised if ``A`` is not square or contains :func:`codegen.scene.unknown`, and if
     ``y0`` has a wrong size.

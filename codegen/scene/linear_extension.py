@@ -1,7 +1,7 @@
-"""The extended phase space of a linear Hamiltonian problem y' = A(t).y with canonical coordinates y = (q, p).
+"""The extended phase space of a linear Hamiltonian problem y' = A(t).y.
 
-The vectors q and p have n components each. Let J be the 2n x 2n block matrix (0, I; -I, 0). If A(t) is in
-sp(2n), y' = A(t).y is Hamilton's equation for H = (q'.p - p'.q)/2 = -y^T J A y/2.
+The canonical coordinates are y = (q, p) in R^2n. Let J be the 2n x 2n block matrix (0, I; -I, 0). If A(t) is
+in sp(2n), y' = A(t).y is Hamilton's equation for H = (q'.p - p'.q)/2 = -y^T J A y/2.
 
 The momentum u conjugate to the time has the initial value -H and satisfies u' = -dH/dt. Let a step of a
 method map y to M(t) y, where M(t) is symplectic and t is the time at the start of the step. The step is a
@@ -58,7 +58,6 @@ def without_momentum_rate(problem: Problem) -> Problem:
     """Return the extended linear problem with u' = 0 in place of u' = -dH/dt.
 
     Methods for linear problems need a field that does not contain the state, but -dH/dt contains the state.
-    Therefore these methods compute u separately.
     """
     zero = problem.roots[-1].space.zero
     return replace(problem, roots=(*problem.roots[:-1], zero))

@@ -23,10 +23,7 @@ class LinearField(MatrixField):
     def generator(
         self, domain: Domain, x: Sequence[Scalar], symbols: Mapping[str, Scalar]
     ) -> tuple[Scalar, ...]:
-        """Return the entries of A(t) row by row. A(t) does not depend on ``x``.
-
-        The result has n^2 entries. Therefore this method is practical only for small n.
-        """
+        """Return the n^2 entries of A(t) row by row. This method is practical only for small n."""
         n = self.rows
         entries = [domain.rational(0)] * (n * n)
         for coefficient, matrix in self.matrix.terms:

@@ -40,7 +40,7 @@ def LinearScene(
     - ``A``: a column of ``group.dim`` formulas in ``t`` and in parameters. For a group of n x n matrices,
       ``A`` can also be an n x n matrix of formulas.
     - ``y``: the symbols in ``velocity`` and ``invariants``; by default, the real symbols y0, y1 and so on.
-    - ``steps``: methods that map the state y to M y with a matrix M. The keys are names. Each value contains
+    - ``steps``: methods that map the state y to M y with a matrix M. Each value contains
       a formula for M (:mod:`codegen.scene.matrix_step`) and the order. In commands, write ``step:NAME``.
 
     :func:`codegen.scene.FieldScene` describes the other arguments. For y' = y A(t), use the action
@@ -82,14 +82,9 @@ def LinearScene(
 
 
 def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> dict[str, MatrixStep]:
-    """Return the methods that the scene defines by formulas. The keys are the names of the methods.
+    """Return the methods that the scene defines by formulas, by name.
 
-    SceneError is raised in four cases:
-
-    - The group does not act by multiplication with matrices.
-    - A formula needs a closed form of exp or log, and the matrices are larger than 2 x 2.
-    - The order of a method is not a positive integer.
-    - The matrix A does not depend on the time.
+    SceneError is raised for a formula or an order that the scene does not permit.
     """
     matrices = scene.group.offers(MatrixElements)
     for name, (formula, order) in steps.items():
