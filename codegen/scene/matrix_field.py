@@ -15,8 +15,7 @@ from codegen.ir.expr import walk
 class MatrixField:
     """A tangent field V(X) on the n x k matrices X with orthonormal columns; ``program`` computes V(X).
 
-    V(X) = S X holds for the skew matrix S = W X^T - X W^T with W = V - X (X^T V)/2. The rank of S is at
-    most 2k.
+    V(X) = S X holds for the skew matrix S = W X^T - X W^T with W = V - X (X^T V)/2.
     """
 
     program: ArrayProgram
@@ -47,10 +46,7 @@ class MatrixField:
     def generator(
         self, domain: Domain, x: Sequence[Scalar], symbols: Mapping[str, Scalar]
     ) -> tuple[Scalar, ...]:
-        """Return the n x n matrix S with V(X) = S X, row by row. ``x`` contains the entries of X.
-
-        The result has n^2 entries. Therefore this method is practical only for small n.
-        """
+        """Return the n x n matrix S with V(X) = S X, row by row. ``x`` contains the entries of X."""
         n, k = self.rows, self.columns
         v, half = self.velocity(domain, x, symbols), domain.rational(1, 2)
 

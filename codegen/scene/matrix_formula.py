@@ -1,8 +1,8 @@
-"""Formulas whose operands are matrices. A scene uses these formulas to define a field on large matrices.
+"""Formulas whose operands are matrices.
 
 The operators are ``@`` (product), ``+``, ``-``, ``*`` (by a scalar) and ``.T`` (transpose). Scalars are
 numbers and sympy formulas in ``t`` and in parameters. Products are computed in the order that needs the
-fewest multiplications. In the example, X @ X.T would be an 800 x 800 matrix and is not computed.
+fewest multiplications.
 
 >>> X = unknown(800, 4)
 >>> A = banded(800, {-1: -1, 0: 2, 1: -1})
@@ -36,8 +36,7 @@ class MatrixFormula:
     rows: int
     columns: int
     __array_ufunc__: ClassVar[None] = None
-    """The value None makes NumPy use the operators of MatrixFormula, for example in ``array * formula``. By
-    default, NumPy would apply ``*`` to each entry of the array."""
+    """The value None makes NumPy use the operators of MatrixFormula, for example in ``array * formula``."""
 
     @property
     def T(self) -> MatrixFormula:
@@ -149,10 +148,9 @@ def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None
 
     ``diagonals`` maps the offset j - i of a diagonal to the entries a_ij of this diagonal. Give one scalar
     for the whole diagonal, a function of the row i, or a list of all entries. Rows and columns are counted
-    from 0. For a scalar or a function, the length of the emitted code does not depend on the number of rows.
+    from 0.
 
-    :class:`SceneError` is raised for an offset outside the matrix. The scene that contains the matrix raises
-    SceneError for a list of a wrong length.
+    :class:`SceneError` is raised for an offset outside the matrix.
     """
     _size(rows, "rows")
     width = rows if columns is None else columns
@@ -172,7 +170,7 @@ def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None
 def full(rows: int, columns: int, entries: EntryFormula) -> Constant:
     """Return a full matrix. ``entries`` is a function of the row and the column, or a list of rows.
 
-    Rows and columns are counted from 0. A product with a vector takes rows x columns multiplications.
+    Rows and columns are counted from 0.
     """
     _size(rows, "rows")
     _size(columns, "columns")

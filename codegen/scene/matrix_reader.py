@@ -1,7 +1,6 @@
 """Translation of matrix formulas (:mod:`codegen.scene.matrix_formula`) into array programs.
 
-The transpose (A B)^T of a product is computed as B^T A^T. Each product is computed in the order that needs
-the fewest multiplications. Equal products are computed only once.
+Each product is computed in the order that needs the fewest multiplications.
 """
 
 from __future__ import annotations
@@ -49,10 +48,7 @@ ARGUMENT, RESULT = "point", "velocity"
 
 @dataclass(frozen=True)
 class _Factor:
-    """A factor of a product. If ``transposed`` is True, the factor is the transpose of ``formula``.
-
-    ``formula`` is the unknown X, a constant matrix or a sum.
-    """
+    """A factor of a product. If ``transposed`` is True, the factor is the transpose of ``formula``."""
 
     formula: MatrixFormula
     transposed: bool
@@ -130,7 +126,7 @@ def matrix_terms(reader: Reader, formula: MatrixFormula) -> tuple[tuple[Expr, Co
 
 @dataclass
 class _Compiler:
-    """Translates one matrix formula. The list ``body`` collects the statements of the array program."""
+    """Translates one matrix formula into an array program."""
 
     reader: Reader
     x: Unknown
@@ -179,10 +175,9 @@ class _Compiler:
         return _Factor(formula, transposed)
 
     def factors(self, formula: MatrixFormula, transposed: bool) -> tuple[Expr, tuple[_Factor, ...]]:
-        """Write a formula as a scalar times a product of matrices. Return the scalar and the factors.
+        """Return a scalar and factors whose product is ``formula``.
 
-        If ``transposed`` is True, use the transpose of the formula. A formula that is not a product has one
-        factor.
+        If ``transposed`` is True, use the transpose of the formula.
         """
         match formula:
             case Times(left=left, right=right):
@@ -197,11 +192,9 @@ class _Compiler:
                 return self.reader.space.one, (self.factor(formula, transposed),)
 
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
-        """Expand some sums among the factors of a product. Yield the resulting products, multiplied by c.
+        """Expand sums with a constant term and large sums in a product, and yield the products times c.
 
-        A sum is expanded if one of its terms is a constant matrix, because the program cannot add it.
-        A sum is also expanded if it is large, because it would need a large array. A large sum has more rows
-        and more columns than the number of columns of X.
+        The program cannot add a constant matrix, and a large sum would need a large array.
         """
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
@@ -230,10 +223,7 @@ class _Compiler:
         return Matrix(f"value {len(self.body) + 1}", rows, columns)
 
     def product(self, factors: tuple[_Factor, ...]) -> _Stored:
-        """Return the product of the factors.
-
-        The first call with given factors appends statements. Later calls return the stored product.
-        """
+        """Return the product of the factors. Only the first call with given factors appends statements."""
         if factors not in self.known:
             self.known[factors] = self._product(factors)
         return self.known[factors]
@@ -274,8 +264,7 @@ class _Compiler:
         """
         assert factor.constant is not None
         constant = self.constant(factor.constant)
-        # The statement Apply can transpose the constant matrix C, but not the array Z. Therefore Z C^T is
-        # computed in place of C Z^T.
+        # Z C^T is computed in place of C Z^T, because the statement Apply cannot transpose the array Z.
         transposed = factor.transposed is not other.transposed
         right = from_right is not other.transposed
         rows = other.rows if from_right else factor.rows
@@ -311,11 +300,7 @@ class _Compiler:
 
 
 def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
-    """Return the statements without a superfluous copy at the end.
-
-    If the last statement only copies the target of the previous statement into the result array, it is
-    removed. The previous statement then writes into the result array.
-    """
+    """Return the statements without a superfluous copy at the end."""
     *before, last = body
     assert isinstance(last, Combination)
     (term,) = last.terms
@@ -345,10 +330,7 @@ def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
 
 
 def _cost(left: tuple[_Factor, ...], right: tuple[_Factor, ...]) -> float:
-    """Return the number of scalar multiplications for the product of two matrices.
-
-    The first matrix is the product of the factors in ``left``, and the second matrix is the product of the
-    factors in ``right``.
+    """Return the number of scalar multiplications for (product of ``left``) times (product of ``right``).
 
     Return infinity if both matrices are constant, because the program does not multiply constant matrices.
     """
@@ -387,11 +369,9 @@ def _transposed(given: Constant) -> Constant:
 
 
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
-    """Return the entries of the diagonal ``-offset`` of A^T, where A is a matrix.
+    """Return the entries of the diagonal ``-offset`` of A^T from those of the diagonal ``offset`` of A.
 
-    ``entry`` contains the entries of the diagonal ``offset`` of A. The row i of A^T contains an entry from
-    the row i - offset of A. Therefore a function f of the row becomes f(i - offset). Lists and scalars stay
-    unchanged.
+    The row i of A^T contains an entry from the row i - offset of A.
     """
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 
@@ -409,9 +389,7 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
         return ConstantMatrix(name, given.rows, given.columns, (), entry)
     matrix = ConstantMatrix(name, given.rows, given.columns)
     diagonals = []
-    # The main diagonal comes first, because it has an entry in every row of a square matrix. Emitted code
-    # can set each row of a product to the contribution of the main diagonal, and then add the contributions
-    # of the other diagonals.
+    # The main diagonal comes first, because it can set every row of a product with a square matrix.
     for offset in sorted(given.diagonals, key=lambda x: (abs(x), x)):
         length = matrix.length(Diagonal(offset, ()))
         entry = _entry(reader, given.diagonals[offset], (row,), length, f"the diagonal {offset}")
@@ -422,7 +400,7 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
 def _entry(reader: Reader, given: EntryFormula, indices: tuple[object, ...], size: int, what: str) -> Entry:
     """Return the entries of a matrix, or of a diagonal, as a formula in the indices or as a tuple of numbers.
 
-    If ``given`` is a list, it must contain ``size`` rational numbers. Otherwise SceneError is raised.
+    SceneError is raised if a list ``given`` does not contain ``size`` rational numbers.
     """
     if callable(given):
         given = given(*indices)

@@ -3,10 +3,8 @@
 The formula contains the step size :data:`h`, numbers, the matrix :data:`IDENTITY` and matrices A(t + c h),
 where c is a number (:func:`A`). Sums, products and the functions :func:`bracket`, :func:`projected`,
 :func:`expm` and :func:`logm` combine these matrices. The type of a formula (:class:`Place`) is a set that
-contains the values of the formula: the Lie algebra, the group, or all square matrices. The group computes the
-exponential of an algebra element. All other exponentials and all logarithms need a closed form. The closed
-forms exist only for 2 x 2 matrices. If a formula for larger matrices needs a closed form, the formula is
-rejected.
+contains the values of the formula: the Lie algebra, the group, or all square matrices. Logarithms, and
+exponentials of matrices outside the Lie algebra, are available only for 2 x 2 matrices.
 
 >>> projection = expm(projected(logm(IDENTITY + h * A(0))))
 >>> projection.place, projection.text()
@@ -274,8 +272,8 @@ class Multiple(MatrixFormula):
 class Projected(Unary):
     """The orthogonal projection of a matrix onto the Lie algebra. The scalar product is tr(X^T Y).
 
-    For sp(2n) the projection of X is (X + J X^T J)/2, as in equation (4.18) of H. Marthinsen's thesis. J is
-    the matrix (0, I; -I, 0), where I is the n x n unit matrix.
+    For sp(2n) the projection of X is (X + J X^T J)/2 with J = (0, I; -I, 0), as in equation (4.18) of
+    H. Marthinsen's thesis.
     """
 
     @property
@@ -400,8 +398,7 @@ class MatrixStep:
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
     """Return the matrix of the orthogonal projection onto the Lie algebra of the group.
 
-    For n x n matrices the result has n^2 rows and n^2 columns. Let v be the vector of the n^2 entries of a
-    matrix, row by row. The product of the result and v contains the entries of the projected matrix.
+    The result acts on the vector of the n^2 entries of an n x n matrix, row by row.
     """
     from sympy import Matrix, Rational
 
@@ -436,8 +433,7 @@ def _exponential(d: Domain, m: Vector[S]) -> Vector[S]:
 def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     """Return the logarithm of a 2 x 2 matrix m = s I + N, where s is a number and N has trace zero.
 
-    The result is (1/2 log(det m)) I + g N, where I is the unit matrix. The number g
-    depends on s, z = det N and r = sqrt(|z|):
+    The result is (1/2 log(det m)) I + g N, with z = det N, r = sqrt(|z|) and this number g:
 
     - If z > 0, g = atan2(r, s)/r.
     - If z = 0, g = 1/s.
@@ -446,8 +442,7 @@ def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     s, traceless, z = _split(d, m)
     one, half = d.rational(1), d.rational(1, 2)
     r = d.call("sqrt", d.call("fabs", z))
-    # ``choose`` evaluates both alternatives. If z > 0, the logarithms are not used, but s + r or s - r may be
-    # negative. The argument 1 prevents the logarithm of a negative number.
+    # ``choose`` evaluates both alternatives, so the argument 1 prevents the logarithm of a negative number.
     above, below = (d.call("log", d.call("choose", z, one, x)) for x in (s + r, s - r))
     angle = d.call("choose", z, d.call("atan2", r, s), half * (above - below))
     g = d.call("choose", r, d.call("quotient", angle, r), d.call("quotient", one, s))

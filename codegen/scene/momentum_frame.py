@@ -21,9 +21,8 @@ def with_frame(problem: Problem, frame: str) -> Problem:
     """Return the problem with a frame in which emitted code accepts and returns momenta.
 
     The frame ``space`` means the right-trivialised momentum mu. The frame ``body`` means the left-trivialised
-    momentum Ad*_q mu at the configuration q. Inside a step, emitted code may use the other frame. The frame
-    ``body`` needs a Hamiltonian problem on a group that is not abelian. Otherwise :class:`SceneError` is
-    raised.
+    momentum Ad*_q mu at the configuration q. :class:`SceneError` is raised for ``body`` if the problem is not
+    Hamiltonian or the group is abelian.
     """
     if frame not in FRAMES:
         raise UnknownName(f"unknown frame {frame}", expected=" or ".join(FRAMES))

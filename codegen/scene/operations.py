@@ -1,9 +1,7 @@
 """The operations that are computed by a group, an action or a coordinate map.
 
-A step of a method is a list of operations, for example ``exp`` and ``mul``. Each table of this module maps
-the names of operations to the functions that compute the operations. :mod:`codegen.ir.operations` describes
-the arguments. Some groups lack an operation, for example the Cayley map. A call of the missing operation
-raises :class:`codegen.errors.SceneError`.
+Each table maps the names of operations, for example ``exp``, to the functions that compute the operations. A
+call of an operation that the group lacks raises :class:`codegen.errors.SceneError`.
 """
 
 from __future__ import annotations
@@ -16,9 +14,9 @@ from codegen.groups.capabilities import BodyFrame, CayleyMap, Coadjoint
 from codegen.ir.domain import Domain, Value
 
 GroupOperation = Callable[..., Value]
-"""A function that computes an operation of a group. The function receives the group, the number domain and
-the arguments of the operation. If the operation truncates a series, the last argument is the truncation
-order."""
+"""A function that computes an operation from the group, the number domain and the arguments of the operation.
+If the operation truncates a series, the last argument is the truncation order.
+"""
 
 ON_GROUP: Mapping[str, GroupOperation] = {
     "identity": lambda group, d: group.identity(d),

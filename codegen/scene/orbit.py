@@ -1,8 +1,6 @@
 """Comparison of formulas at sample points on the orbit of the initial state under the group.
 
-Two formulas may be equal on the orbit but different outside the orbit. For example, g^T g = 1 is true only
-for orthogonal matrices g. Each sample point has a time in the time span of the problem. The computations use
-40 digits.
+Two formulas may be equal on the orbit but different outside the orbit.
 """
 
 from __future__ import annotations
@@ -27,15 +25,14 @@ if TYPE_CHECKING:
 
 DIGITS = 40
 TOLERANCE = Fraction(1, 10**20)
-"""The relative tolerance of the test whether a sum is zero. The absolute value of the sum must be at most
-TOLERANCE times the sum of the absolute values of the terms, plus FLOOR. TOLERANCE is much larger than the
-unit roundoff, because cancellation may increase the rounding errors of the terms.
+"""The relative tolerance of the test whether a sum is zero: |sum| <= TOLERANCE * (sum of |terms|) + FLOOR.
+TOLERANCE exceeds the unit roundoff, because cancellation may increase the rounding errors of the terms.
 """
 
 FLOOR = Fraction(1, 10**28)
-"""The absolute tolerance of the test whether a sum is zero. A term may be a small
-difference of nearly equal numbers. The rounding error of this difference may be larger than TOLERANCE times
-the term."""
+"""The absolute tolerance of the test whether a sum is zero. By cancellation, the rounding error of a term may
+be larger than TOLERANCE times the term.
+"""
 
 POINTS = 4
 """The largest number of sample points: the initial state, and three random points of its orbit."""
@@ -65,10 +62,10 @@ class Orbit:
 
     @cached_property
     def points(self) -> tuple[dict[str, mpmath.mpf], ...]:
-        """The sample points. Each point contains the values of all symbols.
+        """The values of all symbols at the initial state and at random points of its orbit.
 
-        The points are the initial state and random points of its orbit. Points where f is not finite are
-        omitted. :class:`SceneError` is raised if f is not finite at the initial state.
+        Points where f is not finite are omitted. :class:`SceneError` is raised if f is not finite at the
+        initial state.
         """
         d, rng = self.domain, random.Random("orbit")
         constants = {name: d.number(x) for name, x in self.parameters.items()}

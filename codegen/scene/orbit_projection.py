@@ -1,8 +1,7 @@
 """Two tests of the orbit of the initial state: Is the orbit open? Does the action project onto the orbit?
 
-The projection is :meth:`Action.to_orbit`. If the action has no formula for a projection, ``to_orbit`` returns
-the point unchanged. An open orbit needs no projection, because all points near a point of the orbit are on
-the orbit. If the orbit is not open, a numerical method that needs the projection leaves the orbit.
+The projection is :meth:`Action.to_orbit`. An open orbit needs no projection, because all points near a point
+of the orbit are on the orbit.
 """
 
 from __future__ import annotations
@@ -17,12 +16,8 @@ DISPLACEMENT = 1e-4
 """The distance from the initial state to the points that the test :func:`reaches_orbit` projects."""
 
 REDUCED = 1e-2
-"""The tolerance of the test :func:`reaches_orbit`.
-
-The test displaces the initial state by DISPLACEMENT, perpendicular to the orbit, and projects the displaced
-point. After the projection, the perpendicular displacement must be at most REDUCED * DISPLACEMENT. The
-perpendicular displacement need not be zero: at the distance DISPLACEMENT, the orbit may deviate from its
-tangent space by about DISPLACEMENT^2.
+"""The factor by which the projection in :func:`reaches_orbit` must reduce a displacement perpendicular to the
+orbit. The factor is not zero, because the orbit may deviate from its tangent space by about DISPLACEMENT^2.
 """
 
 INDEPENDENT = 1e-8
@@ -36,8 +31,7 @@ INDEPENDENT * max(1, |v|).
 def reaches_orbit(problem: Problem) -> bool:
     """Return True if the projection of the action maps points near the initial state onto the orbit.
 
-    The test displaces the initial state in each direction perpendicular to the orbit, and projects the
-    displaced point. If the orbit is open, no such direction exists, and the result is True.
+    If the orbit is open, the result is True.
     """
     field, d = problem.as_field(), FloatDomain(0.0)
     start = tuple(map(float, field.initial(d)))
@@ -53,11 +47,7 @@ def reaches_orbit(problem: Problem) -> bool:
 
 
 def orbit_is_open(problem: Problem) -> bool:
-    """Return True if the orbit of the initial state is an open set of the space of coordinates.
-
-    The orbit is open if the dimension of its tangent space is the number of coordinates. For example, the
-    orbits of SO(2) in the plane are circles. A circle is not open in the plane.
-    """
+    """Return True if the orbit of the initial state is an open set of the space of coordinates."""
     field = problem.as_field()
     start = tuple(map(float, field.initial(FloatDomain(0.0))))
     return field.group.dim >= len(start) and len(_tangent(field, start)) == len(start)

@@ -56,10 +56,10 @@ class Signal(sympy.Symbol):  # type: ignore[misc]
 def param(name: str, default: object) -> Parameter:
     """Return a sympy symbol for a parameter with a rational default.
 
-    A float denotes the decimal number that Python prints: 0.1 is 1/10. Emitted code contains the
-    default as a constant. With the option ``emit --parameter NAME``, the parameter is an argument of emitted
-    code instead. :class:`SceneError` is raised if the default is not rational, or too large or too
-    small for a normal double.
+    A float denotes the decimal number that Python prints: 0.1 is 1/10. With the option
+    ``emit --parameter NAME``, the parameter is an argument of emitted code instead of a constant.
+    :class:`SceneError` is raised if the default is not rational, or too large or too small for a normal
+    double.
     """
     value = exact(default)
     if value is None:
@@ -76,9 +76,9 @@ def param(name: str, default: object) -> Parameter:
 def signal(name: str, formula: object = 0) -> Signal:
     """Return a sympy symbol for a function of time, for example a control input or a measured load.
 
-    ``formula`` may contain t and parameters. Emitted code evaluates ``formula``. With the option
-    ``emit --input NAME``, emitted code reads the signal at run time instead. :class:`SceneError` is raised
-    for a formula that sympy cannot read.
+    ``formula`` may contain t and parameters. With the option ``emit --input NAME``, emitted code reads the
+    signal at run time instead of evaluating ``formula``. :class:`SceneError` is raised for a formula that
+    sympy cannot read.
     """
     try:
         return Signal(name, sympy.sympify(formula, strict=True))

@@ -1,11 +1,7 @@
 """Problems: the form of scenes that the interpreter and the compiler use.
 
 The sympy formulas of a scene are converted to exact expressions that share equal subexpressions. Derivatives
-are computed by reverse differentiation. The expressions can be evaluated in several number domains, such as
-floats, series or expressions.
-
-A step program is the list of operations of one step of a method. Some operations depend on the group, the
-action or the equation. The problem computes these operations (:meth:`Problem.apply`).
+are computed by reverse differentiation.
 """
 
 from __future__ import annotations
@@ -74,10 +70,10 @@ class Problem:
     mu' = n - ad*_xi mu, where xi is the velocity in the Lie algebra, and n is the force in its dual space.
 
     - ``roots``: the components of f, or of xi and n, as expressions in the coordinates, the parameters and
-      ``t``. Large matrices and semilinear equations have no ``roots``.
+      ``t``; empty for large matrices and semilinear equations.
     - ``paired``: True if the state is (q, mu).
     - ``parts``: summands of the Hamiltonian, by name.
-    - ``flows``: the exact flow of each part. Splitting methods compose these flows.
+    - ``flows``: the exact flow of each part.
     - ``stated``: for some parts, formulas of the scene for (q, mu) after the time tau along the flow.
     - ``runtime``: the parameters that are arguments of emitted code.
     - ``fixed``: the names and values of parameters with a new value in place of the default.
@@ -152,12 +148,12 @@ class Problem:
 
     @property
     def linear(self) -> bool:
-        """True if the field does not depend on the state. The equation is then y' = A(t).y.
+        """True if the field does not depend on the state: y' = A(t).y.
 
         On a lattice, the field of a site must not depend on the states of neighbours either.
         """
-        # If formulas of matrices define the field, ``roots`` may be empty. A test of empty ``roots`` would
-        # always return True.
+        # A test of ``roots`` would be wrong, because ``roots`` may be empty if formulas of matrices define
+        # the field.
         if self.matrices is not None:
             return self.matrices.linear
         if self.semilinear is not None:
@@ -198,9 +194,8 @@ class Problem:
     def as_field(self) -> Problem:
         """Return a Hamiltonian problem as an equation y' = f(y).y, where y = (q, mu) and f = (xi, n).
 
-        The equations of the problem are q' = xi.q and mu' = n - ad*_xi mu. The group of the result is T*G,
-        and T*G acts on itself by left multiplication. If the state is not (q, mu), the problem is returned
-        unchanged.
+        The group T*G of the result acts on itself by left multiplication. If the state is not (q, mu), the
+        problem is returned unchanged.
         """
         if not self.paired:
             return self
@@ -265,10 +260,9 @@ class Problem:
         return self.evolution
 
     def flow(self, domain: Domain, part: str, tau: S, args: Values) -> Values:
-        """Return (q, mu) after the time tau along the exact flow of a summand of the Hamiltonian.
+        """Return (q, mu) after the time tau along the exact flow of the summand ``part`` of the Hamiltonian.
 
-        ``part`` is the name of the summand. ``args`` are the initial q and mu, followed by t if the summand
-        depends on t.
+        ``args`` are the initial q and mu, followed by t if the summand depends on t.
         """
         q, mu, *time = args
         values = self.values(domain, (*q, *mu), *time)
@@ -312,20 +306,15 @@ class Problem:
         return tuple(evaluate(roots, domain, self.values(domain, (*q, *P), *time)))
 
     def _field(self, domain: Domain, args: Values) -> Values:
-        """Return the field of the problem.
+        """Return the pair (xi, n) if the state is (q, mu), otherwise f (:class:`Problem`).
 
-        If the state is (q, mu), the equations are q' = xi.q and mu' = n - ad*_xi mu, and the field is the
-        pair (xi, n). Otherwise the equation is y' = f(y).y, and the field is f.
-
-        ``args`` contains the blocks of the state. The time may follow as the last entry. By default the
-        time is 0.
+        ``args`` contains the blocks of the state, and optionally the time, which is 0 by default.
         """
         blocks, time = args[: len(self.state)], args[len(self.state) :]
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots
         if self.inputs and isinstance(domain, ExprDomain):
-            # The caller of emitted code passes the values of the signals in ``inputs`` at the stage times.
-            # Therefore these signals stay symbols.
+            # The signals in ``inputs`` stay symbols, because the caller of emitted code passes their values.
             roots = self.open_roots
             formulas = evaluate(list(self.signals.values()), domain, values)
             samples = domain.sample(self.inputs, values[TIME])

@@ -14,11 +14,10 @@ from codegen.ir.number import Number
 from codegen.scene.problem import TIME, Problem
 
 TERMS = 20
-"""The index of the last term in the series of dexp^{-1} for the model problem. Term k has k brackets.
+"""The index of the last term in the series of dexp^{-1} for the model problem.
 
 Term k is about (z/(2 pi))^k, where z is the step size times the eigenvalue -1/2 of the model problem. The
-compiler passes are tested with step sizes up to 1/4, so |z| is at most 1/8. The omitted terms are below
-(16 pi)^-21 = 2e-36.
+compiler passes are tested with step sizes up to 1/4, so the omitted terms are below (16 pi)^-21 = 2e-36.
 """
 
 
@@ -27,15 +26,14 @@ class Semilinear:
     """The operator and the nonlinear term of a semilinear problem, as formulas.
 
     - ``wave``, ``space``: the symbols of the wave number and of x.
-    - ``symbol``: the eigenvalue of L as a formula in the wave number. The first entry is the real part. If
-      the imaginary part is not zero, it is the second entry.
+    - ``symbol``: the eigenvalue of L as a formula in the wave number: the real part, and the imaginary part
+      if it is not zero.
     - ``length``: the period.
     - ``initial``: the initial state as a formula in x.
     - ``formulas``, ``outer``: formulas g_i and orders m_i. N is the sum over i of the x-derivatives of g_i of
-      order m_i. A formula g_i may contain u and derivatives of u.
+      order m_i.
     - ``inner``: for each derivative of u in ``formulas``, its order and its symbol.
-    - ``kept``: the fraction of the Fourier modes of N that is kept. The other modes, with the highest wave
-      numbers, are replaced by zero.
+    - ``kept``: the fraction of the Fourier modes of N that is kept; the highest modes are replaced by zero.
     - ``timed``: True if N depends on the time.
     """
 
@@ -79,10 +77,10 @@ class ExactExponential(CoordinateMap):
 
 
 def model_of(scene: Problem) -> Problem:
-    """Return the model problem u' = -u/2 + N(u) for one number u. The compiler passes run on the model.
+    """Return the model problem u' = -u/2 + N(u) for one number u, on which the compiler passes run.
 
-    If the nonlinear term of the scene depends on the time, N(u) is u^2 + t. Otherwise N(u) is u^2. The
-    operations of a step do not depend on the values of L and N, so one model suffices.
+    N(u) is u^2 + t if the nonlinear term of the scene depends on the time, otherwise u^2. The operations of a
+    step do not depend on the values of L and N.
     """
     assert scene.semilinear is not None
     (block,) = scene.state

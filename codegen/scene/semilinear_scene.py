@@ -28,15 +28,15 @@ if TYPE_CHECKING:
     import sympy
 
 TWO_THIRDS = Fraction(2, 3)
-"""The fraction of the Fourier modes of N that ``dealias=True`` keeps. The highest modes are replaced by zero.
-A product of two kept modes has no alias among the kept modes.
+"""The fraction of the Fourier modes of N that ``dealias=True`` keeps. A product of two kept modes has no
+alias among the kept modes.
 """
 
 SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
 """Wave numbers k for a test of L. The values of the Fourier symbol of L at k and -k must be conjugate."""
 
 DIGITS_OF_PI = 60
-"""The number of digits of pi in formulas. Formulas contain only rational constants."""
+"""The number of digits of the rational constant that replaces pi in formulas."""
 
 
 def SemilinearScene(
@@ -56,19 +56,19 @@ def SemilinearScene(
     """Return the scene u_t = L u + N(u) for a function u of x and t that is periodic in x.
 
     - ``L``: the factor by which the linear operator multiplies exp(i k x), a formula in the wave number ``k``
-      and parameters. The factor may be complex; for example, the factor of d/dx is I*k.
-    - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters. N may also contain terms
-      c Dx(g, m). Here g is a formula in u, Dx(u, m), x, t and parameters. c depends on neither u nor x.
+      and parameters, for example I*k for d/dx.
+    - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters, plus terms c Dx(g, m).
+      Here g is a formula in u, Dx(u, m), x, t and parameters, and c depends on neither u nor x.
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
     - ``dealias``: the fraction of the Fourier modes of N that is kept. True means 2/3, False means 1.
 
-    Emitted code computes with the values of u at n equally spaced points. The number n is a run-time
-    argument. Explicit methods of the families rkmk, cf and cg are possible. These methods act on u by
-    affine maps u -> exp(t L) u + c, and are therefore exponential integrators.
+    Emitted code computes with the values of u at n equally spaced points, where n is a run-time argument.
+    Explicit methods of the families rkmk, cf and cg are possible. These methods act on u by affine maps
+    u -> exp(t L) u + c.
 
     :class:`SceneError` is raised if L does not map real functions to real functions, or if a formula g
-    contains derivatives other than those of ``u``. Another reason for SceneError is an unknown symbol in
-    a formula, or a choice between formulas, for example Piecewise.
+    contains derivatives other than those of ``u``. Another reason for SceneError is an unknown symbol in a
+    formula, or a choice between formulas, for example Piecewise.
     """
     parser = _Parser(name, u, k, x)
     reader, symbol = parser.reader, parser.symbol(L)
@@ -132,10 +132,9 @@ class _Parser:
         return tuple(read)
 
     def nonlinear(self, N: sympy.Expr) -> tuple[tuple[tuple[int, str], ...], dict[int, Expr]]:
-        """Return N as a pair (inner, terms).
+        """Return (order, symbol) of each derivative of u in N, and the formulas g_m by their orders m.
 
-        ``inner`` contains the order and the symbol of each derivative of u in N. ``terms`` maps orders m to
-        formulas g_m. N is the sum of the x-derivatives of order m of g_m.
+        N is the sum of the x-derivatives of order m of g_m.
         """
         import sympy
 
@@ -181,8 +180,7 @@ class _Parser:
         return inner, terms
 
     def pointwise(self, formula: sympy.Expr, what: str, more: Iterable[str]) -> Expr:
-        """Convert a sympy formula to an expression. The formula may contain the symbols in ``more``, t and
-        parameters.
+        """Convert a sympy formula in the symbols ``more``, t and parameters to an expression.
 
         SceneError is raised if the formula contains a derivative, or a choice such as Piecewise or Max.
         """
@@ -253,11 +251,7 @@ def _check(
     period: Expr,
     parameters: dict[str, Number],
 ) -> None:
-    """Raise :class:`SceneError` if the period is not positive, or if L does not map real functions to real
-    functions.
-
-    The test of L compares the Fourier symbol at k and -k. The two values must be complex conjugate.
-    """
+    """Raise :class:`SceneError` unless the period is positive and L maps real functions to real functions."""
     domain = FloatDomain(0.0)
     values: dict[str, float] = {name: float(number) for name, number in parameters.items()}
     (size,) = evaluate([period], domain, values)

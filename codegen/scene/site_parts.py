@@ -1,15 +1,12 @@
-"""Parts of the field of a lattice. The exact flow of each part is known. A part acts on single sites, or
-couples pairs of neighbours.
+"""Parts of the field of a lattice. A part acts on single sites, or couples pairs of neighbours.
 
-A part is given by an element f(y) of the Lie algebra. The generators of the part are formulas for the
-components of f(y). The dot denotes the action of the group or of its Lie algebra on states y. A part
-contributes f(y).y to the velocity of a site. The sum over all parts is the velocity of the site.
+The generators of a part are formulas for the components of an element f(y) of the Lie algebra. The sum of
+f(y).y over all parts is the velocity of a site, where the dot denotes the action. The generators must be
+constant along the solutions of y' = f(y).y. The exact flow of the part over a time tau is then
+y -> exp(tau f(y)).y.
 
-The generators must be constant along the solutions of y' = f(y).y. The exact flow of the part over a time tau
-is then y -> exp(tau f(y)).y.
-
-The pairs along an axis of the lattice form two sets. The first site of each pair has an even index in one
-set, and an odd index in the other set. Two pairs of one set share no site, so their flows commute.
+The pairs along an axis form two sets: the first site of each pair has an even or an odd index. Two pairs of
+one set share no site, so their flows commute.
 """
 
 from __future__ import annotations
@@ -54,8 +51,8 @@ def read_parts(
 ) -> tuple[SitePart, ...]:
     """Read the argument ``parts`` of a scene. ``size`` is the dimension of the group.
 
-    The offset of a :class:`Pair` must be 1 along one axis and 0 along all other axes. SceneError is raised
-    for any other offset, and for formulas with unknown symbols.
+    SceneError is raised for formulas with unknown symbols. SceneError is also raised if the offset of a
+    :class:`Pair` is not 1 along one axis and 0 along all other axes.
     """
     return tuple(_read(reader, y, size, name, given) for name, given in (parts or {}).items())
 
@@ -88,8 +85,6 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
     - The axis of each pair is an axis of the lattice.
     - The generators of each part are constant along the flow of this part.
     - The velocities of all parts add up to the velocity of the field.
-
-    ``orbit`` contains sample points for the state of one site.
     """
     sites = scene.sites
     assert sites is not None
@@ -138,10 +133,9 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
 
 
 def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, mpmath.mpf]:
-    """Return the values of all symbols for a site and one of its neighbours.
+    """Return the values of all symbols for a site at point ``number`` and a neighbour at the next point.
 
-    The site has the state of sample point ``number``, and the neighbour has the state of the next sample
-    point. ``partner`` contains the symbols of the neighbour's coordinates.
+    ``partner`` contains the symbols of the neighbour's coordinates.
     """
     point = dict(orbit.points[number])
     other = orbit.points[(number + 1) % len(orbit.points)]
@@ -149,11 +143,7 @@ def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> d
 
 
 def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
-    """Raise SceneError if the velocities of all parts do not add up to the velocity of the whole field.
-
-    At an open boundary, some neighbours are missing. On an open lattice, the test therefore also removes each
-    neighbour alone, and all neighbours together.
-    """
+    """Raise SceneError if the velocities of all parts do not add up to the velocity of the whole field."""
     axes = [part.axis for part in sites.parts if part.symbols]
     offsets = {*sites.offsets}
     for axis in axes:
@@ -196,8 +186,7 @@ def _with_outside(
 ) -> dict[str, mpmath.mpf]:
     """Return the values of all symbols in the field of a site.
 
-    The neighbours with the offsets ``absent`` are outside the lattice. The formulas in the argument
-    ``outside`` of the scene give the states of these neighbours.
+    The argument ``outside`` of the scene gives the states of the neighbours with the offsets ``absent``.
     """
     values = dict(point)
     for k, offset in enumerate(sites.offsets):
@@ -217,8 +206,7 @@ def _summed(
 ) -> list[mpmath.mpf]:
     """Return the velocity of a site as the sum of the velocities of all parts.
 
-    If a part couples sites along an axis, both neighbours along this axis contribute. ``states`` contains
-    only the neighbours that exist.
+    ``states`` contains only the neighbours that exist.
     """
     total = [orbit.domain.rational(0)] * len(scene.symbols)
     own = tuple(point[s] for s in scene.symbols)

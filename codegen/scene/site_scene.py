@@ -1,7 +1,7 @@
 """Site scenes: chains and lattices of sites. The equation of site i is y_i' = f_i.y_i.
 
-The element f_i of the Lie algebra acts on the state y_i. The element f_i depends on y_i and on the states of
-the neighbours of site i. All sites have the same formula for f_i.
+The element f_i of the Lie algebra depends on y_i and on the states of the neighbours of site i. All sites
+have the same formula for f_i.
 """
 
 from __future__ import annotations
@@ -55,26 +55,25 @@ def SiteScene(
     name: str = "scene",
     title: str = "",
 ) -> Problem:
-    """Return the scene of a chain or lattice with any number of sites. All sites have the same equation.
+    """Return the scene of a chain or lattice whose sites have the same equation.
 
     - ``y``: the coordinates of a site, on which ``group`` acts.
     - ``f``: the generator of a site in the equation y' = f.y, as a column of ``group.dim`` formulas in ``y``,
       t, parameters, and the coordinates of neighbours (:func:`codegen.scene.sites.neighbour`).
-    - ``y0``: the initial state of every site. Emitted code also accepts an array of states.
+    - ``y0``: the initial state of every site.
     - ``boundary``: "periodic" or "open".
-    - ``outside``: at an open boundary, the state that replaces a missing neighbour, as a column of
-      formulas in ``y``, t and parameters, or as a mapping from offsets to columns. At a free end, the state
-      must exert no force: write zeros or ``y``. Constants describe a clamped end, formulas in t a driven end.
-    - ``parts``: the summands of the field. Splitting methods compose the exact flows of the summands. A part
-      is a column of formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
+    - ``outside``: at an open boundary, the state that replaces a missing neighbour, as a column of formulas
+      in ``y``, t and parameters, or as a mapping from offsets to columns. At a free end, the state must exert
+      no force: write zeros or ``y``.
+    - ``parts``: the summands of the field. A part is a column of formulas in ``y``, or a
+      :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: the energy of a site, and the energies of pairs of neighbours (:class:`Bond`).
-      Discrete gradients need the total energy: the sum of the energies of all sites and pairs.
     - ``invariants``: functions of the state of one site. For arbitrary states of the neighbours, each
       function must be constant along the solutions.
 
     :class:`SceneError` is raised in the cases of :func:`codegen.scene.FieldScene`, for offsets of different
-    lengths, and if ``outside`` lacks a neighbour. Other reasons are: the parts do not add up to the field,
-    a part has no exact flow, or the total energy of an autonomous scene is not constant.
+    lengths, and if ``outside`` lacks a neighbour. Other reasons are: the parts do not add up to the field, a
+    part has no exact flow, or the total energy of an autonomous scene is not constant.
     """
     check_group(name, group)
     reader = Reader(name, list(y))
@@ -116,8 +115,7 @@ def _with_energy(
 ) -> Sites:
     """Add the energies of a site and of its bonds to ``sites``, and return the result.
 
-    For a bond with the offset d, the field must read the neighbours at d and -d. Otherwise SceneError is
-    raised.
+    SceneError is raised for a bond with the offset d if the field does not read the neighbours at d and -d.
     """
     if energy is None and not bonds:
         return sites
@@ -158,17 +156,16 @@ def _check_energy(problem: Problem) -> None:
 
 
 def with_frozen_neighbours(scene: Problem) -> Problem:
-    """Return the problem of one site with fixed neighbours. The coordinates of the neighbours are parameters.
+    """Return the problem of one site, with the coordinates of the neighbours as parameters.
 
-    The formulas of the scene are tested at one site, with fixed neighbours near the initial state.
+    The fixed states of the neighbours are near the initial state.
     """
     sites = scene.sites
     assert sites is not None
     start = [Fraction(float(x)).limit_denominator(1000) for x in scene.initial(FloatDomain(0.0))]
     values = dict(scene.parameters)
     for number, column in enumerate(sites.symbols, 1):
-        # The states of the site and of its neighbours are all different. Otherwise a formula with the
-        # difference of two equal states could be singular or could vanish by accident.
+        # All states differ, because a formula with the difference of two equal states could be singular.
         shifted = [x + Fraction((7 * k + 3 * number) % 11 - 5, 97) for k, x in enumerate(start)]
         values |= {
             s: Number.rational(x.numerator, x.denominator) for s, x in zip(column, shifted, strict=True)
@@ -210,9 +207,9 @@ def outside_states(
 ) -> tuple[tuple[Expr, ...], ...]:
     """Return a column of formulas for each offset: the state that replaces a missing neighbour.
 
-    For a periodic lattice, return (). SceneError is raised if an open lattice has no column for an offset, or
-    has a column for an offset that the field does not read. A periodic lattice with the argument ``outside``
-    raises SceneError, too.
+    For a periodic lattice, return (), or raise SceneError if ``outside`` is given. SceneError is also raised
+    if an open lattice has no column for an offset, or has a column for an offset that the field does not
+    read.
     """
     if boundary not in (PERIODIC, OPEN):
         raise SceneError(f"the boundary {boundary!r}", where=reader.name, expected=f"{PERIODIC} or {OPEN}")
