@@ -1,8 +1,6 @@
 """Sites: the points of a chain or lattice, each with a state of its own, and the neighbours of a site.
 
-The equation of a site contains the coordinates of the site and the coordinates of some neighbours. The offset
-of a neighbour is the index of the neighbour minus the index of the site. In a chain, the offset of the right
-neighbour is ``(1,)``. In a plane lattice, the previous site along the second axis has the offset ``(0, -1)``.
+The offset of a neighbour is the index of the neighbour minus the index of the site.
 """
 
 from __future__ import annotations
@@ -38,7 +36,7 @@ _NEIGHBOUR = re.compile(r"(.+)_at_((?:0|[pm][1-9])(?:_(?:0|[pm][1-9]))*)")
 
 
 def offset_of(symbol: str, coordinates: Collection[str]) -> Offset | None:
-    """Return the offset of a neighbour if ``symbol`` is one of its coordinates. Otherwise return None.
+    """Return the offset of a neighbour if ``symbol`` is one of its coordinates, else None.
 
     ``coordinates`` contains the names of the coordinates of a site.
 
@@ -52,16 +50,15 @@ def offset_of(symbol: str, coordinates: Collection[str]) -> Offset | None:
 
 
 def neighbour(y: Iterable[sympy.Symbol], offset: Sequence[int]) -> sympy.Matrix:
-    """Return a column with the symbols of the coordinates of a neighbour of a site.
+    """Return a column with the coordinates of a neighbour of the site with the coordinates ``y``.
 
-    ``y`` contains the symbols of the coordinates of the site. ``offset`` is the position of the neighbour
-    relative to the site: one integer for each dimension of the lattice. :class:`SceneError` is raised in four
-    cases:
+    ``offset`` is the position of the neighbour relative to the site: one integer for each dimension of the
+    lattice. :class:`SceneError` is raised in four cases:
 
     - An entry of the offset is not an integer.
     - The absolute value of an entry is greater than MOST_DISTANCE.
     - The offset has more than MOST_DIMENSIONS entries.
-    - All entries are zero. (The zero offset is that of the site itself.)
+    - All entries are zero.
 
     >>> S = sympy.Matrix(sympy.symbols("S0:3", real=True))
     >>> neighbour(S, (1,)).T
@@ -94,13 +91,11 @@ def right(y: Iterable[sympy.Symbol]) -> sympy.Matrix:
 
 @dataclass(frozen=True)
 class SitePart:
-    """A part of the field of a lattice. The exact flow of the part is known.
+    """A part of the field of a lattice, with a known exact flow.
 
-    If the part acts on single sites, ``roots`` contains the generators of one site.
-
-    If the part couples two neighbours along ``axis``, ``roots`` contains the generators of the first site and
-    then the generators of the second site. ``symbols`` contains the names of the coordinates of the second
-    site.
+    If the part acts on single sites, ``roots`` contains the generators of one site. If the part couples two
+    neighbours along ``axis``, ``roots`` contains the generators of the first site and then those of the
+    second. ``symbols`` contains the names of the coordinates of the second site.
     """
 
     name: str
@@ -111,19 +106,16 @@ class SitePart:
 
 @dataclass(frozen=True)
 class Sites:
-    """The lattice of a scene: its dimension, the offsets of the neighbours that the field reads, and the
-    symbols of the neighbours' coordinates.
+    """The lattice of a scene, with the offsets and coordinate symbols of the neighbours that the field reads.
 
-    - ``outside``: for each offset, the state that replaces a missing neighbour at an open boundary. The
-      formulas of this state may contain the coordinates of the site at the boundary, the time and parameters.
-      For a periodic lattice, ``outside`` is empty.
-    - ``parts``: the parts of the field. Splitting methods compose the exact flows of the parts
-      (:mod:`codegen.scene.site_parts`).
+    - ``outside``: for each offset, the state that replaces a missing neighbour at an open boundary. For a
+      periodic lattice, ``outside`` is empty.
+    - ``parts``: the parts of the field (:mod:`codegen.scene.site_parts`).
     - ``force``: in a Hamiltonian scene, the force of all bonds on a site
       (:mod:`codegen.scene.hamiltonian_sites`).
     - ``energy``: the energy of a site plus the energies of all its bonds.
-    - ``bonds``: a pair for each bond of a site. The pair contains the index of the neighbour in ``offsets``,
-      and the energy of the bond.
+    - ``bonds``: for each bond of a site, the index of the neighbour in ``offsets`` and the energy of the
+      bond.
     """
 
     dimension: int
@@ -141,14 +133,11 @@ class Sites:
         return not self.outside
 
     def share(self, exists: Sequence[Expr | bool]) -> Expr:
-        """Return the share of a site in the total energy. The shares of all sites add up to the total energy.
+        """Return the share of a site in the total energy.
 
-        The share contains the energy of the site. If both sites of a bond exist, the share contains one half
-        of the energy of the bond. If the neighbour is missing, the share contains the whole energy
-        of the bond.
-
-        ``exists`` has one entry for each offset: true or 1 if the neighbour exists, false or 0 if it is
-        missing.
+        The two sites of a bond share its energy equally. If the neighbour is missing, the site has the whole
+        energy of the bond. ``exists`` has one entry for each offset: true or 1 if the neighbour exists, else
+        false or 0.
         """
         assert self.energy is not None
         share, space = self.energy, self.energy.space

@@ -1,9 +1,8 @@
 """Static coordinates: coordinates of the state that do not change, like parameters.
 
 Let y0 be the initial state, and assume that the field f reads only the time and static coordinates. The
-solution then satisfies a linear equation y' = A(t).y, and methods for linear equations are possible. Here
-A(t) = f(y0, t) is an element of the Lie algebra, and the dot denotes the action on y. On a lattice, f may
-also read static coordinates of neighbours, because these coordinates are constant.
+solution then satisfies a linear equation y' = A(t).y. Here A(t) = f(y0, t) is an element of the Lie algebra,
+and the dot denotes the action on y.
 """
 
 from __future__ import annotations
@@ -20,8 +19,8 @@ def reads_only_static(scene: Problem) -> bool:
     On a lattice, the coordinates of neighbours and the coordinates in the formulas ``outside`` of an open
     boundary must be static, too.
     """
-    # A static coordinate usually results from a zero component of the generator. If no component is zero,
-    # return False at once, because the velocity formulas below are expensive for a large field.
+    # Without a zero component of the generator, static coordinates are rare, and the formulas below are
+    # expensive.
     if not any(map(_vanishes, scene.roots)):
         return False
     one = scene if scene.sites is None else with_frozen_neighbours(scene)

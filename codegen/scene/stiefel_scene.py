@@ -30,15 +30,13 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number n of rows for which a scene contains formulas for the components of the generator.
 
-Some methods, and the commands ``stability``, ``localerror`` and ``bench``, need these formulas. The length of
-the formulas grows as n^3.
+The length of the formulas grows as n^3.
 """
 
 TOLERANCE = 1e-10
-"""The largest permitted absolute value of an entry of y0^T y0 - I, where I is the identity matrix.
+"""The largest permitted absolute value of an entry of y0^T y0 - I.
 
-Let X be a matrix with n rows, and V the velocity at X. The absolute value of an entry of X^T V + V^T X must
-be at most TOLERANCE n (1 + max |V_ij|).
+For X with n rows and the velocity V, the limit for entries of X^T V + V^T X is TOLERANCE n (1 + max |V_ij|).
 """
 
 
@@ -59,8 +57,7 @@ def StiefelScene(
     - ``span``: the ends of the time interval, two rational numbers.
 
     The equation is X' = A X with the skew-symmetric generator A = W X^T - X W^T, where W = V - X (X^T V)/2. A
-    step of a method of the families rkmk, cf and cg costs O(n k^2) operations and the evaluations of V. If
-    no matrix in V is given by a list of entries, the length of emitted code does not depend on n.
+    step of a method of the families rkmk, cf and cg costs O(n k^2) operations and the evaluations of V.
 
     :class:`SceneError` is raised for a wrong size, an initial matrix without orthonormal columns, and a
     velocity that is not tangent.
@@ -158,14 +155,11 @@ def _largest(gram: Sequence[float], unit: bool) -> float:
 
 
 def _elsewhere(start: Sequence[float], k: int) -> list[float]:
-    """Return a second matrix with orthonormal columns, at which the velocity is tested.
-
-    Fixed numbers are added to the entries of ``start``, and the columns are then orthonormalised.
-    """
+    """Return a second matrix with orthonormal columns, at which the velocity is tested."""
     columns: list[list[float]] = []
     for j in range(k):
         column = [x + 0.3 * math.sin(7.0 * i + 3.0 * j + 1.0) for i, x in enumerate(start[j::k])]
-        # Each column is orthogonalised twice. The second pass removes the rounding errors of the first pass.
+        # The second pass over the columns removes the rounding errors of the first pass.
         for other in [*columns, *columns]:
             c = math.fsum(map(float.__mul__, column, other))
             column = [x - c * y for x, y in zip(column, other, strict=True)]

@@ -1,7 +1,6 @@
-"""Stiff variants of a scene. A variant has a very short time scale, or its solution comes near a singularity.
+"""Stiff variants of a scene, with a very short time scale or a solution near a singularity.
 
 The file of a gallery scene may define a function ``stiff_variants()`` that returns a list of variants.
-The command ``orderconds stability`` measures the order of each method on each variant.
 """
 
 from __future__ import annotations

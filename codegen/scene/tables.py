@@ -67,21 +67,20 @@ def table(
     smoothness: str = CUBIC,
     outside: str = HOLD,
 ) -> sympy.Expr:
-    """Return a formula in ``x`` for use in a scene. The formula has the value ys[k] at x = xs[k].
+    """Return a formula in ``x`` that has the value ys[k] at x = xs[k].
 
-    The numbers in ``xs`` must increase. Coefficients are computed exactly from the given numbers. A float
-    denotes the decimal number that Python prints: 0.1 is 1/10.
+    A float denotes the decimal number that Python prints: 0.1 is 1/10.
 
     - ``smoothness``: ``cubic`` for the natural cubic spline, whose second derivative is zero at both ends, or
       ``linear``.
-    - ``outside``: the values beyond the table. ``hold`` is the value at the nearest point.
-      ``extrapolate`` is the polynomial of the nearest interval.
+    - ``outside``: the values beyond the table. ``hold`` is the value at the nearest point. ``extrapolate`` is
+      the polynomial of the nearest interval.
 
     :class:`SceneError` is raised for lists of different lengths, for fewer than 2 or more than LARGEST
     points, for numbers in ``xs`` that do not increase, and for an unknown ``smoothness`` or ``outside``.
 
-    An interpolant is not smooth at the points ``xs``: the third derivative of a cubic spline jumps, and the
-    first derivative of a linear interpolant jumps.
+    At the points ``xs``, the third derivative of a cubic spline and the first derivative of a linear
+    interpolant jump.
 
     >>> from codegen.ir.domain import FloatDomain
     >>> thrust = table([0, 1, 2], [0.0, 0.5, 0.2], sympy.Symbol("t"), "linear")
@@ -130,11 +129,10 @@ def spline_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fr
 
 
 def _bends(widths: Sequence[Fraction], slopes: Sequence[Fraction]) -> list[Fraction]:
-    """Return the second derivatives m_k of the spline at the points, by elimination in a tridiagonal system.
+    """Return the second derivatives m_k of the spline at the points.
 
-    The spline has n intervals. Interval k has the width w_k, and s_k is the slope of the straight line
-    between its two ends, k = 0, ..., n - 1. The first and the last equation are m_0 = 0 and m_n = 0. The
-    equation for 0 < k < n is:
+    Interval k has the width w_k, and s_k is the slope of the straight line between its ends. There are n
+    intervals, and k begins at 0. The equations are m_0 = 0, m_n = 0 and, for 0 < k < n,
 
     w_{k-1} m_{k-1} + 2 (w_{k-1} + w_k) m_k + w_k m_{k+1} = 6 (s_k - s_{k-1}).
     """
@@ -154,15 +152,11 @@ def _bends(widths: Sequence[Fraction], slopes: Sequence[Fraction]) -> list[Fract
 def _joined(
     xs: Sequence[Fraction], ys: Sequence[Fraction], rows: list[tuple[Fraction, ...]], outside: str
 ) -> PiecewisePolynomial:
-    """Return the piecewise polynomial with the given rows of coefficients.
-
-    ``outside`` selects the extension beyond the table (:func:`table`).
-    """
+    """Return the piecewise polynomial with the given rows of coefficients."""
     if outside == HOLD:
         return PiecewisePolynomial(tuple(xs), (xs[0], *xs), ((ys[0],), *rows, (ys[-1],)))
-    # A piecewise polynomial needs a knot. Usually the inner points of the table are the knots. A table with
-    # two points has no inner point. Then the first point is the knot, and the polynomial is the same on
-    # both sides.
+    # A table with two points has no inner point, so its first point is the knot between two equal
+    # polynomials.
     knots, starts = (xs[1:-1], xs[:-1]) if len(xs) > 2 else (xs[:1], (xs[0], xs[0]))
     return PiecewisePolynomial(tuple(knots), tuple(starts), tuple(rows if len(xs) > 2 else rows * 2))
 

@@ -17,17 +17,15 @@ from codegen.scene.problem import TIME, Problem, StateField
 from codegen.scene.sites import Offset, Sites
 
 MOST_SITES = 64
-"""The largest number of sites of an unrolled lattice. The number is limited because an unrolled lattice has
-separate formulas for each site."""
+"""The largest number of sites of an unrolled lattice, which has separate formulas for each site."""
 
 
 def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
     """Return a lattice of the given shape as one system on the product of the groups of all sites.
 
-    The coordinates of site 0 come first. The last index of a site changes fastest. Every site has the initial
-    state of the scene. If the scene is Hamiltonian, each site has the group T*G, and the Hamiltonian of the
-    result is the total energy of the lattice. If the scene is not Hamiltonian but defines an energy, the
-    total energy is an invariant of the result.
+    The last index of a site changes fastest. Every site has the initial state of the scene. If the scene is
+    Hamiltonian, each site has the group T*G, and the Hamiltonian of the result is the total energy of the
+    lattice. If another scene defines an energy, the total energy is an invariant of the result.
 
     :class:`SceneError` is raised for a scene without sites, for a shape of the wrong length, and for too few
     or too many sites.
@@ -87,8 +85,7 @@ def small(scene: Problem) -> Problem:
     """Return a small lattice of the scene as one system.
 
     In a periodic lattice, no site is its own neighbour. In an open lattice, at least one site has all its
-    neighbours. If such an open lattice has more than :data:`MOST_SITES` sites, a smaller one is returned. In
-    the smaller lattice, every neighbour of the scene exists for at least one site.
+    neighbours, unless this needs more than :data:`MOST_SITES` sites.
     """
     assert scene.sites is not None
     offsets, dimension = scene.sites.offsets, scene.sites.dimension
@@ -98,7 +95,7 @@ def small(scene: Problem) -> Problem:
 
 
 def neighbour_place(sites: Sites, index: Sequence[int], offset: Offset, shape: Sequence[int]) -> int | None:
-    """Return the position of a neighbour in the sequence of all sites. The first site has the position 0.
+    """Return the position of a neighbour in the sequence of all sites, counted from 0.
 
     If the neighbour would lie beyond an open boundary, return None.
     """

@@ -71,17 +71,12 @@ LATTICES = (
     "swinging_rod",
     "wilson_lattice",
 )
-"""The scenes of chains and lattices.
-
-These scenes do not fix the number of sites. Commands that run a system with a fixed number of coordinates do
-not accept these scenes.
-"""
+"""The scenes of chains and lattices, which do not fix the number of sites."""
 
 SEMILINEAR = ("allen_cahn_periodic", "kuramoto_sivashinsky")
 """The scenes of semilinear equations whose linear operator is given by its Fourier symbol.
 
-These scenes do not fix the number of grid points. Commands that run a system with a fixed number of
-coordinates do not accept these scenes.
+These scenes do not fix the number of grid points.
 """
 
 BUILT_IN = frozenset((*GALLERY, *LATTICES, *SEMILINEAR))
@@ -95,12 +90,11 @@ _REGISTERED: dict[str, tuple[Problem, str]] = {}
 
 
 def register(name: str, scene: Problem, about: str = "") -> Problem:
-    """Register a copy of the scene with the name ``name``, and return the copy.
+    """Register a copy of the scene with the name ``name`` in this process, and return the copy.
 
-    In this process, all commands accept the name. ``about`` describes the scene in reports. If the name is
-    already registered, the new scene replaces the old scene. :class:`SceneError` is raised for an object that
-    is not a scene, for the name of a built-in scene, and for a name that is not an identifier. A scene in a
-    Python file needs no registration: commands accept the path of the file as a name.
+    ``about`` describes the scene in reports. If the name is already registered, the new scene replaces the
+    old scene. :class:`SceneError` is raised for an object that is not a scene, for the name of a built-in
+    scene, and for a name that is not an identifier.
     """
     if not isinstance(scene, Problem):
         raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
@@ -173,8 +167,8 @@ def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
 def with_one_system(scene: Problem) -> Problem:
     """Return ``scene`` if it has a fixed number of coordinates.
 
-    :class:`SceneError` is raised for a chain or lattice, because the scene does not fix the number of sites.
-    A semilinear scene that does not fix the number of grid points raises SceneError, too.
+    :class:`SceneError` is raised for a chain or lattice, and for a semilinear scene without a fixed number of
+    grid points.
 
     >>> with_one_system(load("dipole")).name
     'dipole'
@@ -245,8 +239,7 @@ def _load(name: str) -> Problem:
 def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
     """Return the stiff variants of a scene of the gallery.
 
-    A stiff variant has a very short time scale or is near a singularity. For a user's scene the result is
-    empty, even if the scene has the name of a gallery scene.
+    For a user's scene the result is empty, even if the scene has the name of a gallery scene.
     """
     if scene.name not in GALLERY:
         return ()
@@ -284,15 +277,14 @@ def _run(name: str, path: Path) -> Problem:
 def _named(scene: Problem, name: str, about: str = "") -> Problem:
     """Return the scene with another name.
 
-    If the scene has no title, the first line of ``about`` becomes its title. If ``about`` is empty, too,
-    ``name`` becomes its title.
+    A scene without a title gets the first line of ``about`` as its title, or ``name`` if ``about`` is empty.
     """
     first = next((line.strip() for line in about.splitlines() if line.strip()), "").removesuffix(".")
     return replace(scene, name=name, title=(first or name) if scene.title == scene.name else scene.title)
 
 
 def _line(name: str, path: Path, error: BaseException) -> str:
-    """Return FILE:LINE, the place of an error in the user's file. If the line is unknown, return FILE."""
+    """Return FILE:LINE, the place of an error in the user's file, or FILE if the line is unknown."""
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
     if isinstance(error, SyntaxError) and error.lineno is not None:
         lines.append(error.lineno)
@@ -302,8 +294,7 @@ def _line(name: str, path: Path, error: BaseException) -> str:
 def about(name: str) -> str:
     """Return the description of a scene: the docstring of its file, or '' if there is no docstring.
 
-    ``name`` is a name that :func:`load` accepts. A registered scene has the description that was passed to
-    :func:`register`.
+    A registered scene has the description that was passed to :func:`register`.
     """
     name = name.removesuffix(EXTENDED)
     if name in _REGISTERED:

@@ -2,9 +2,8 @@
 
 The angular momentum mu in space satisfies mu' = g u. The vector u contains the torques in the body frame, and
 the attitude g rotates the torques to space. Each torque is a signal: a function of the time t with a default
-formula. If a torque is not a run-time input, emitted code uses the default formula. With u = 0 the scene is
-``free_rigid_body_attitude``. For actuated bodies see F. Bullo and A. D. Lewis, Geometric Control of
-Mechanical Systems (Springer, 2005).
+formula. For actuated bodies see F. Bullo and A. D. Lewis, Geometric Control of Mechanical Systems (Springer,
+2005).
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diag, eye, sin

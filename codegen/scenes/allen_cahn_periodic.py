@@ -1,10 +1,9 @@
 """The Allen-Cahn equation u_t = eps u_xx + u - u^3 on a periodic interval of length 2 pi.
 
 The equation is that of S. M. Allen and J. W. Cahn (Acta Metallurgica 27 (1979) 1085-1095) in one dimension.
-The solution forms plateaus near 1 and -1. The boundaries of the plateaus move slowly. The linear operator is
-L = eps d^2/dx^2. From L exp(i k x) = -eps k^2 exp(i k x) follows the Fourier symbol -eps k^2 of L. The
-nonlinear term is N(u) = u - u^3. The group consists of the affine maps u -> exp(t L) u + c, where u and c are
-functions of x (H. Marthinsen's thesis, section 2.2.2).
+The linear operator L = eps d^2/dx^2 has the Fourier symbol -eps k^2. The nonlinear term is N(u) = u - u^3.
+The group consists of the affine maps u -> exp(t L) u + c, where u and c are functions of x (H. Marthinsen's
+thesis, section 2.2.2).
 """
 
 from sympy import Rational, cos, pi, sin, symbols

@@ -2,9 +2,8 @@
 
 The state (m, p) consists of the angular and the linear impulse of body and fluid, in the body frame. The
 equations are m' = m x w + p x v and p' = p x w, with the angular velocity w = dH/dm and the velocity v =
-dH/dp. The Hamiltonian is H = (m.J^-1 m + p.M^-1 p)/2 + m.C p with constant matrices J, M and C. If a body
-has no plane of symmetry, for example a propeller, the coupling C is nonzero. The coadjoint action preserves
-the Casimir functions p.p and m.p. ``planar_body_in_fluid`` is the problem in the plane.
+dH/dp. The Hamiltonian is H = (m.J^-1 m + p.M^-1 p)/2 + m.C p with constant matrices J, M and C. The coadjoint
+action preserves the Casimir functions p.p and m.p.
 
 G. Kirchhoff, Ueber die Bewegung eines Rotationskoerpers in einer Fluessigkeit, Journal fuer die reine und
 angewandte Mathematik 71 (1870), 237-262; H. Marthinsen's thesis, section 2.2.2.

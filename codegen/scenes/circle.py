@@ -1,9 +1,8 @@
 """A point on a circle: Euler's method leaves the circle, and Lie-Euler stays on it.
 
 The equation is z' = (w + a x) J z for z = (x, y), where J is the rotation by a right angle (H. Marthinsen's
-thesis, Figure 1.1). The group SO(2) acts by rotation. The angular velocity w + a x varies along the circle,
-so Lie-Euler has an error, too. In commands, Euler's method is ``ambient:euler`` and Lie-Euler is
-``rkmk(0):euler``.
+thesis, Figure 1.1). The group SO(2) acts by rotation. In commands, Euler's method is ``ambient:euler`` and
+Lie-Euler is ``rkmk(0):euler``.
 """
 
 from sympy import Rational, symbols

@@ -1,15 +1,14 @@
 """Two free rigid bodies coupled by a ball joint, on T*(SO(3) x SO(3)).
 
 The common centre of mass of the two bodies is at rest. The joint is at the point d_k of body k, on a
-principal axis of the body. Body k has the inertia J_k, the attitude g_k, and the angular momentum P_k
-in the body frame. The reduced mass of the two bodies is eps. The Hamiltonian is
+principal axis of the body. Body k has the inertia J_k, the attitude g_k, and the angular momentum P_k in the
+body frame. The reduced mass of the two bodies is eps. The Hamiltonian is
 
     H = (sum_k P_k.w_k - b.S^-1 b)/2,    w_k = J_k^-1 P_k,    b = g_2 (w_2 x d_2) - g_1 (w_1 x d_1),
     S = E/eps + sum_k g_k C_k g_k^T,     C_k = hat(d_k)^T J_k^-1 hat(d_k).
 
-Here E is the identity matrix, and hat(d) is the matrix of v -> d x v. Without the joint, the points d_1 and
-d_2 would separate with the velocity b. The matrix S is the inverse of the effective mass at the joint. The
-energy and the total angular momentum are conserved.
+Here E is the identity matrix, and hat(d) is the matrix of v -> d x v. The energy and the total angular
+momentum are conserved.
 
 R. Grossman, P. S. Krishnaprasad and J. E. Marsden, The dynamics of two coupled rigid bodies, in: Dynamical
 Systems Approaches to Nonlinear Problems in Systems and Circuits (SIAM, 1988), 373-378.
@@ -37,8 +36,7 @@ def resistance(d: Matrix, J: Matrix) -> Matrix:
     return hat.T * J.inv() * hat
 
 
-# The vector b and the matrix S are in the frame of the first body. Q maps vectors from the frame of the
-# second body to the frame of the first body.
+# The vector b and the matrix S are in the frame of the first body.
 P1, P2, Q = g1.T * mu1, g2.T * mu2, g1.T * g2
 w1, w2 = J1.inv() * P1, J2.inv() * P2
 b = Q * w2.cross(d2) - w1.cross(d1)

@@ -2,14 +2,8 @@
 
 The scene is from section 3.6 of H. Marthinsen's thesis. The thesis prints the gravity term of the Hamiltonian
 with a plus sign. This scene uses the minus sign, because only the minus sign agrees with Fig. 3.3 of the
-thesis. The figure shows energy errors of about 1e-3 for vcg:midpoint and 1e-7 for vrkmk(2):gauss2, with
-h = 0.01 on the interval (0, 1000). With the minus sign these errors are 1.0e-3 and 1.4e-7. With the plus
-sign they are 1.0e-4 and 1.3e-9.
-
-VRKMK(r) truncates the series of dexp^{-1} after the power r of ad. On R^n, a VRKMK method is a partitioned
-Runge-Kutta method. Let p be the order on R^n. By Theorem 3.5.3, the order of VRKMK(r) is the smaller of p and
-r + 2. For even r >= 2, the order is the smaller of p and r + 3, because the power r + 1 of ad has the
-coefficient zero. For example, r = 2 suffices for order 5, and r = 4 suffices for order 7.
+thesis. For vcg:midpoint with h = 0.01 on the interval (0, 1000), the figure shows energy errors of about
+1e-3. With the minus sign the error is 1.0e-3, and with the plus sign 1.0e-4.
 """
 
 import math
@@ -119,6 +113,5 @@ def _passing(gap: Fraction) -> StiffVariant:
     reach = Fraction(f"{math.sqrt(1 + float(a) ** 2):.15f}")
     near = replace(with_runtime(scene, (f"depth={reach + gap}",)), span=(Fraction(0), Fraction(5, 2)))
     about = f"passes the fixed charge at a distance of {float(gap):g}"
-    # At the distance ``gap``, the acceleration is about 1/gap^2. The time scale is gap^(3/2). In this
-    # time, a charge with this acceleration moves by about ``gap``.
+    # With the acceleration 1/gap^2, a charge moves by about ``gap`` in the time gap^(3/2).
     return StiffVariant(f"dipole that {about}", about, near, float(1 / gap) ** 1.5)

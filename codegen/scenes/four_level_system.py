@@ -7,12 +7,9 @@ box, Phys. Rev. A 76 (2007), 042319). The Hamiltonian is
     H(t) = delta cos(nu t) N - (a/2) N (N - 1) + (rabi/2) sin^2(nu t) (L + L^T).
 
 Here N = diag(0, 1, 2, 3), and L has the entries sqrt(1), sqrt(2), sqrt(3) above the diagonal. The parameter a
-is the anharmonicity, ``rabi`` the strength of the pulse, and ``delta`` the largest detuning. The pulse ends
-at nu t = pi, near the end of the time interval. During the pulse, the detuning delta cos(nu t) passes through
-the resonances of the system.
+is the anharmonicity, ``rabi`` the strength of the pulse, and ``delta`` the largest detuning.
 
-The state consists of the 8 real numbers (Re psi, Im psi). The generator -i H depends on time, but not on the
-state, so the equation is linear. The entries of H are large compared with the rate nu of the pulse.
+The state consists of the 8 real numbers (Re psi, Im psi).
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diag, sin, sqrt
@@ -32,7 +29,7 @@ y = Matrix([Symbol(f"{part}{k}", real=True) for part in ("re", "im") for k in ra
 u, v = y[:LEVELS, :], y[LEVELS:, :]
 
 # The coordinates of -i H in the Lie algebra: the real and imaginary parts of the entries above the diagonal,
-# and then the imaginary parts of the diagonal. All real parts are 0, because H is real.
+# and then the imaginary parts of the diagonal.
 pairs = [(j, k) for j in range(LEVELS) for k in range(j + 1, LEVELS)]
 f = [x for j, k in pairs for x in (0, -H[j, k])] + [-H[j, j] for j in range(LEVELS)]
 

@@ -2,8 +2,8 @@
 
 The equation is m' = f(m) x m with f = -I^-1 m and the inertia I (H. Marthinsen's thesis, section 2.2,
 equation (2.8)). The scene adds the term alpha m to f, where the parameter alpha is the isotropy. This term
-does not change the equation, because m x m = 0. The term changes the numerical solutions. A step of Lie-Euler
-is m -> exp(h (f + alpha m)) m. The thesis prints this step without h in equation (2.19).
+changes only the numerical solutions, because m x m = 0. In equation (2.19),
+the thesis prints the Lie-Euler step m -> exp(h (f + alpha m)) m without h.
 """
 
 from sympy import Matrix, Rational, cos, diag, sin

@@ -2,8 +2,7 @@
 
 The equations are g' = g hat(W), W = I^-1 P and P' = P x W (Hairer and Vilmart 2006). Here g is the attitude,
 I the inertia, and hat(W) the matrix of v -> W x v. W is the angular velocity and P the angular momentum, both
-in the body frame. The right-trivialised momentum mu = g P is the angular momentum in space. mu is constant,
-because no torque acts on the body.
+in the body frame. The right-trivialised momentum mu = g P is the constant angular momentum in space.
 """
 
 from sympy import Matrix, Rational, diag, eye

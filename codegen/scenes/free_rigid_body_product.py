@@ -2,10 +2,9 @@
 
 The equations are g' = g hat(W), W = I^-1 P and P' = P x W (Hairer and Vilmart 2006). Here g is the attitude,
 I the inertia, and hat(W) the matrix of v -> W x v. W is the angular velocity and P the angular momentum, both
-in the body frame. The moments of inertia are the same as in ``free_rigid_body_attitude``.
+in the body frame.
 
-With a Lie group method the attitude stays a rotation, but numerical errors change |P| and the energy. In
-``free_rigid_body`` and ``free_rigid_body_attitude``, Lie group methods preserve the length of the momentum.
+With a Lie group method the attitude stays a rotation, but numerical errors change |P| and the energy.
 """
 
 from sympy import Matrix, Rational, diag, eye
