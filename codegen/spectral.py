@@ -48,12 +48,11 @@ class Spectral(ArrayModule, ABC):
         """Return the values of the solution after ``steps`` steps of size h from time t.
 
         ``u`` contains the values at time t at an even number of equally spaced points. If a step fails, the
-        run ends without an exception. The result then contains the status of the failed step, and the values
-        after the last completed step.
+        result contains the status of the failed step, and the values after the last completed step.
 
-        Exceptions are raised for wrong arguments. ValueError is raised for an array with more than one axis,
-        for an odd number of points, and for values that are not finite. TypeError is raised for values that
-        are not real numbers, and for unknown parameters.
+        ValueError is raised for an array with more than one axis, for an odd number of points, and for values
+        that are not finite. TypeError is raised for values that are not real numbers, and for unknown
+        parameters.
         """
         import numpy as np
 
@@ -84,10 +83,9 @@ class Spectral(ArrayModule, ABC):
     def _call(
         self, u: Floats, moment: tuple[float, float, int], values: list[float]
     ) -> tuple[Floats, Status, int]:
-        """Make steps from the values ``u``. ``moment`` contains the start time, the step size and
-        the number of steps.
+        """Return the solution after steps from ``u``, the status, and the number of completed steps.
 
-        Return the last values of the solution, the status, and the number of completed steps.
+        ``moment`` contains the start time, the step size and the number of steps.
         """
 
 
@@ -182,7 +180,7 @@ class CompiledSpectral(Spectral):
         return u, status, int(completed[0])
 
     def _memory(self, name: str, n: int) -> Floats:
-        """Return an uninitialised array. The C function ``name`` computes the array length for n points."""
+        """Return an uninitialised array of the length that the C function ``name`` returns for n."""
         import numpy as np
 
         return np.empty(int(self._function(name)(n)))

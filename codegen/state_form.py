@@ -1,13 +1,11 @@
 """The forms of a state: a flat sequence, a NumPy array of any shape, or a tuple such as (q, mu).
 
 A compiled step reads and writes one flat list of numbers. A :class:`StateForm` stores the form in which the
-caller passed the state, and returns results in this form. The parts of a tuple may have different shapes,
-for example a 3 x 3 matrix q and a vector mu. Matrices are flattened by rows. A batch is an array with a state
-in each row, or a tuple of such arrays.
+caller passed the state, and returns results in this form. Matrices are flattened by rows. A batch is an array
+with a state in each row, or a tuple of such arrays.
 
-The manifest of an emitted module lists the parts of a state, for example q and mu. A tuple must contain the
-parts in the order of the manifest. The sizes of the parts are checked. An exchange of two parts of equal size
-is not detected.
+A tuple must contain the parts in the order of the manifest of the emitted module. An exchange of two parts of
+equal size is not detected.
 """
 
 from __future__ import annotations
@@ -102,8 +100,7 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
 def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
     """Raise ValueError if an entry of a tuple does not fill one field or several consecutive fields.
 
-    ``sizes`` are the sizes of the entries. If there are fewer than two fields, every size is permitted: the
-    entries may be the rows of a matrix. The callers check the sum of the sizes.
+    If there are fewer than two fields, every size is permitted: the entries may be the rows of a matrix.
     """
     if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
         return
@@ -160,8 +157,7 @@ def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
 
     try:
         tables = [np.array(part, dtype=float) for part in parts]
-    # NumPy raises an error if rows have different lengths or entries are complex. In these cases the state is
-    # not a batch.
+    # NumPy raises these errors for rows of different lengths and for complex entries.
     except (TypeError, ValueError):
         return None
     count = len(tables[0])

@@ -1,10 +1,8 @@
-"""Free rigid body on S^3 x R^3. The attitude is a unit quaternion, and the momentum is a vector in R^3.
+"""Free rigid body on S^3 x R^3.
 
 The equations are q' = q (0, W)/2 and P' = P x W with W = I^-1 P (Hairer and Vilmart 2006). The unit
 quaternion q rotates vectors from the body frame to space. The real part of a quaternion is its first
 coordinate. I is the inertia. W is the angular velocity and P the angular momentum, both in the body frame.
-The moments of inertia are the same as in ``free_rigid_body_product``. A unit quaternion has four
-coordinates. In ``free_rigid_body_product`` the attitude has nine coordinates.
 """
 
 from sympy import Matrix, Rational, diag

@@ -2,8 +2,7 @@
 
 The equation is q' = f(q) q with f(q) = q v q^c and v = I^-1 E(q^c) m0/2 (H. Marthinsen's thesis, section
 2.6). Here q^c is the conjugate of q, and E maps a unit quaternion to its rotation matrix. I is the inertia.
-The angular momentum m0 in space is constant. The moments of inertia 1, 5 and 60 differ widely. Therefore
-a small error of the attitude q causes a large error of the energy.
+The angular momentum m0 in space is constant.
 
 The initial angular velocity I^-1 m0 is (1, 1/2, -1), and the energy is 31.125. The thesis prints
 I m0 = (1, 1/2, -1), but this value gives the energy 0.501.

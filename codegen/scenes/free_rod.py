@@ -13,10 +13,9 @@ sections. For two neighbouring sections, the strains Gamma_a and the elastic ene
 A prime denotes the second section, and delta_a3 is the Kronecker delta. S = (GA, GA, EA) contains the
 stiffnesses of shear and extension. The numbers D_1 = D_2 = GJ/2 and D_3 = EI - GJ/2 follow from the
 stiffnesses K = (EI, EI, GJ) of bending and torsion: for a small rotation theta between the sections, the
-second sum is sum_a K_a theta_a^2. V is a polynomial in the coordinates of the sections. A rigid motion of
-both sections does not change V, so the total momentum is constant.
+second sum is sum_a K_a theta_a^2.
 
-The code divides all energies and momenta by ds. The division does not change the equations of motion.
+The code divides all energies and momenta by ds.
 """
 
 from collections.abc import Mapping, Sequence
@@ -32,8 +31,7 @@ q, mu = GROUP.point("q"), GROUP.dual("mu")
 R, x = Matrix(3, 3, q[:9]), Matrix(q[9:])
 ds = param("ds", Rational(1, 20))
 
-# The section is a circle with the radius L/10. The mass per length, the length L and EI are 1. Poisson's
-# ratio is 1/4, so Young's modulus E and the shear modulus G satisfy 2 E = 5 G.
+# The section is a circle with the radius 1/10, and Poisson's ratio is 1/4.
 MASS, INERTIA = 1, (Rational(1, 400), Rational(1, 400), Rational(1, 200))
 EI, GJ = param("EI", 1), param("GJ", Rational(4, 5))
 EA, GA = param("EA", 400), param("GA", Rational(27, 28) * 160)
@@ -53,22 +51,20 @@ bending = sum(D * d.dot(d) for D, d in zip((GJ / 2, GJ / 2, EI - GJ / 2), turns,
 Ends = Mapping[Sequence[int], Sequence[sympy.Expr]]
 """Coordinates of additional cross sections, just beyond the ends of the rod.
 
-The section with the key (-1,) is before the first section of the rod. The section with the key (1,) is after
-the last section of the rod.
+The key is (-1,) before the first section of the rod, and (1,) after the last section.
 """
 
 normal = R[:, 0].cross(R[:, 1])
 FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
-"""Additional cross sections for free ends. Each additional section has the frame R of the section at the end
-of the rod. The centres of the additional sections make all strains zero, even if R has rounding errors.
-Therefore no force acts on the end."""
+"""Additional cross sections for free ends. The centres of the additional sections make all strains zero, even
+if R has rounding errors."""
 
 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:
     """Return the scene of a rod. The acceleration ``gravity`` acts in the direction of -e1.
 
-    ``ends`` contains additional cross sections beyond the ends of the rod. Each additional section is joined
-    elastically to the end of the rod. An end without an additional section is free.
+    ``ends`` contains additional cross sections beyond the ends of the rod. An end without an additional
+    section is free.
     """
     parts = {"kinetic": kinetic, **({} if gravity is None else {"weight": MASS * gravity * x[0]})}
     return HamiltonianSiteScene(
@@ -90,7 +86,7 @@ def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str 
 def straight(number: int, spacing: float) -> list[list[float]]:
     """Return the states of the sections of a straight rod at rest along e3.
 
-    The distance between neighbouring sections is ``spacing``. The first section is at ``spacing`` e3.
+    The first section is at ``spacing`` e3.
     """
     frame = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
     return [[*frame, 0.0, 0.0, (i + 1) * spacing, *[0.0] * 6] for i in range(number)]

@@ -1,9 +1,8 @@
 """Heavy top of H. Marthinsen's thesis, section 2.5, on T*SO(3). The kinetic energy is right-invariant.
 
 The kinetic energy is mu.I^-1 mu/2, where mu is the right-trivialised momentum. The components of mu are
-components in space, so the inertia tensor I is fixed in space. In the scene ``fast_heavy_top`` the inertia is
-fixed in the body. In ``heavy_top`` the momentum about the body's third axis is conserved.
-`orderconds longrun heavy_top --properties` measures the properties in Table 2.1 of the thesis.
+components in space, so the inertia tensor I is fixed in space. `orderconds longrun heavy_top --properties`
+measures the properties in Table 2.1 of the thesis.
 """
 
 from sympy import Matrix, diag, eye

@@ -1,10 +1,9 @@
 """Independent components: a flow of W in SO(3) that separates three mixed signals by their kurtosis.
 
-The scene is from section 2.4.3 of H. Marthinsen's thesis. The three sources are random signs, uniform
-numbers, and sines of random angles, drawn with a fixed seed. The sources are mixed and whitened, so the
-covariance matrix of the resulting signals x is the identity. Let y = W x, and let E denote the mean over all
-samples. The flow is W' = Omega W with Omega_ij = E[y_i y_j^3] - E[y_i^3 y_j]. The flow decreases the sum of
-the kurtoses E[y_i^4] of the components of y. Each component of y tends to one source, up to a sign.
+The scene is from section 2.4.3 of H. Marthinsen's thesis. The mixed signals x are whitened, so their
+covariance matrix is the identity. Let y = W x, and let E denote the mean over all samples. The flow is
+W' = Omega W with Omega_ij = E[y_i y_j^3] - E[y_i^3 y_j]. The flow decreases the sum of the kurtoses E[y_i^4]
+of the components of y.
 """
 
 from itertools import combinations_with_replacement, product

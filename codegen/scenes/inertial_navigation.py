@@ -7,9 +7,8 @@ are measured in the frame of the vehicle. The six components of w and a are inpu
 
 By default the signals belong to a coning motion (P. G. Savage, Strapdown inertial navigation integration
 algorithm design, Journal of Guidance, Control, and Dynamics 21 (1998), 19-28). R is a rotation by the angle
-alpha about a horizontal axis, and this axis turns in the horizontal plane with the rate nu. The position p
-moves on an ellipse with the rate c. The exact motion is known in closed form. The drift of a method is the
-distance of its solution from the exact motion.
+alpha about a horizontal axis, and this axis turns in the horizontal plane with the rate nu. The drift of a
+method is the distance of its solution from the exact motion.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diff, eye, sin
@@ -21,8 +20,7 @@ t = Symbol("t")
 sin_alpha, cos_alpha, nu, c = Rational(5, 13), Rational(12, 13), 4, Rational(1, 2)
 gravity = Matrix([0, 0, -1])
 
-# The exact motion at the time t: ``attitude`` is R, and ``path`` is p. The matrix ``axis`` is hat(u), where
-# the unit vector u is the axis of the rotation R.
+# The exact motion: R is a rotation about the unit vector u with hat(u) = ``axis``.
 axis = Matrix([[0, 0, sin(nu * t)], [0, 0, -cos(nu * t)], [-sin(nu * t), cos(nu * t), 0]])
 attitude = eye(3) + sin_alpha * axis + (1 - cos_alpha) * axis**2
 path = Matrix([cos(c * t), sin(c * t), sin(c * t) / 4])

@@ -1,9 +1,7 @@
 """The Kuramoto-Sivashinsky equation u_t = -u_xx - u_xxxx - u u_x on a periodic interval of length 32 pi.
 
-The second derivative feeds energy into long waves, the fourth derivative damps short waves, and the nonlinear
-term moves energy from long to short waves. The solution is chaotic. The initial state and the length are
-those of A.-K. Kassam and L. N. Trefethen, Fourth-order time-stepping for stiff PDEs, SIAM J. Sci. Comput. 26
-(2005), section 3.
+The initial state and the length are those of A.-K. Kassam and L. N. Trefethen, Fourth-order time-stepping for
+stiff PDEs, SIAM J. Sci. Comput. 26 (2005), section 3.
 """
 
 from sympy import Rational, cos, pi, sin, symbols

@@ -3,7 +3,7 @@
 The Hamiltonian is H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (H. Marthinsen's thesis,
 paper 3, Table 4.1). In the group R^4 brackets vanish and exponentials are translations. Therefore RKMK, CG
 and CF methods are Runge-Kutta methods, and variational methods are symplectic partitioned Runge-Kutta
-methods. The field depends on time, so a wrong stage time lowers the measured order of a method.
+methods.
 """
 
 from dataclasses import replace

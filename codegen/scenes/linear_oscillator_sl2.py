@@ -2,15 +2,12 @@
 
 The equation is (q, p)' = A(t) (q, p) with A = X - (omega^2 + eps sin(alpha t)) Y (H. Marthinsen's thesis,
 paper 3, Table 4.1). The matrix X has the entry 1 above the diagonal, Y has the entry 1 below the diagonal,
-and all other entries are 0. The generator depends on the time alone, so the differential equation is linear.
-Magnus, Fer and Cayley methods can therefore solve the equation. Each step of these methods multiplies (q, p)
-by a symplectic matrix. The scene ``linear_oscillator`` has this equation on T*R^4.
+and all other entries are 0.
 
 The scene also defines three methods of the thesis by formulas: *projection* (equation 4.18), *ExpNonCan* and
-*ExpSymNonCan* (Table 4.1). ExpSymNonCan has order 2. The errors in the thesis differ from those of the
-printed formulas. For ExpNonCan the thesis prints 2.61, and the formula gives 5.82e-2. For ExpSymNonCan the
-thesis prints 0.149, and the formula gives 5.45e-2. For Fig. 4.2 the thesis prints eps = 0.6, but only
-eps = 0.1 fits the axis of the figure.
+*ExpSymNonCan* (Table 4.1). For ExpNonCan the thesis prints the error 2.61, and the formula gives 5.82e-2. For
+ExpSymNonCan the thesis prints the error 0.149, and the formula gives 5.45e-2. For Fig. 4.2 the thesis prints
+eps = 0.6, but only eps = 0.1 fits the axis of the figure.
 """
 
 from fractions import Fraction

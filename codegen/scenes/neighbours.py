@@ -17,7 +17,7 @@ from pathlib import Path
 from types import ModuleType
 
 OWN = frozenset({"codegen", "orderconds"})
-"""The packages of this program. Modules with these names in the folder of a scene are ignored."""
+"""The packages of this program, which are never neighbours."""
 
 
 class Neighbours(MetaPathFinder):

@@ -4,8 +4,7 @@ The state mu = (m, p, r) is the impulse of body and fluid in the frame of the bo
 and the linear impulse is (p, r). The Hamiltonian is H = m^2/(2 J) + p^2/(2 A) + r^2/(2 B) + D m p. J is the
 moment of inertia, A and B are masses, including the added masses of the fluid, and D couples rotation and
 translation. The equation is mu' = ad*_{dH} mu (H. Lamb, Hydrodynamics, 6th edition, section 124; H.
-Marthinsen's thesis, section 2.2.2). Every step preserves the Casimir function p^2 + r^2 up to rounding.
-``body_in_fluid`` is the problem in three dimensions.
+Marthinsen's thesis, section 2.2.2).
 """
 
 from sympy import Matrix, Rational, symbols

@@ -2,9 +2,7 @@
 
 The scene is from section 2.4.2 of H. Marthinsen's thesis. X has two orthonormal columns of five rows, and
 A_ij = min(i, j) is the covariance matrix of the first five positions of a random walk. The columns of X tend
-to a basis of the eigenspace of the two largest eigenvalues, 12.34353752 and 1.44869057. In general
-the limits of the columns are not eigenvectors. The eigenvalues of X^T A X (Ritz values) tend to these two
-eigenvalues of A.
+to a basis of the eigenspace of the two largest eigenvalues, 12.34353752 and 1.44869057.
 """
 
 from sympy import Min

@@ -3,11 +3,10 @@
 Each site has a spin S of length one. The spin turns about the effective field H: S' = H x S. L. D. Landau and
 E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169) gave this equation, with damping in addition. H is the
 sum of three terms: the exchange field, the anisotropy field and an external field. The exchange field is J
-times the sum of the four neighbouring spins. The lattice is periodic, and the energy is constant.
+times the sum of the four neighbouring spins. The lattice is periodic.
 
 As in J. Frank, W. Huang and B. Leimkuhler (J. Comput. Phys. 133 (1997) 160-172), the energy is split into the
-energies of pairs of neighbours and the energies of single spins. The exact flow of each part is a
-rotation: the spins of a pair turn about their sum, and a single spin turns about the third axis.
+energies of pairs of neighbours and the energies of single spins. The exact flow of each part is a rotation.
 """
 
 from sympy import Matrix, Rational, symbols, zeros
@@ -20,8 +19,7 @@ J, K, B = param("J", 1), param("K", Rational(1, 2)), param("B", Rational(1, 5))
 offsets = [(1, 0), (0, 1)]
 around = [neighbour(S, (x * i, x * j)) for i, j in offsets for x in (1, -1)]
 single = Matrix([0, 0, K * S[2] + B])
-# The spins S and T of a pair satisfy S' = J T x S and T' = J S x T. Because S x S = 0 and T x T = 0, the
-# factors J T and J S can be replaced by J (S + T). Therefore S and T turn about J (S + T).
+# The spins S and T of a pair turn about J (S + T), because S' = J T x S = J (S + T) x S.
 sums = [J * (S + neighbour(S, offset)) for offset in offsets]
 
 scene = SiteScene(

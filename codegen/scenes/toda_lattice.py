@@ -1,9 +1,9 @@
 """Toda's lattice of three particles as an isospectral flow: L' = [B(L), L] for symmetric matrices L.
 
 Sources: H. Marthinsen's thesis, section 2.2.2 (isospectral flows); H. Flaschka, The Toda lattice II, Physical
-Review B 9 (1974), 1924-1925. B(L) is the skew matrix that is equal to L above the diagonal. SO(3) acts
-by conjugation, so a step preserves the eigenvalues of L. The initial matrix is tridiagonal, and L stays
-tridiagonal. For large times L tends to the diagonal matrix of the eigenvalues in decreasing order.
+Review B 9 (1974), 1924-1925. B(L) is the skew matrix that is equal to L above the diagonal. SO(3) acts by
+conjugation, so a step preserves the eigenvalues of L. For large times L tends to the diagonal matrix of the
+eigenvalues in decreasing order.
 """
 
 from sympy import Matrix, symbols

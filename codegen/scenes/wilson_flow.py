@@ -2,14 +2,12 @@
 
 A link is a matrix V in SU(3). The equation of a link is V' = -g0^2 (dS(V)) V, where g0 is the coupling
 constant and S is the Wilson action. Let V^H be the conjugate transpose of V. The plaquette P = V0 V1 V2^H
-V3^H gives g0^2 S = 2 Re tr(1 - P). The derivative dS(V) is an element of the Lie algebra, and -g0^2 dS(V) is
-the generator of the link. Let X be the product of the four links around the plaquette, beginning with V. The
-generator is equal to the traceless anti-Hermitian part of -X. S decreases to 0.
+V3^H gives g0^2 S = 2 Re tr(1 - P). Let X be the product of the four links around the plaquette, beginning
+with V. The generator -g0^2 dS(V) is the traceless anti-Hermitian part of -X.
 
-The initial links are random with a fixed seed. A link V is stored as a real 6 x 3 matrix: Re V above Im V.
+A link V is stored as a real 6 x 3 matrix: Re V above Im V.
 
-Source: M. Luescher, Properties and uses of the Wilson flow in lattice QCD, JHEP 08 (2010) 071, section 2. The
-tableau ``luescher3`` is the Runge-Kutta method of appendix C of the article.
+Source: M. Luescher, Properties and uses of the Wilson flow in lattice QCD, JHEP 08 (2010) 071, section 2.
 """
 
 from random import Random
@@ -31,11 +29,7 @@ def full(c: Matrix) -> Matrix:
 
 
 def start() -> Matrix:
-    """Return a random link matrix in SU(3), stored as a real 6 x 3 matrix.
-
-    The link matrix is a product of three random matrices. Each factor is an element of SU(2) that acts on
-    two of the three coordinates.
-    """
+    """Return a random link matrix in SU(3), stored as a real 6 x 3 matrix."""
     link = full(Matrix.vstack(eye(3), Matrix.zeros(3, 3)))
     for j, k in ((0, 1), (0, 2), (1, 2)):
         a, b, c, d = (draw.choice((-1, 1)) * Rational(x, 5) for x in draw.sample((1, 2, 2, 4), 4))

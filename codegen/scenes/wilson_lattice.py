@@ -2,13 +2,12 @@
 
 The equation of a link V is V' = -g0^2 (dS(V)) V, where g0 is the coupling constant and S is the Wilson action
 (M. Luescher, Properties and uses of the Wilson flow in lattice QCD, JHEP 08 (2010) 071, arXiv:1006.4518,
-section 1). The derivative dS(V) is an element of the Lie algebra, and -g0^2 dS(V) is the generator of the
-link.
+section 1).
 
-Each site has one link for each axis. The link leads to the next site along this axis. A link V is stored as a
-real 6 x 3 matrix: Re V above Im V. A plaquette is a square of four links. For each plaquette that contains V,
-the product of the other three links is a staple of V. Let X be the product of V and the sum of the staples of
-V. The generator of V is the traceless anti-Hermitian part of -X.
+For each axis, one link leads from each site to the next site. A link V is stored as a real 6 x 3 matrix: Re V
+above Im V. A plaquette is a square of four links. For each plaquette that contains V, the product of the
+other three links is a staple of V. Let X be the product of V and the sum of the staples of V. The generator
+-g0^2 dS(V) is the traceless anti-Hermitian part of -X.
 
 The variable ``energy`` is the density of the action, the sum of 2 Re tr(1 - P) over the plaquettes P of a
 site. Each site has one plaquette for each pair of axes.
@@ -35,7 +34,7 @@ def link(axis: int, *steps: tuple[int, int]) -> Matrix:
     """Return the real 6 x 6 matrix of a link along ``axis``.
 
     The path ``steps`` leads from the current site to the site where the link begins. Each step is a pair: an
-    axis, and a sign for the direction. The transpose of the result is the matrix of the inverse link.
+    axis, and a sign for the direction.
     """
     offset = [sum(sign for along, sign in steps if along == e) for e in axes]
     site = neighbour(links, offset) if any(offset) else links
@@ -54,8 +53,7 @@ def staples(a: int) -> Matrix:
 def start(shape: Sequence[int]) -> np.ndarray:
     """Return random links for a lattice of the given shape (n1, ..., nd). The seed is fixed.
 
-    The result has the shape (n1, ..., nd, 18 d). The last axis contains the d links of a site, 18 numbers for
-    each link.
+    The result has the shape (n1, ..., nd, 18 d).
     """
     draw, count = Random(1006), DIMENSION * int(np.prod(shape))
     parts = np.array([draw.gauss(0, 1) for _ in range(12 * count)]).reshape(count, 2, 2, 3)

@@ -1,7 +1,7 @@
-"""Snippets are the run-time helpers of emitted code. This module computes the call graph of the helpers.
+"""The call graph of the snippets, the run-time helpers of emitted code.
 
-A node is a helper, or a function in the mathematical library of the target language. An edge leads from a
-helper to a function that it calls. The folder ``snippets/TARGET`` contains the templates of the helpers.
+A node is a helper, or a function in the mathematical library of the target language. The folder
+``snippets/TARGET`` contains the templates of the helpers.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Snippet:
 
 
 def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippet, ...]:
-    """Return all helpers of emitted code. A helper has the same name in all target languages.
+    """Return all helpers of emitted code.
 
     If ``batch`` is True, sine, cosine and the Stumpff functions also have variants without branches. If
     ``batch`` is False, Stumpff functions in double precision use shorter polynomials near zero.
@@ -91,12 +91,10 @@ def _shared_angle(
     if precision is not DOUBLE or batch:
         listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
         return listed
-    # The function for arguments near zero is inlined at each call. Larger arguments are rare, so a separate
-    # function computes c_k for larger arguments.
+    # Arguments far from zero are rare, so a separate function that is not inlined computes their c_k.
     far, small = f"{name}_far", float(stumpff.SMALL)
     listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-    # A C compiler does not inline long functions. If there are three or more ``orders``, the inlined function
-    # therefore has only the polynomial for ``SMALL``, and not the polynomial for ``TINY``.
+    # With three or more ``orders``, both polynomials would make the function too long for inlining in C.
     sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
     calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
     tiny = float(stumpff.TINY) if "tiny" in sizes else ""
@@ -109,7 +107,7 @@ def trigonometric(precision: Precision) -> list[Snippet]:
 
     The helpers ``sin_near`` and ``cos_near`` have no branches and are valid for angles up to
     :data:`~codegen.snippets.lane_angles.LARGEST`. The helpers ``sin_complete`` and ``cos_complete`` are valid
-    for all angles. For larger angles they call the library functions.
+    for all angles.
     """
     shared = {
         **lane_angles.reduction(precision),
@@ -173,13 +171,11 @@ def needed(
     """Return the helpers and library functions that an emitted module needs.
 
     - ``functions``: the functions that the module calls.
-    - ``sweeps``: True if the module solves equations by iteration. In this case all helpers for Stumpff
-      functions are declared inline in C.
+    - ``sweeps``: True if the module solves equations by iteration.
     - ``wide``: the number of rows of each inverted matrix if all inverted matrices have the same small size,
-      else 0. If ``wide`` is not 0, the inner loop of the inversion is unrolled in C.
+      else 0.
     - ``widest``: the number of rows of the largest inverted matrix.
-    - ``chain``: the number of angles in the longest sequence of rotations in a step. In such a sequence, the
-      angle of each rotation is computed from the result of the preceding rotation
+    - ``chain``: the number of angles in the longest sequence of rotations in a step
       (:func:`codegen.snippets.stumpff.limit`).
     - ``prefix``: in C, the beginning of the names of all helpers.
     - ``batch``: True if the module can integrate many systems at once.
@@ -220,7 +216,7 @@ def _text(target: str, snippet: Snippet, precision: Precision, given: dict[str, 
 
     # In single precision the names of the functions in C's library end in "f", as in sinf.
     values: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number}
-    # In C, NAN has the type float. The cast to double avoids the warning of -Wdouble-promotion.
+    # NAN has the type float in C, so the cast avoids the warning of -Wdouble-promotion.
     values["nan"] = "(double)NAN" if precision is DOUBLE else "NAN"
     for name, value in (given | snippet.variables).items():
         if isinstance(value, float):

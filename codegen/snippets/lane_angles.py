@@ -1,7 +1,6 @@
 """Constants for functions that compute sine and cosine without branches.
 
-Loops over many systems call these functions. A C compiler can vectorise the loops, because the functions
-have no branches.
+A C compiler can vectorise loops that call these functions.
 
 The reduced angle of an angle x is r = x - k pi/2, where k is the integer nearest to 2x/pi. To compute k
 without a branch, the large constant ``round`` is added to 2x/pi, and is subtracted from the sum. The sum is
@@ -21,7 +20,7 @@ from codegen.snippets.stumpff import PI, economised
 LARGEST = {53: 2**20, 24: 2**9}
 """The largest angle for which the helpers ``sin_near`` and ``cos_near`` do not return NaN.
 
-The keys are the numbers of bits of the significand: 53 in double precision and 24 in single precision.
+The keys are the numbers of bits of the significand.
 """
 
 _PARTS = {53: (31, 31, 31), 24: (12, 11, 11)}
@@ -35,7 +34,7 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
     - ``largest``: the largest angle that can be reduced.
     - ``per_quarter``: 2/pi.
     - ``parts``: numbers whose sum is pi/2.
-    - ``round``: a large number. The floating-point sum of ``round`` and 2x/pi is an integer.
+    - ``round``: a number whose floating-point sum with 2x/pi is an integer.
 
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])

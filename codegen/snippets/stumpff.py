@@ -5,11 +5,10 @@ The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. T
     c_0 = cos sqrt z,   c_1 = sin(sqrt z)/sqrt z,
     c_2 = (1 - cos sqrt z)/z,   c_3 = (sqrt z - sin sqrt z)/z^(3/2).
 
-If z <= SWITCH[k], c_k is evaluated by a polynomial. For very small z the polynomial is shorter. If z >
-SWITCH[k], c_0 and c_1 are evaluated by their closed forms. The closed forms of c_2 and c_3 suffer from
-cancellation, so the formulas c_2 = c_1(z/4)^2/2 and c_3 = (1 - c_1)/z are used. The formula of c_3 has no
-cancellation, because c_1 < 1/2 for z > SWITCH[3] = 4. The error is at most two units in the last place, apart
-from the effect of the rounding error in sqrt z. For z above :func:`limit` the value is NaN.
+If z <= SWITCH[k], c_k is evaluated by a polynomial. If z > SWITCH[k], c_0 and c_1 are evaluated by their
+closed forms. The closed forms of c_2 and c_3 suffer from cancellation, so the formulas c_2 = c_1(z/4)^2/2 and
+c_3 = (1 - c_1)/z are used. The error is at most two units in the last place, apart from the effect of the
+rounding error in sqrt z. For z above :func:`limit` the value is NaN.
 """
 
 from __future__ import annotations
@@ -21,22 +20,19 @@ from math import factorial
 from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
-"""For z <= SWITCH[k], c_k is evaluated by a polynomial. For larger z, a closed form is used.
+"""For z <= SWITCH[k], c_k is evaluated by a polynomial.
 
 For z > 4 the closed form c_3 = (1 - c_1)/z has no cancellation, because c_1 < 1/2.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
-"""For z <= SMALL a short polynomial is used for c_k(z), and for z <= TINY the shortest polynomial.
-
-SMALL and TINY are the squares of the angles 1/4 and 1/16.
-"""
+"""For z <= SMALL a short polynomial is used for c_k(z), and for z <= TINY the shortest polynomial."""
 
 PI = Fraction("3.14159265358979323846264338327950288")
 
 
 SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n))
-"""All non-empty sets of indices k of c_0, ..., c_3. For each set, one helper computes all c_k of the set."""
+"""All non-empty sets of indices k of c_0, ..., c_3, with one helper for each set."""
 
 
 LEFT = 10
@@ -46,15 +42,14 @@ LEFT = 10
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     """Return the largest z = a^2 for which c_k is computed, where a is the angle of a rotation.
 
-    For larger z the value of c_k is NaN, because too few digits of the rotated vector would be correct. The
-    significand of a number has ``precision.bits`` bits. Let eps = 2^-bits be the relative rounding error of
-    the angle. The error of the rotated vector is a eps. The error of the field at the rotated vector is
-    assumed to be 8 a eps.
+    For larger z the value of c_k is NaN, because too few digits of the rotated vector would be correct. Let
+    eps = 2^-bits, with bits = ``precision.bits``, be the relative rounding error of the angle. The error of
+    the rotated vector is a eps. The error of the field at the rotated vector is assumed to be 8 a eps.
 
-    In a step, ``chain`` rotations follow each other. The angle of each rotation is computed from the result
-    of the preceding rotation (:func:`codegen.ir.angle_depth.chain`). The error of the last vector is
-    therefore a^chain 8^(chain-1) eps. The largest angle is the highest power of two with an error of at
-    most 2^-LEFT (:data:`LEFT`). But the exponent is at least bits/6 and at most 2 bits/5, both rounded down.
+    The angle of each of ``chain`` rotations is computed from the result of the preceding rotation
+    (:func:`codegen.ir.angle_depth.chain`). The error of the last vector is therefore a^chain 8^(chain-1) eps.
+    The largest angle is the highest power of two with an error of at most 2^-LEFT (:data:`LEFT`). But the
+    exponent is at least bits/6 and at most 2 bits/5, both rounded down.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
@@ -67,8 +62,8 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
     """Return the coefficients of a Taylor polynomial of c_k that is accurate from z = 0 to z = ``last``.
 
-    The polynomial contains all terms before the first negligible term. A term is negligible if its absolute
-    value at z = ``last`` is at most 2^-(bits + 3) c_k(0). The default of ``last`` is SWITCH[k].
+    The first omitted term has an absolute value of at most 2^-(bits + 3) c_k(0) at z = ``last``. The default
+    of ``last`` is SWITCH[k].
 
     >>> coefficients(1)[:3], len(coefficients(1)), len(coefficients(1, SMALL))
     ((Fraction(1, 1), Fraction(-1, 6), Fraction(1, 120)), 9, 6)
@@ -88,11 +83,9 @@ def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     """Return the coefficients of a short polynomial for c_k on 0 <= z <= ``last``.
 
     The error is at most about 2^-(bits + 4) c_k(0). To lower the degree of the Taylor polynomial, multiples
-    of shifted Chebyshev polynomials are subtracted. The shifted polynomials are zero at z = 0, so the value
-    at z = 0 is exact.
+    of shifted Chebyshev polynomials are subtracted. The value at z = 0 is exact.
 
-    The bound is below the rounding error for the following reason. In a steady motion z is nearly constant.
-    Then the errors of the polynomial have the same sign in all steps and add up.
+    The bound is below the rounding error, because the errors of the steps of a steady motion add up.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]
