@@ -1,18 +1,14 @@
 """Derive, prove and compile Lie group integrators.
 
-A method is given by a tableau and a family. The family determines the series of the method. A comparison of
-the series of the method with the series of the exact flow gives the order conditions. The package
-``orderconds`` contains the symbolic computations. The package ``codegen`` compiles a method for a scene, the
-description of one mechanical system.
+A method is given by a tableau and a family. A comparison of the series of the method with the series of the
+exact flow gives the order conditions.
 
 Conventions
 -----------
-All modules use these conventions.
-
 *Action and trivialisation.* A Lie group G acts from the left and is trivialised from the right: the equation
 is y' = f(y).y, where f maps the manifold M to the Lie algebra g. In exp(h b_s k_s) ... exp(h b_1 k_1).y0 with
-weights b_i and stage values k_i, **the first stage acts first**, so stage 1 is the rightmost factor. For
-a right action, every bracket in a method has the opposite sign.
+weights b_i and stage values k_i, **the first stage acts first**. For a right action, every bracket in a
+method has the opposite sign.
 
 *Brackets.* The bracket of matrices is [A, B] = AB - BA, and ad_x y = [x, y]. The adjoint map Ad_g
 is the derivative of the map x -> g x g^-1 at the identity. Ad*_g is the dual map of Ad_g (not of Ad_{g^-1}),
@@ -33,7 +29,7 @@ tableau has the weights bhat_i = b_i and the entries ahat_ij = b_j - b_j a_ji/b_
 non-zero. The nodes are c_i = sum_j a_ij and chat_i = sum_j ahat_ij.
 
 *Order.* A method has order p when its series agrees with the series of the exact flow through the power h^p.
-A word t_1 ... t_k is a sequence of letters. The letters are, for example, trees. The letter t_1 acts first.
+In a word t_1 ... t_k, the letter t_1 acts first.
 
 >>> import orderconds
 >>> sorted(orderconds.__all__)

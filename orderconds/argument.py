@@ -49,7 +49,7 @@ def integer(x: object, name: str, bounds: Bounds) -> int:
 def real(x: object, name: str, bounds: tuple[float, float]) -> float:
     """Return ``x`` as a float if it is a real number between the bounds.
 
-    Raise InputError for all other values, for example for NaN.
+    Raise InputError for all other values.
 
     >>> real(-1, "tolerance", (0, 8))
     Traceback (most recent call last):
@@ -115,9 +115,6 @@ _OPTION = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 
 def described(x: object) -> str:
     """Return the text that describes an object in a message.
-
-    The text for an integer is its value. The text for a string, a double, a complex number or a bool contains
-    value and type. The text for all other objects contains only their type.
 
     >>> described(None), described("4"), described(0)
     ('an object of type NoneType', "'4' of type str", '0')

@@ -1,9 +1,8 @@
 """Modified equations of numerical methods.
 
-A method is applied to a vector field f. As a formal series in the step size h, one step of the method is the
-exact flow of the modified field f~ = f + h f_2 + h^2 f_3 + ... If the method is symplectic and f is
-Hamiltonian, f~ is the vector field of a modified Hamiltonian (Hairer, Lubich and Wanner, *Geometric Numerical
-Integration*, Chapter IX).
+As a formal series in the step size h, one step of a method for y' = f(y) is the exact flow of the modified
+field f~ = f + h f_2 + h^2 f_3 + ... If the method is symplectic and f is Hamiltonian, f~ is the vector field
+of a modified Hamiltonian (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Chapter IX).
 
 On a Lie group, the field y -> f(p).y is called the field frozen at the point p. For a Lie group method, the
 fields f_2, f_3, ... are sums of elementary differentials of f and of commutators of elementary differentials.
@@ -11,8 +10,7 @@ The derivatives in an elementary differential are taken along frozen fields (Lun
 Contemp. Math. 539 (2011) 295).
 
 The *modifying* field solves the inverse problem: if the method is applied to the modifying field, one step is
-the exact flow of f. The modifying field, too, is a series in h (Chartier, Hairer and Vilmart, Math. Comp. 76
-(2007) 1941).
+the exact flow of f (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941).
 """
 
 from __future__ import annotations
@@ -56,7 +54,7 @@ class Term:
     """One term of a series in the step size h.
 
     The term is the product of h^(order - 1), ``coefficient`` and a function. The function is an elementary
-    differential such as ``f'(f)``, a commutator of elementary differentials, or an elementary Hamiltonian.
+    differential, a commutator of elementary differentials, or an elementary Hamiltonian.
 
     - ``name`` is the formula of the function as text.
     - ``tree`` is the tree of the function in bracket notation. For a commutator, ``tree`` is a Lyndon word of
@@ -114,8 +112,8 @@ def modified_equation(
     ``cf``, ``rkmk(1)``). By default, the first family of :func:`default_families` that accepts the tableau is
     used.
 
-    If ``modifying`` is true, return the modifying equation of y' = f(y). If the method is applied to the
-    modifying equation, one step is the exact flow of f. The method must have a B-series.
+    If ``modifying`` is true, return the modifying equation of y' = f(y). The method must then have a
+    B-series.
 
     Raises :class:`~orderconds.errors.InputError` for an unsuitable family or tableau, and for an order below
     1.
@@ -146,10 +144,7 @@ def modified_equation(
 
 
 def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
-    """Return the label of the family, and the B-series or Lie-Butcher series of one step of the method.
-
-    If ``family`` is None, the first family of :func:`default_families` that accepts the tableau is used.
-    """
+    """Return the label of the family, and the B-series or Lie-Butcher series of one step of the method."""
     for name in default_families() if family is None else (family,):
         candidate = families.get(name)
         method = tableau.read_as(candidate.formats)

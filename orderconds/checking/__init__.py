@@ -1,18 +1,16 @@
 """Compute and certify the order of a tableau in each family in which its file claims an order.
 
-The conditions of order 1, 2, ... are evaluated until a condition fails. A claim holds only
-if the claimed order equals the computed order.
+A claim holds only if the claimed order equals the computed order.
 
 The residual of a condition is its left-hand side minus its right-hand side. If the coefficients are rounded,
-the residual is a ball: an approximate value with an error bound. A ball that does not contain zero proves
-that the condition fails. A certificate states how the order was established. There are five certificates:
+the residual is a ball: an approximate value with an error bound. The certificate states how the order was
+established:
 
 - ``exact``: every residual up to the order is zero in an exact ring.
-- ``ball``: interval arithmetic proves that a method of the computed order exists near the given decimals.
-  Each coefficient of the proved method differs from the given decimal by at most one unit of the last digit
-  (:mod:`orderconds.proof`).
-- ``decimal``: every residual up to the order is zero or a narrow ball that contains zero. The conditions hold
-  to the precision of the given coefficients, but the order is not proved.
+- ``ball``: interval arithmetic proves that a method of the computed order exists within one unit of the last
+  digit of each decimal (:mod:`orderconds.proof`).
+- ``decimal``: every residual up to the order is zero or a narrow ball that contains zero. The order is not
+  proved.
 - ``double``: as ``decimal``, but the coefficients are doubles.
 - ``none``: a residual is a ball that contains zero, but the ball is too wide for the certificate ``decimal``.
   The order is ``undecided``.

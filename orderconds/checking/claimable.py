@@ -1,9 +1,7 @@
 """The claimable families of a tableau: the families for which a complete tableau file contains a claim.
 
-For example, the claim ``rk = 4`` states that the method has order 4 in the family ``rk``.
-
-A family is not claimable if the order in this family follows from the order in another family. Each family
-has a method :meth:`orderconds.families.Family.claimable` that applies this rule. The claimable families are:
+A family is not claimable if the order in this family follows from the order in another family. The claimable
+families are:
 
 - For a Butcher tableau: ``rk``, ``cg`` and ``rkmk``. If no weight is zero, also ``sprk``, ``vcg``, ``vrkmk``.
 - For a commutator-free method: ``rk`` and ``cf``. If no weight is zero, also ``vcf``.
@@ -20,8 +18,7 @@ from orderconds.tableau import Tableau
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
     """Return the families for which a complete file of ``tableau`` contains a claimed order.
 
-    Families that need non-zero weights come last. Among the families before them, families on vector spaces
-    come first.
+    Families that need non-zero weights come last.
 
     >>> from orderconds.checking import read
     >>> [family.name for family in claimable_families(read("rk4"))]

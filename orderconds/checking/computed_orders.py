@@ -11,7 +11,7 @@ def orders_of(tableau: Tableau) -> dict[str, int]:
     """Return the computed orders of a tableau in several families.
 
     The families are the claimable families of the tableau (:mod:`orderconds.checking.claimable`) and the
-    families in which its file claims an order. The keys of the result are the labels of the families.
+    families in which its file claims an order.
 
     >>> orders_of(Tableau.load("cf3"))
     {'rk': 3, 'cf': 3}

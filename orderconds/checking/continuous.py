@@ -4,8 +4,7 @@ In a step of size h from the time t, the extension approximates the solution at 
 0 <= theta <= 1. The weights b_i(theta) of the extension are polynomials in theta.
 
 The order condition of a rooted tree with n vertices has the right-hand side theta^n/gamma, where gamma is the
-density of the tree. The left-hand side is a polynomial in theta. The check compares the coefficients of both
-sides.
+density of the tree. The check compares the coefficients of theta^p on both sides.
 """
 
 from __future__ import annotations
@@ -25,8 +24,7 @@ from orderconds.tableau.extension import Extension
 def extension_order(tableau: Tableau) -> ExtensionOrder | None:
     """Return the order of the continuous extension of a tableau, or None if there is no extension.
 
-    The conditions of order 1, 2, ... are evaluated until a condition fails or is undecided, but at most up to
-    the claimed order plus one.
+    The order is at most the claimed order plus one.
 
     >>> order = extension_order(Tableau.load("rk4"))
     >>> order.order, order.certificate, order.continuous
@@ -52,10 +50,7 @@ def extension_order(tableau: Tableau) -> ExtensionOrder | None:
 def _judged(
     method: RungeKutta, extension: Extension, ring: Ring, n: int
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Judge the conditions of order n for each power of theta. Return the verdicts and failing conditions.
-
-    The loop ends at the first power with a failing condition.
-    """
+    """Judge the conditions of order n for the powers of theta, up to the first power that fails."""
     family = families.get("rk")
     verdicts: set[str] = set()
     for p in range(1, max(extension.degree, n) + 1):
@@ -71,9 +66,7 @@ def _judged(
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
     """Return the order condition for the coefficients of theta^p in the weights b_i(theta).
 
-    ``condition`` is the order condition of a tree with n vertices, for constant weights. For the weights
-    b_i(theta), its right-hand side is multiplied by theta^n. Therefore the right-hand side of the returned
-    condition is zero if p != n.
+    For these weights, the right-hand side for a tree with n vertices is multiplied by theta^n.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")
@@ -98,9 +91,6 @@ def _is_smooth(method: RungeKutta, extension: Extension, ring: Ring) -> bool | N
 
 
 def _equal(ring: Ring, x: Sequence[Element], y: Sequence[Element]) -> bool | None:
-    """Return True if two vectors are equal, and False if they differ.
-
-    Return None if rounded coefficients do not decide the question.
-    """
+    """Return whether two vectors are equal, or None if rounded coefficients do not decide."""
     tests = [ring.is_zero(a - b) for a, b in zip(x, y, strict=True)]
     return False if False in tests else None if None in tests else True

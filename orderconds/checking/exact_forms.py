@@ -3,8 +3,8 @@
 Each coefficient is compared with fractions of small denominator. If no fraction agrees, the coefficient is
 compared with numbers x + y sqrt(d), where x and y are rational. All coefficients have the same d.
 
-Let p be the order of the given tableau to the precision of its coefficients. The exact coefficients are
-accepted if exact arithmetic proves that the exact method has at least the order p.
+The exact coefficients are accepted if the exact method is proved to have at least the order of the given
+tableau.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ If q^2 u exceeds the bound, the fraction may agree with the number by coincidenc
 """
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
-"""Keys of a tableau file. The values of these keys contain no coefficients."""
+"""Keys of a tableau file whose values contain no coefficients."""
 
 MAX_NUMBERS = 400
 MAX_SECONDS = 2.0
@@ -87,10 +87,7 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
 
 
 def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
-    """Map each number to the text of its exact value.
-
-    Return None if the numbers are not recognised as elements of a single field Q or Q(sqrt(d)).
-    """
+    """Map each number to its exact value in a single field Q or Q(sqrt(d)), or return None."""
     fractions = {constant: _fraction(constant) for constant in constants}
     texts = {constant: str(x) for constant, x in fractions.items() if x is not None}
     others = [constant for constant, x in fractions.items() if x is None]
@@ -109,11 +106,7 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 
 
 def _fraction(x: Constant) -> Fraction | None:
-    """Return the simplest fraction within the uncertainty of x.
-
-    Return None if the denominator q of this fraction is so large that q^2 times the uncertainty exceeds
-    :data:`CHANCE`.
-    """
+    """Return the simplest fraction within the uncertainty of x, or None if :data:`CHANCE` rejects it."""
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
 
@@ -124,10 +117,7 @@ def _bits(x: Constant) -> int:
 
 
 def _surd(x: Constant, d: int) -> str | None:
-    """Return the text of a number p + q sqrt(d) that differs from ``x`` by at most the uncertainty of ``x``.
-
-    The numbers p and q are rational. Return None if no such number is found.
-    """
+    """Return the text of a number p + q sqrt(d) with rational p and q within the uncertainty of ``x``."""
     bits = _bits(x)
     root = root_of(d, 2 * bits)
     coefficients = relation([x.value, Fraction(1), root], bits)
@@ -147,10 +137,7 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Return ``x`` with each rounded number replaced by the text of its exact value.
-
-    ``x`` is the value of a key in a tableau file. ``texts`` maps rounded numbers to their exact values.
-    """
+    """Return ``x`` with each rounded number replaced by the text of its exact value."""
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):

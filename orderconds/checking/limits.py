@@ -17,8 +17,7 @@ class Limits:
     - ``seconds``: the longest time of the check.
     - ``megabytes``: the largest memory of the process.
 
-    Conditions are evaluated in batches. Time and memory are measured only before each batch, so the check may
-    exceed these two limits.
+    Time and memory are measured only before each batch of conditions.
     """
 
     conditions: int = MAX_CONDITIONS

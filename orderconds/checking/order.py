@@ -24,9 +24,7 @@ from orderconds.tableau import Method, Tableau
 EXHAUSTIVE = 2000
 """If an order has at most EXHAUSTIVE conditions, all conditions of the order are evaluated.
 
-If an order has more conditions, the evaluation ends after the first batch with a failing condition. The
-report contains only the failing conditions of this batch. The report contains no error norm, because the norm
-needs the residuals of all failing conditions.
+If an order has more conditions, the evaluation ends after the first batch with a failing condition.
 """
 
 STOPPED = "stopped"
@@ -50,10 +48,9 @@ class FamilyOrder:
     - ``error_norm`` is the 2-norm of the residuals of all failing conditions, or None if it is unknown.
     - ``claimed`` is the order that the file claims, or None.
     - ``required`` is the least acceptable order, or None. If ``required`` is given, ``claimed`` is ignored.
-    - ``limit``: if a limit on the order or on the work ended the search, ``limit`` is the last order whose
-      conditions were all checked. Without such a limit, the value is None.
-    - ``stopped``: if a limit on the work ended the search (:class:`~orderconds.checking.limits.Limits`),
-      ``stopped`` is the number of evaluated conditions. Without such a limit, the value is None.
+    - ``limit`` is the last completely checked order if a limit on order or work ended the search, else None.
+    - ``stopped`` is the number of evaluated conditions if a limit on the work ended the search
+      (:class:`~orderconds.checking.limits.Limits`), else None.
     """
 
     family: str
@@ -67,8 +64,7 @@ class FamilyOrder:
     limit: int | None = None
     stopped: int | None = None
     largest: float | None = None
-    """The largest absolute residual of the conditions up to the computed order. If the coefficients are not
-    doubles, the value is None."""
+    """The largest absolute residual up to the computed order, or None if the coefficients are not doubles."""
 
     def __repr__(self) -> str:
         return (
@@ -132,7 +128,7 @@ def family_order(
     brief: bool = False,
     meter: Meter | None = None,
 ) -> FamilyOrder:
-    """Find the order of ``tableau`` in ``family``. Evaluate conditions of order 1, 2, ... until one fails.
+    """Find the order of ``tableau`` in ``family``.
 
     - ``claimed`` and ``required``: the claimed order and the required order, or None. The search ends, at
       the latest, at the largest of the orders ``family.search_limit``, ``claimed + 1`` and ``required + 1``.
@@ -162,9 +158,8 @@ def family_order(
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
     """Return a tuple with one condition of order ``order`` that the method of ``tableau`` violates.
 
-    The method :meth:`~orderconds.families.Family.first_unmet` finds a condition that no method of the family
-    satisfies. If no such condition is known, the tuple is empty. The tuple is also empty if the coefficients
-    are rounded and the computed residual is a ball that contains zero.
+    No method of the family satisfies this condition (:meth:`~orderconds.families.Family.first_unmet`). The
+    tuple is empty if no such condition is known, or if the residual is a ball that contains zero.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -182,8 +177,7 @@ def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure
 class _Search:
     """The search for the order of one method in one family.
 
-    The search does not evaluate a condition that follows from other conditions. ``spared`` decides whether a
-    condition follows.
+    ``spared`` decides whether a condition follows from other conditions.
     """
 
     family: Family
@@ -192,10 +186,7 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """A list with the largest absolute residual of each batch of conditions up to the computed order.
-
-    If the coefficients are not doubles, ``sizes`` is None.
-    """
+    """The largest absolute residual of each batch, or None if the coefficients are not doubles."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -210,7 +201,7 @@ class _Search:
             known = len(self.sizes or ())
             verdicts, failing, whole = self._judged(n, n > expected, certificate == "decimal")
             if self.sizes and (failing or not verdicts.isdisjoint((STOPPED, "undecided"))):
-                # The computed order is n - 1. ``sizes`` contains only residuals up to the computed order.
+                # ``sizes`` contains only residuals up to the computed order n - 1.
                 del self.sizes[known:]
             if not failing and STOPPED in verdicts:
                 done = self.meter.total
@@ -231,18 +222,16 @@ class _Search:
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
         """Evaluate the conditions of order n. Return the verdicts, the failing conditions and a flag.
 
-        If the flag is false, order n may have more failing conditions than those returned. If ``unlikely`` is
-        true, order n exceeds the claimed order, so most conditions probably fail. If ``decimal`` is true,
-        some conditions of lower order hold only to the precision of the rounded coefficients.
+        If the flag is false, order n may have more failing conditions than those returned. If ``decimal`` is
+        true, some conditions of lower order hold only to the precision of the rounded coefficients.
         """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # A condition is skipped if it follows from conditions that hold exactly. Balls do not prove that a
-        # condition holds exactly. But if ``decimal`` is true, the computed order is not proved in any case,
-        # so conditions are skipped, too.
+        # Balls do not prove the conditions from which a skipped condition follows.
+        # If ``decimal`` is true, the order is not proved in any case.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -261,10 +250,9 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield pairs (batch, flag). The flag is true if there is only one batch.
+    """Yield batches of conditions that together imply every condition of order n, as pairs (batch, flag).
 
-    A batch contains pairs (key, function). The function constructs the condition of order n that the key
-    identifies. The conditions of all batches together imply every condition of order n.
+    The flag is true if there is only one batch.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

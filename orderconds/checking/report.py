@@ -26,8 +26,8 @@ UNCLAIMED = "unclaimed"
 class EmbeddedOrder(Struct, frozen=True):
     """The orders of the embedded method.
 
-    The embedded method estimates the error. The embedded method uses the stages of the main method, but has
-    different weights or exponentials in the last update.
+    The embedded method uses the stages of the main method, but has different weights or exponentials in the
+    last update.
 
     - ``own`` is the label of the family in which the order is claimed: ``rk`` for an update with weights, and
       ``cf`` for an update with exponentials.
@@ -55,8 +55,7 @@ class ExtensionOrder(Struct, frozen=True):
       continuous if the weights b_i(theta) of the extension satisfy b_i(1) = b_i.
     - ``smooth`` states whether the first derivative of the solution is continuous, too.
     - ``continuous`` or ``smooth`` is None if the digits of the coefficients do not decide the question.
-    - ``failing`` contains failing conditions of order p + 1, where p is the computed order. All of them are
-      conditions on the coefficients of the same power of theta in the weights b_i(theta).
+    - ``failing`` contains failing conditions of order p + 1, where p is the computed order.
     """
 
     claimed: int
@@ -87,7 +86,7 @@ class RegisterForm(Struct, frozen=True):
       None.
     - ``space`` is the space of the scheme and the method: ``group`` or ``vector space``.
     - ``A`` and ``B`` are the coefficients A_i and B_i as text.
-    - ``reason`` states why no scheme is given. If the scheme exists, ``reason`` is empty.
+    - ``reason`` states why no scheme is given.
     """
 
     holds: bool | None
@@ -112,8 +111,7 @@ class SymmetryOrder(Struct, frozen=True):
     - ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups.
     - ``order`` is q, or None if the method is symmetric to every order.
     - ``at_least`` is true if ``order`` is only a lower bound.
-    - ``certificate`` is ``exact`` if q is proved. It is ``decimal`` if q is not proved, because the
-      coefficients are rounded decimals.
+    - ``certificate`` is ``exact`` if q is proved, and ``decimal`` if rounded coefficients prevent a proof.
     """
 
     family: str
@@ -136,8 +134,7 @@ class Report:
     """The result of ``check`` for one tableau.
 
     ``orders`` contains the orders of the main method, with a verdict on each claimed order. ``broken_claims``
-    contains messages about failures that do not concern these orders. An example is a claimed property that
-    the method does not have.
+    contains messages about failures that do not concern these orders.
     """
 
     name: str
@@ -185,8 +182,8 @@ class Report:
     def effective_symmetry(self) -> int | None:
         """The order of symmetry of an effectively symmetric method. For other methods, the value is None.
 
-        Every method of order p is symmetric to the order q = 2 floor(p/2) + 1. An effectively symmetric
-        method is symmetric to a higher order than q, but not to all orders.
+        An effectively symmetric method of order p is symmetric to a higher order than 2 floor(p/2) + 1, but
+        not to all orders.
         """
         if self.symmetry is None or self.symmetry.order is None or self.symmetry.at_least:
             return None

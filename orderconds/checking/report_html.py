@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from orderconds.checking.report import Report
 
 LONGEST = 120
-"""The maximal number of characters of a condition in LaTeX. Longer conditions are not shown."""
+"""The maximal number of LaTeX characters of a condition that is shown."""
 
 
 def report_html(report: Report) -> str:
@@ -43,7 +43,7 @@ def _row(order: FamilyOrder) -> str:
 
 
 def _failing(order: FamilyOrder) -> Iterator[str]:
-    """Yield one line about the first failing condition. Yield nothing if no condition fails."""
+    """Yield at most one line, about the first failing condition."""
     for failure in order.failing[:1]:
         count, n = len(order.failing), order.order + 1
         of_all = f"the first of {count} failing conditions" if count > 1 else "a failing condition"

@@ -1,8 +1,7 @@
 """The residuals of the conditions of one order, and a verdict on each residual.
 
-A ball is an approximate value with an error bound. If a ball contains a residual but not zero, the residual
-is not zero. In a number field, balls are much cheaper than exact arithmetic. An exact residual is computed if
-the ball contains zero, or if the residual is printed.
+A ball is an approximate value with an error bound. In a number field, balls are much cheaper than exact
+arithmetic. An exact residual is computed if the ball contains zero, or if the residual is printed.
 """
 
 from __future__ import annotations
@@ -32,8 +31,7 @@ if TYPE_CHECKING:
 RESOLUTION = Decimal("1e-3")
 """Determines the largest radius of a ball for which the verdict is ``supported``.
 
-Suppose that the residual of a condition of order n is a ball that contains zero. If the radius of the ball is
-at most RESOLUTION/n!, the verdict is ``supported``, else ``undecided``.
+For a condition of order n, this radius is RESOLUTION/n!.
 """
 
 BITS = 256
@@ -115,10 +113,9 @@ def judge(
     The verdict on a condition is ``zero``, ``fails``, ``supported`` (the residual is a narrow ball that
     contains zero) or ``undecided`` (the residual is a wide ball that contains zero).
 
-    If ``balls_first`` is true and ``ring`` is a number field, each residual is first enclosed in a ball. The
-    exact residual is then computed only if the ball contains zero. This is faster if most conditions fail. If
-    the residuals in ``ring`` are balls and no condition fails, the largest absolute residual is appended to
-    the list ``sizes``.
+    If ``balls_first`` is true and ``ring`` is a number field, each residual is first enclosed in a ball. This
+    is faster if most conditions fail. If the residuals in ``ring`` are balls and no condition fails, the
+    largest absolute residual is appended to the list ``sizes``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -174,10 +171,7 @@ _ENCLOSED = Memo(_enclosed)
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
     """Return True if the exact residuals can be computed with rational numbers
-    (:mod:`orderconds.ring.nodal`).
-
-    The coefficients of the method may be irrational: they are elements of the number field ``ring``.
-    """
+    (:mod:`orderconds.ring.nodal`)."""
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
     return nodal_algebra(ring, (method.A,), method.b) is not None
@@ -186,8 +180,7 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 class _OnDemand:
     """Computes the exact residuals of ``conditions`` on request.
 
-    A request is a call with the index of a condition. The first request computes only the residual of this
-    condition. The next request for another residual computes all other residuals.
+    A request is a call with the index of a condition.
     """
 
     def __init__(

@@ -1,10 +1,9 @@
 """The order to which a method is symmetric.
 
-The order is computed from the composition of two steps: a step of size h, then a step of size -h. For a
-symmetric method, the composition is the identity. Another method is symmetric to order q if the composition
-differs from the identity by O(h^(q + 1)). The largest such q is odd and not smaller than the order p of the
-method. If this q is larger than p + 1, the method is called effectively symmetric (Shmelev, Ebrahimi-Fard,
-Tapia and Salvi, arXiv 2507.21006).
+The order is computed from the composition of two steps: a step of size h, then a step of size -h. A method is
+symmetric to order q if the composition differs from the identity by O(h^(q + 1)). The largest such q is odd
+and not smaller than the order p of the method. If this q is larger than p + 1, the method is called
+effectively symmetric (Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
 """
 
 from __future__ import annotations
@@ -22,9 +21,7 @@ from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
 MOST_ROOTED, MOST_ORDERED = 8, 6
-"""The sizes of the largest trees in the test of symmetry. For Runge-Kutta methods, the test uses rooted trees
-with at most MOST_ROOTED vertices. For commutator-free methods, it uses forests of ordered trees with at most
-MOST_ORDERED vertices."""
+"""The largest numbers of vertices of rooted trees and of forests of ordered trees in the test of symmetry."""
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
@@ -34,7 +31,7 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
     for commutator-free methods.
 
     ``symmetric`` is True if the method is known to be symmetric. The field ``order`` of the result is then
-    None, because the method is symmetric to every order.
+    None.
 
     >>> symmetry_order(Tableau.load("rk4"), False).order, symmetry_order(Tableau.load("gauss2"), True).order
     (5, None)
@@ -60,7 +57,6 @@ def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[
     """Return the label of the family, the series of one step, a function ``trees`` and a number N.
 
     ``trees(n)`` yields the trees or forests with n vertices. N is the largest n in the test of symmetry.
-    Return None if the method is neither a Runge-Kutta method nor commutator-free.
     """
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):
