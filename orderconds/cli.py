@@ -1,7 +1,6 @@
 """The command-line program. A built-in command is imported when it is used, so the program starts quickly.
 
-:data:`BUILT_IN` lists the built-in commands. Other packages, for example ``codegen``, provide commands as
-entry points (see :data:`COMMAND_GROUP`).
+Other packages, for example ``codegen``, provide commands as entry points (see :data:`COMMAND_GROUP`).
 """
 
 from __future__ import annotations
@@ -66,7 +65,7 @@ OUTPUT_OPTIONS = {
     "quiet": "Print only failures, and no progress. The exit status states the outcome.",
     "verbose": "Write progress and the remaining time to stderr, even if stderr is not a terminal.",
 }
-"""Maps the name of an option to its help text. Every command has these options."""
+"""The options that every command has, with their help texts."""
 
 
 class Program(click.Group):
@@ -151,7 +150,7 @@ class Program(click.Group):
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line. If ``--help`` is given, print the help text.
+        """Parse the command line.
 
         Raises :class:`~orderconds.exit_status.Stopped` after Ctrl-C, or if the output pipe is closed.
         """
@@ -191,10 +190,9 @@ def _offered() -> Iterable[EntryPoint]:
 
 
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
-    """Raise a UsageError if an option with a value is repeated, or if two flags contradict each other.
+    """Raise a UsageError if an option with a value is repeated, or if two flags set the same parameter.
 
-    Options that are declared with ``multiple=True`` may be repeated. Two flags, for example ``--quick`` and
-    ``--full``, contradict each other if both set the same parameter.
+    Options with ``multiple=True`` may be repeated.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
@@ -264,8 +262,7 @@ def program() -> None:
 def main() -> NoReturn:
     """Run the program with the arguments of the command line.
 
-    A command creates little garbage. Therefore this function lets Python collect garbage less often than by
-    default.
+    Garbage is collected less often than by default, because a command creates little garbage.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()

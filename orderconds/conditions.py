@@ -1,9 +1,8 @@
 """An order condition is an equation ``formula = rhs`` for one tree.
 
 The numerical solution and the exact solution are series with one term for each tree. ``formula`` is the
-coefficient of the tree in the numerical solution. This coefficient depends on the parameters of the method,
-for example a_ij and b_i. The number ``rhs`` is the coefficient of the tree in the exact solution. A method
-has order p if and only if all conditions of the orders 1, ..., p hold.
+coefficient of the tree in the numerical solution. The number ``rhs`` is the coefficient of the tree in the
+exact solution. A method has order p if and only if all conditions of the orders 1, ..., p hold.
 """
 
 from __future__ import annotations
@@ -25,19 +24,15 @@ SHOWN = 80
 class OrderCondition:
     """An order condition: the equation ``formula = rhs`` for the parameters of a method.
 
-    ``formula`` is the coefficient of ``tree`` in the series of the numerical solution. The number ``rhs`` is
-    the coefficient of ``tree`` in the series of the exact solution.
-
     - ``family`` is the label of the family, for example ``rkmk(1)``.
     - ``order`` is the order of the condition.
     - ``tree`` is the text of a tree or word.
-    - ``source`` is the left-hand side, or a function that returns the left-hand side. The attribute
-      ``formula`` is the left-hand side with readable index names.
+    - ``source`` is the left-hand side, or a function that returns the left-hand side.
+    - ``rhs`` is the right-hand side.
     - ``key`` is the tree in the internal encoding of the family.
-    - ``relation`` is None for an independent condition. The left-hand side of a dependent condition equals a
-      polynomial in the left-hand sides of other conditions. ``relation`` is the text of this polynomial, for
-      example ``3 <o(|L(o o))> - <o> <o(o)>``. In the text, ``<x>`` denotes the left-hand side of the
-      condition of the tree x.
+    - ``relation`` is None for an independent condition. For a dependent condition, ``relation`` is the
+      left-hand side as a polynomial in other left-hand sides, for example ``3 <o(|L(o o))> - <o> <o(o)>``.
+      The symbol ``<x>`` denotes the left-hand side of the condition of the tree x.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))

@@ -44,7 +44,7 @@ def check(
     """Compute the order of ``tableau`` in each family in which its file claims an order.
 
     - ``tableau``: a tableau, a file, or a name of the library.
-    - ``family``: the label of the only family to check, for example ``"rkmk(1)"``. A claim is not necessary.
+    - ``family``: the label of the only family to check, for example ``"rkmk(1)"``.
     - ``order``: the least acceptable order. If ``order`` is given, the claimed orders are ignored.
     - ``complete``: the file must claim an order in each family of ``claimable_families(tableau)``.
     - ``certified``: every order must be proved.
@@ -96,8 +96,7 @@ def check(
 def _register_form(tableau: Tableau) -> RegisterForm | None:
     """Rewrite the method as a low-storage scheme with two registers.
 
-    The result contains the scheme, or the reason why the method is not equal to such a scheme. Return None if
-    the method is neither a Runge-Kutta method nor a commutator-free method.
+    Return None if the method is neither a Runge-Kutta method nor a commutator-free method.
     """
     rewriting = low_storage(tableau)
     if rewriting is None:
@@ -125,8 +124,7 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """Return ``orders``. If the coefficients of ``tableau`` are doubles, replace each certificate ``decimal``
-    in ``orders`` by ``double``."""
+    """If the coefficients of ``tableau`` are doubles, replace each certificate ``decimal`` by ``double``."""
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
@@ -137,10 +135,7 @@ def _of_doubles(certificate: str) -> str:
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a hint that the doubles of a tableau agree with exact numbers.
-
-    Return an empty text if no exact numbers are found, or if a verdict is ``fails``.
-    """
+    """Return a hint that the doubles of a tableau agree with exact numbers, or an empty text."""
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -156,12 +151,9 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...]) -> EmbeddedOrder | None:
-    """Return the orders of the embedded method in ``rk``, in the family of its format, and in families of
-    ``wanted``.
+    """Return the orders of the embedded method, or None if the tableau has no embedded method.
 
     Families of ``wanted`` in which the stages depend on the weights are omitted.
-
-    Return None if the tableau has no embedded method.
     """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
@@ -186,7 +178,7 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
     """Prove that the equations in the table ``[proof]`` have a solution near the decimals of the file.
 
-    Return the proof and a list of error messages. Return (None, []) if the file has no such table.
+    Return the proof and a list of error messages.
     """
     if tableau.proof is None:
         return None, []
@@ -228,17 +220,13 @@ def _orders(
 
 
 Reading = tuple[Tableau, Family, int | None]
-"""A tableau, a family that accepts the tableau, and the claimed order in this family. Without a claim, the
-order is None.
-"""
+"""A tableau, a family that accepts the tableau, and the claimed order in this family."""
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
     """Return additional families whose orders can be bounds of the orders in the families ``wanted``.
 
-    ``wanted`` contains pairs (family, claimed order). If ``required`` and the claimed order are below
-    ``family.search_limit`` for each family, a search finds the orders without bounds. The result is then an
-    empty list.
+    The result is empty below ``family.search_limit``, where a search needs no bounds.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -248,8 +236,7 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
     """Return the claimable families whose orders give bounds of the orders in other families.
 
-    Omit families with a label in ``labels``. If the method of ``tableau`` is a composition of midpoint rules,
-    include families of composition methods.
+    Omit families with a label in ``labels``.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -267,8 +254,7 @@ def _beyond(
 ) -> FamilyOrder:
     """Derive the order in ``family`` from the orders in other families.
 
-    ``ended`` is the result of a search for the order in ``family``. The search ended at a limit. Return
-    ``ended`` if the order cannot be derived.
+    If the order cannot be derived, return ``ended``, the result of a search that ended at a limit.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
@@ -286,8 +272,7 @@ def _beyond(
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
     """Return the smallest upper bound of the order in ``family`` that ``computed`` contains.
 
-    ``computed`` contains the orders in other families. If order n in ``family`` implies order n in a family
-    G, the order in G is an upper bound. Return None if ``computed`` contains no upper bound.
+    If order n in ``family`` implies order n in a family G, the order in G is an upper bound.
     """
     if not computed:
         return None
@@ -299,12 +284,12 @@ def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | Non
 
 
 def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Map the labels of families to computed orders. Omit undecided orders."""
+    """Map the labels of families to computed orders, without undecided orders."""
     return {f.family: f.order for f in computed if f.decided}
 
 
 def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Map the labels of families to computed orders. Omit orders that are not proved."""
+    """Map the labels of families to proved orders."""
     return _decided([f for f in computed if f.certificate != "decimal"])
 
 
@@ -313,8 +298,7 @@ def _settled(
 ) -> FamilyOrder | None:
     """Derive the order in ``family`` from the orders in other families.
 
-    Return None if no order follows. Also return None if the order is below ``family.search_limit``, because a
-    search in ``family`` is sufficient for such a low order.
+    Return None if no order follows, or if a search is sufficient (order below ``family.search_limit``).
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -346,8 +330,7 @@ def _settled_by(
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
     """If the computed order follows from ``facts``, replace the certificate ``decimal`` by ``ball`` (proved).
 
-    ``facts`` contains pairs (family, order). The method is proved to have these orders, because it satisfies
-    the equations in the table ``[proof]`` of the tableau file.
+    ``facts`` contains proved pairs (family, order).
     """
     if computed.certificate != "decimal" or not facts:
         return computed
@@ -359,8 +342,7 @@ def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -
 def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
     """Read a tableau from a file of any format, or from the library if ``given`` is a name.
 
-    If the file is a Python module and ``execute`` is true, the module is executed. If ``execute`` is false,
-    the module is only parsed.
+    A Python module is executed if ``execute`` is true, and otherwise only parsed.
 
     >>> read("rk4").name
     'rk4'
@@ -374,11 +356,7 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield pairs (family to check, claimed order). Without a claim, the order is None.
-
-    If ``family`` is given, yield only this family. If ``family`` is None, yield all families with a claim. If
-    no family has a claim, yield the family with the name of the tableau's format.
-    """
+    """Yield pairs (family to check, claimed order)."""
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
         member = families.get(family)
@@ -391,7 +369,7 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:
-    """Return the family with the label ``label``. The label comes from a claim in the file.
+    """Return the family with the label ``label`` of a claim in the file.
 
     Raise an InputError if the family does not exist, or does not accept the format of the tableau.
     """
@@ -416,10 +394,7 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 def _broken_claims(
     tableau: Tableau, computed: dict[str, bool | None], embedded: EmbeddedOrder | None
 ) -> Iterator[str]:
-    """Yield a message for each claim that does not hold.
-
-    The claims are those about properties of the method and about the order of the embedded method.
-    """
+    """Yield a message for each claim about a property or the embedded method that does not hold."""
     for name, claimed in tableau.claims.properties.items():
         holds = computed.get(name)
         if holds is not claimed:
@@ -448,9 +423,8 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each claimable family for which the file contains no claimed order.
 
-    ``tableau`` is the tableau of the file. The order in the message is computed from ``enclosed``. If a proof
-    exists, the coefficients of ``enclosed`` are balls (intervals) that contain the exact coefficients.
-    Without a proof, ``enclosed`` is ``tableau``.
+    If a proof exists, the coefficients of ``enclosed`` are balls (intervals) that contain the exact
+    coefficients.
     """
     from orderconds.checking.claimable import unclaimed
 

@@ -37,10 +37,10 @@ UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 DIGITS = 12
-"""The largest number of characters of a printed coefficient of a 2N scheme. Longer texts are shortened."""
+"""The largest number of characters of a printed coefficient of a 2N scheme."""
 
 WIDTH = 200
-"""The largest number of characters of a formula or a residual. Longer texts are shortened."""
+"""The largest number of characters of a printed formula or residual."""
 
 
 @click.command(name="check")
@@ -187,10 +187,7 @@ def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
 
 
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
-    """Return one job for each tableau.
-
-    A file ``DECIMAL`` in a directory of ``arguments`` lists tableaux whose orders need no proof.
-    """
+    """Return one job for each tableau."""
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others, strict))
     return [
@@ -205,7 +202,7 @@ def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: boo
 
 
 def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
-    """Check tableaux in parallel. Print and yield the outcomes in the sequence of ``jobs``."""
+    """Check tableaux in parallel, and yield the outcomes in the sequence of ``jobs``."""
     subject = jobs[0].path if len(jobs) == 1 else f"{len(jobs)} tableaux"
     with screen.counting(f"checking {subject}", len(jobs)) as done, _without_collection(jobs):
         for job, outcome in zip(jobs, in_processes(_checked, jobs), strict=True):
@@ -219,10 +216,7 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Disable garbage collection if there is only one job.
-
-    A single check creates little garbage.
-    """
+    """Disable garbage collection for a single job, because one check creates little garbage."""
     collects = gc.isenabled()
     if len(jobs) == 1:
         gc.disable()
@@ -250,14 +244,14 @@ class _Job(Struct, frozen=True):
 
 
 class _Outcome(Struct, frozen=True):
-    """A verdict and the text to print. If the check fails with an InputError, the verdict is None."""
+    """A verdict, or None after an InputError, and the text to print."""
 
     verdict: str | None
     text: str
 
 
 def _checked(job: _Job) -> _Outcome:
-    """Check one tableau. If an InputError occurs, the outcome contains its message."""
+    """Check one tableau."""
     from orderconds.checking import check, read
 
     try:
@@ -289,8 +283,7 @@ def _checked(job: _Job) -> _Outcome:
 def _excused(arguments: Sequence[str]) -> set[str]:
     """Return the names of the tableaux that need no proof.
 
-    Each directory in ``arguments`` may contain a file ``DECIMAL`` that lists such names. Each line has the
-    form "NAME: reason". A line that begins with # is a comment.
+    The files ``DECIMAL`` in the directories of ``arguments`` list such names, in lines "NAME: reason".
     """
     names = set[str]()
     for argument in arguments:
@@ -302,11 +295,9 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 
 
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
-    """Yield the files to check. A directory is replaced by the tableau files below it.
+    """Yield the files to check, with each directory replaced by the tableau files below it.
 
-    Other files in a directory are skipped, and their names are written to stderr. If ``skip_others`` is true,
-    arguments that are files without a tableau are skipped, too. If ``strict`` is true, a file without a
-    tableau is not skipped if its data resemble a tableau
+    If ``strict`` is true, a file without a tableau is not skipped if its data resemble a tableau
     (:func:`~orderconds.exchange.folder.reason_to_skip`).
     """
     for argument in arguments:
@@ -439,7 +430,7 @@ def _row(family: FamilyOrder) -> tuple[str, ...]:
 
 
 def _print_failing(family: FamilyOrder) -> None:
-    """Print why the order is not higher. If conditions fail, print them with their residuals."""
+    """Print why the order is not higher."""
     n = family.order + 1
     if family.limit is not None:
         reached = f"{family.family}: no condition fails up to order {family.limit}"

@@ -66,8 +66,7 @@ def command(
 ) -> int:
     """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to the given order.
 
-    With --format latex, the equations have numbers and labels, and fit into a two-column article. The output
-    also contains the trees and the definitions of all symbols.
+    With --format latex, the equations have numbers and labels, and fit into a two-column article.
 
     \b
     Examples:
@@ -101,7 +100,7 @@ def _text(derivation: Derivation, form: str, explain: bool) -> str:
 
 
 def _print(derivation: Derivation, form: str, explain: bool) -> None:
-    """Print the conditions of a derivation. ``form`` is one of :data:`FORMATS`."""
+    """Print the conditions of a derivation."""
     match form:
         case "json":
             screen.print_json(_record(derivation, explain))
@@ -149,10 +148,7 @@ def _print_entries(derivation: Derivation, order: int) -> None:
 
 
 def _record(derivation: Derivation, explain: bool) -> dict[str, object]:
-    """Return the JSON object of a derivation.
-
-    If ``explain`` is true, the object also contains the elementary differentials.
-    """
+    """Return the JSON object of a derivation, with elementary differentials if ``explain`` is true."""
     record: dict[str, object] = derivation.as_json()
     if explain:
         from orderconds.explain.kinds import named_by

@@ -24,8 +24,7 @@ def command(tableau: str, order: int | None, output: str | None, as_json: bool) 
     of the library.
 
     The extension gives the solution at each time t + theta h inside a step from t to t + h. The weights
-    b_i(theta) of the extension are polynomials. The order of the extension is proved: the order conditions
-    hold for all theta.
+    b_i(theta) of the extension are polynomials. The order of the extension is proved.
 
     \b
     Examples:

@@ -2,7 +2,7 @@
 
 To list its own objects here, another package registers a function as an entry point in the group
 ``orderconds.listings``. The function has no arguments and returns one dictionary for each object, with the
-keys "name" and "about". The value of "about" is a description in one line.
+keys "name" and "about" (one line).
 """
 
 from __future__ import annotations
@@ -96,4 +96,4 @@ def _tableaux() -> Records:
 
 
 BUILT_IN: dict[str, Callable[[], Records]] = {"families": _families, "tableaux": _tableaux}
-"""The built-in kinds of objects. Each value is a function that yields the records of one kind."""
+"""Maps each built-in kind of objects to a function that yields the records of this kind."""

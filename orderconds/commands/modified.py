@@ -48,7 +48,7 @@ def command(tableau: str, order: int, family: str | None, modifying: bool, as_js
     x and y. In this derivative, x and y are treated as constant. The commutator is [x, y] = x y - y x.
 
     For a symplectic method, the command also prints the modified Hamiltonian H~. Its terms contain the vector
-    field f and derivatives of the Hamiltonian H. An example is H''(f, f).
+    field f and derivatives of the Hamiltonian H.
 
     \b
     Examples:

@@ -11,8 +11,7 @@ Complete = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
 
 def completing(names: Callable[[], Iterable[str]], *, files: bool = False) -> Complete:
-    """Return a function that completes a word in the shell. The function ``names`` returns all
-    possible completions.
+    """Return a function that completes a word in the shell to one of the words ``names()``.
 
     If ``files`` is true and no completion begins with the word, the shell completes the word to a path.
 

@@ -16,8 +16,7 @@ from orderconds.output_file import write_files
 class Place(click.ParamType[str]):
     """The type of an option for an output file or folder.
 
-    A blank name is refused. A name that begins with ``--`` is refused, too. Usually, such a
-    value is the next option, because the user forgot the name.
+    A blank name is refused. A name that begins with ``--`` is refused, because it is usually the next option.
 
     >>> FOLDER.convert("out", None, None)
     'out'
@@ -53,7 +52,7 @@ def put(path: str, content: bytes) -> None:
     >>> put(os.devnull, b"gone")
     """
     try:
-        # Write to the target of a symbolic link. If ``target`` is still a link, links form a loop.
+        # If symbolic links form a loop, ``target`` is still a link.
         target = Path(os.path.realpath(path))
         if target.is_symlink():
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))

@@ -34,11 +34,10 @@ UNKNOWN = (
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.
 
-    If FILE has a [proof] table, solve the equations of this table. Newton's method starts at the rounded
+    If FILE has a [proof] table, solve the equations of this table. The unknowns are the rounded
     decimals of the file, such as "0.8177~". The table [proof.printed] of the new file contains the original
-    digits. The decimals are the unknowns of the equations. If there are more unknowns than equations, some
-    decimals do not change. The list `pins` in the [proof] table of the new file contains the names of these
-    decimals.
+    digits. If there are more unknowns than equations, some decimals do not change. The list `pins` in the
+    [proof] table of the new file contains the names of these decimals.
 
     If FILE has no [proof] table, replace binary floats and rounded decimals by nearby fractions or numbers
     p + q sqrt(d), where p, q and d are rational. The order of the method does not change. The suffix of
@@ -83,8 +82,7 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
 
 
 def _exact(tableau: Tableau, output: str | None, as_json: bool) -> int:
-    """Write the tableau with exact coefficients and return 0. If no decimal can be replaced by an exact
-    number, print the reason and return 1."""
+    """Write the tableau with exact coefficients, and return the exit status."""
     from orderconds.checking.exact_forms import exact_forms
     from orderconds.exchange import export, format_of
 

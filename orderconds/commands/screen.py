@@ -48,8 +48,8 @@ def drawing_style(plain: bool = False) -> Style:
 def working(message: str) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows a message.
 
-    The context manager returns a function that replaces the message by a new one. If the output is not a
-    terminal, ``--verbose`` writes each message as a line to stderr. Without ``--verbose``, nothing is shown.
+    The context manager returns a function that replaces the message by a new one. Without a terminal,
+    messages are shown only with ``--verbose``, as lines on stderr.
 
     >>> with working("deriving"):
     ...     order = 4
@@ -70,10 +70,9 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows the progress of work on several items.
 
-    The context manager returns a function. Call this function with the name of each finished item.
-    ``total`` is the number of items, or None if this number is unknown.
-
-    On a terminal, a progress bar is shown. Elsewhere, ``--verbose`` shows a line for each finished item.
+    The context manager returns a function to call with the name of each finished item. ``total`` is the
+    number of items, or None if this number is unknown.
+    Without a terminal, progress is shown only with ``--verbose``, as lines on stderr.
 
     >>> with counting("measuring", total=2) as done:
     ...     _ = done("first")
@@ -142,8 +141,7 @@ class _Lines:
 def is_shown(held: bool) -> bool:
     """Return True if a result is to be printed.
 
-    ``held`` is True if the result is a success, and False if it is a failure. With ``--quiet``, only failures
-    are printed.
+    ``held`` is True if the result is a success. With ``--quiet``, only failures are printed.
 
     >>> is_shown(held=True), is_shown(held=False)
     (True, True)

@@ -127,16 +127,15 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     the command proved that no method exists. Exits with 2 if options contradict each other. For a given seed,
     the result does not depend on the number of processes.
 
-    If a search is interrupted, repeat the command to continue the search. The new run reads the results of
-    the finished random starts from the file of --checkpoint.
+    If a search is interrupted, repeat the command to continue the search from the file of
+    --checkpoint.
 
     \b
     Examples:
         orderconds solve rk --stages 3 --order 3 --explicit --fix c2=1/2 --fix c3=1
         orderconds solve vcg --stages 3 --order 3 --minimise error -o mine.toml
     """
-    # With several threads, the results could depend on the number of processor cores. Therefore, each
-    # numerical library uses only one thread in each process.
+    # With several threads, the results could depend on the number of processor cores.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ[f"{library}_NUM_THREADS"] = "1"
     from orderconds.solve.solver import solve
@@ -169,10 +168,9 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     from orderconds.solve.spec import Spec
     from orderconds.tableau.file import verify_name
 
-    # A search may take hours. Therefore, an invalid name of the new tableau is refused before the search.
+    # An invalid name is refused before the search, because a search may take hours.
     verify_name(options["name"], "--name")
-    # Let p be the requested order. If p is even, a symmetric method of order p - 1 also has order p, and
-    # the search needs no trees of order p. Therefore, trees of order p are not counted here.
+    # Do not count trees of the requested order p: a symmetric method of odd order p - 1 has order p.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
@@ -186,7 +184,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
             raise InputError(
                 "no such folder", where=f"{option} {given}", expected="a file in an existing folder"
             )
-    # Path.resolve raises a RuntimeError if a link points to itself. Therefore, os.path.realpath is used.
+    # Path.resolve raises a RuntimeError if a link points to itself.
     if output and path and os.path.realpath(output) == os.path.realpath(path):
         raise InputError(
             "--checkpoint and --output name the same file",
@@ -210,13 +208,12 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
-    # A number with a long exponent could fill the memory. Therefore, the pattern allows at most two digits
-    # in the exponent.
+    # A number with a long exponent could fill the memory.
     number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
     except (ValueError, ZeroDivisionError):
-        # The pattern also matches texts that are not numbers, for example 1/0. The size 0 is refused below.
+        # The pattern also matches texts that are not numbers, for example 1/0.
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")

@@ -1,8 +1,7 @@
 """Options with several values, such as ``--method A B C``.
 
 After the first argument of a :class:`Variadic` command, a repeatable option accepts several values, as in
-``bench dipole --method cf4 rkmk:rk4``. Before the first argument, a repeatable option accepts one value. In
-``bench --method cf4 dipole``, the word ``dipole`` is the argument.
+``bench dipole --method cf4 rkmk:rk4``. Before the first argument, a repeatable option accepts one value.
 """
 
 from __future__ import annotations
