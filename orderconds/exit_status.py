@@ -83,8 +83,7 @@ class Run:
         click.echo(text)
 
     def end(self, error: BaseException) -> int:
-        """Print the message of an error and return the exit status. With ``--json``, also print the error as
-        JSON.
+        """Print the message of an error, with ``--json`` also as JSON, and return the exit status.
 
         >>> Run(as_json=True).end(InputError("a row of 3", where="x.toml", expected="2 entries"))
         {
@@ -167,8 +166,7 @@ def _usage_message(error: click.UsageError) -> str:
 def past_click() -> Iterator[None]:
     """Replace the exceptions KeyboardInterrupt and BrokenPipeError by :class:`Stopped`.
 
-    The library click would handle these two exceptions itself. The library does not
-    catch :class:`Stopped`.
+    The library click would handle these two exceptions itself.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -182,7 +180,7 @@ def past_click() -> Iterator[None]:
 
 
 def _silence_stdout() -> None:
-    """Redirect a closed stdout to the null device. Otherwise, Python reports an error when it exits."""
+    """Redirect a closed stdout to the null device, because Python would report an error at exit."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 

@@ -1,8 +1,7 @@
 """Read and write tableaux in the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
 A Python file is executed only at the user's request. If a method is exported and imported again, its
-coefficients do not change, and rounded decimals keep all their digits. TOML and JSON keep every key of a
-file. All formats except TOML and JSON omit the table ``[proof]``.
+coefficients do not change. All formats except TOML and JSON omit the table ``[proof]``.
 
 A number from another program is a double, a rounded decimal or exact:
 
@@ -42,8 +41,7 @@ def export(data: Data, to: str) -> bytes:
     """Return a tableau as the content of a file in the format ``to``.
 
     Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format
-    cannot represent. The function detects such a method as follows: it reads the content back and compares
-    the result with ``data``.
+    cannot represent.
 
     >>> export({"name": "euler", "family": "rk", "A": [["0"]], "b": ["1"]}, "csv").decode().split()
     ['name,euler', 'family,rk', 'A,0', 'b,1']
@@ -66,7 +64,7 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
 
 
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:
-    """Return the keys and values of the tableau in a file. ``of`` is the format of the file.
+    """Return the keys and values of the tableau in a file of the format ``of``.
 
     If the file contains no name, the tableau gets the name ``name``. If the file contains embedded weights
     without their order, this function computes the order. Raises :class:`~orderconds.errors.InputError` if
@@ -80,7 +78,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Return ``data``. Add ``name`` to a tableau without a name, and compute a missing embedded order."""
+    """Add ``name`` to a tableau without a name, and compute a missing embedded order."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:
@@ -109,8 +107,8 @@ PYTHON = "sympy"
 def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:
     """Return the tableau in a file. Return None for the suffix ``.toml`` and for an unknown suffix.
 
-    A tableau without a name is named after the file. If ``execute`` is true, a Python module is
-    executed. Otherwise the module is only parsed.
+    A tableau without a name is named after the file. If ``execute`` is true, a Python module is executed, not
+    only parsed.
 
     >>> load_foreign("rk4.toml") is None
     True

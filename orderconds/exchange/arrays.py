@@ -1,18 +1,16 @@
-"""A tableau as arrays with names. The entries are coefficients as text. The formats CSV, NumPy, SymPy, LaTeX
-and C store these arrays.
+"""A tableau as arrays with names. The entries are coefficients as text.
 
 The names of the arrays depend on the family:
 
 - ``rk``: A and b. An embedded method also has embedded_b, and the number embedded_order.
 - ``prk``: A, b, A_hat and b_hat.
 - ``composition``: gamma, or alpha and beta.
-- ``cf``: exponentials, count and start. The method contains several products of exponentials: one product
-  for each stage, one for the update, and one for the embedded update. The arrays contain the products in this
-  sequence. Each row of ``exponentials`` contains the coefficients of one exponential. For each product,
-  ``count`` contains the number of exponentials. ``start`` contains 0 if the product acts on y0, and i if the
-  product acts on the value of stage i.
+- ``cf``: exponentials, count and start. The products of exponentials are in this sequence: one for each
+  stage, one for the update, and one for the embedded update. Each row of ``exponentials`` contains the
+  coefficients of one exponential. For each product, ``count`` contains the number of exponentials. ``start``
+  contains 0 if the product acts on y0, and i if the product acts on the value of stage i.
 
-The table ``proof`` of a tableau file cannot be stored in arrays and is omitted.
+The table ``proof`` of a tableau file is omitted.
 """
 
 from __future__ import annotations
@@ -34,23 +32,19 @@ from orderconds.tableau.write import without_names
 
 Row = list[str]
 Arrays = Data
-"""A map from names to values. A value is a text, a vector of coefficients or a matrix of coefficients."""
+"""A map from names to texts, vectors of coefficients or matrices of coefficients."""
 
 TABLES = ("numbers", "claims")
-"""Tables of a tableau file. :func:`to_arrays` converts each of these tables to JSON text."""
+"""Tables of a tableau file that :func:`to_arrays` converts to JSON text."""
 TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
-"""A decimal in an imported file is considered exact if it has fewer significant digits than this number.
-
-For example, 0.5 is exact. A decimal with more digits is considered to be a double or a rounded decimal. See
-:func:`coefficient`.
-"""
+"""A decimal in an imported file is considered exact if it has fewer significant digits than this number."""
 
 
 def to_arrays(data: Data, target: str) -> Arrays:
-    """Return the arrays of a tableau. ``data`` contains the keys and values of the tableau file.
+    """Return the arrays of a tableau.
 
     Raises :class:`TableauError` if arrays cannot represent the methods of the family. The error message
     contains ``target``, the name of the output format.
@@ -89,8 +83,8 @@ def to_arrays(data: Data, target: str) -> Arrays:
 def data_without_names(tableau: Tableau) -> Data:
     """Return a tableau as keys and values. The formula of a named number replaces the name.
 
-    A number that the tableau defines as a root of a polynomial (``minpoly``) keeps its name. Fractions are in
-    lowest terms. Rounded coefficients keep the digits of the tableau file.
+    A number that the tableau defines as a root of a polynomial (``minpoly``) keeps its name. Rounded
+    coefficients keep the digits of the tableau file.
 
     >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
     >>> data_without_names(from_data(data))
@@ -109,7 +103,7 @@ def _exact(entry: str | int) -> str:
     """Return a coefficient as the text for an exported file.
 
     An exact decimal with at least 12 significant digits becomes a fraction, because the import does not read
-    such decimals as exact (see :data:`ROUNDED`). A rounded decimal (suffix ``~``) does not change.
+    such decimals as exact (see :data:`ROUNDED`).
 
     >>> _exact("0.123456789012"), _exact("0.5"), _exact("0.123456789012~")
     ('30864197253/250000000000', '0.5', '0.123456789012~')
@@ -241,9 +235,8 @@ def with_family(data: Data) -> Data:
 def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
     """Return the arrays of a Butcher tableau. Row i of ``stages`` contains c_i and row i of A.
 
-    The first row of ``weights`` is b. A second row contains embedded weights. A blank cell is zero. Let s be
-    the number of stages. Blank cells at the end of a row of A or of ``weights`` are removed if they follow
-    the first s cells.
+    The first row of ``weights`` is b. A second row contains embedded weights. A blank cell is zero.
+    Excess blank cells at the end of a row are removed.
 
     >>> butcher([["0", "", ""], ["1", "1", ""]], [["", "1"]])["A"]
     [['0', '0'], ['1', '0']]
@@ -270,9 +263,9 @@ def _integer(text: str, where: str) -> int:
 def coefficient(text: str) -> str:
     """Convert a number from another program's file to a coefficient of a tableau file.
 
-    A decimal with an exponent is converted to the same number without exponent. If the decimal was probably
-    printed from a double, the result is this double (see :func:`~orderconds.tableau.doubles.is_printed`).
-    Other decimals with at least 12 significant digits become rounded decimals (suffix ``~``).
+    If the decimal was probably printed from a double, the result is this double (see
+    :func:`~orderconds.tableau.doubles.is_printed`). Other decimals with at least 12 significant digits become
+    rounded decimals (suffix ``~``).
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
     ['0.50', '0.3333333333333333d', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']

@@ -1,7 +1,7 @@
 """C arrays of correctly rounded doubles. A comment beside a rounded number contains the exact value.
 
-The function ``read`` reads definitions such as ``double NAME_A[2][2] = {{0, 0}, {0.5, 0}};``. If a
-comment beside a number contains the exact value, ``read`` returns the exact value.
+The function ``read`` reads definitions such as ``double NAME_A[2][2] = {{0, 0}, {0.5, 0}};``. The function
+returns the value in the comment.
 """
 
 from __future__ import annotations
@@ -93,10 +93,9 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return the C source, and the list of the comments before the first array.
+    """Return the C source without strings and comments, and the comments before the first array.
 
-    Strings and most comments are removed from the source. Comments ``/* ... */`` inside arrays remain,
-    because these comments contain exact values of numbers.
+    Comments ``/* ... */`` inside arrays remain, because these comments contain exact values of numbers.
     """
     kept: list[str] = []
     comments: list[str] = []
@@ -119,8 +118,7 @@ def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
 
 
 def _end(text: str, token: re.Match[str], where: str) -> int:
-    """Return the index of the first character after a comment or string. ``token`` matches the beginning of
-    the comment or string.
+    """Return the index of the first character after the comment or string that begins with ``token``.
 
     Raise TableauError if ``*/`` or the closing quotation mark is missing.
     """

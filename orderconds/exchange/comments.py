@@ -1,5 +1,4 @@
-"""Write texts of a tableau, for example the name, as comments of source files. Each text becomes a comment of
-one line.
+"""Write texts of a tableau, for example the name, as one-line comments of source files.
 
 A backslash is doubled. A line break or a control character becomes a Unicode code, for example ``\\u000a``.
 The delimiters of C comments become ``*\\/`` and ``\\/*``.

@@ -11,16 +11,15 @@ from orderconds.tableau.file_format import Data
 from orderconds.tableau.write import as_data
 
 _DECIMAL = re.compile(r"-?\d+\.?\d*d?", re.ASCII)
-"""The pattern of an integer or a decimal. The suffix ``d`` marks a double."""
+"""The pattern of an integer, a decimal or a double (suffix ``d``)."""
 
 
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
     """Return a tableau in the format ``to``: toml, json, csv, sympy, latex, c or numpy.
 
-    The result is bytes for the format numpy, and text for all other formats. ``tableau`` may also be
-    the path of a file, or the name of a tableau in the library. Raises
-    :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format cannot
-    represent.
+    The result is bytes only for the format numpy. ``tableau`` may also be the path of a file, or the name of
+    a tableau in the library. Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a
+    method that the format cannot represent.
 
     >>> print(convert("euler", "csv").splitlines()[-1])
     b,1
@@ -36,7 +35,7 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return a copy of ``data``. In lists and tables, strings such as '1', '0.5' and '0.5d' become floats."""
+    """Return a copy of ``data`` with floats for strings such as '1' and '0.5d' in lists and tables."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

@@ -2,14 +2,14 @@
 
 - Named arrays: each line begins with the name of a vector or a matrix. The other cells of the line contain
   the vector or one row of the matrix.
-- A plain Butcher tableau, as in textbooks: for each stage i, one line contains c_i and row i of A. The next
-  line contains an empty cell and the weights b. An additional line may contain an empty cell and embedded
-  weights. Other empty cells are zeros.
+- A plain Butcher tableau: for each stage i, one line contains c_i and row i of A. The next line contains an
+  empty cell and the weights b. An additional line may contain an empty cell and embedded weights. Other
+  empty cells are zeros.
 
 Cells are separated by commas, semicolons or tabs. Comments (``#`` or ``%``) and a header are ignored.
 
 The line ``order,4`` claims order 4 in the family of the tableau. The line ``claims,rk=4`` claims order 4 in
-the family ``rk``. The line ``embedded_order,3`` states the order of the embedded weights.
+the family ``rk``.
 """
 
 from __future__ import annotations
@@ -90,11 +90,7 @@ def _repeated(name: str, where: str) -> TableauError:
 
 
 def _is_plain(table: Table) -> bool:
-    """Return True if a CSV table is a plain Butcher tableau.
-
-    In a plain tableau, no row begins with the name of a matrix. At least one row begins with a cell that is
-    not in ``NAMES``, for example with a number or an empty cell.
-    """
+    """Return True if a CSV table is a plain Butcher tableau."""
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)
 

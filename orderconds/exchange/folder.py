@@ -92,9 +92,8 @@ class Reason:
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return the reason to skip a file, or an empty text if the file must be read.
 
-    A damaged file must be read, because reading it shows the error to the user. Some files resemble a
-    tableau, but contain no key or array of a tableau. An example is a JSON file with a matrix under an
-    unknown key. By default, such files are skipped. If ``strict`` is true, such files must be read.
+    A damaged file must be read, because reading it shows the error to the user. If ``strict`` is true, a file
+    that resembles a tableau must be read, even without a key or array of a tableau.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root

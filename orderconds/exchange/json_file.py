@@ -1,8 +1,7 @@
 """JSON files with the keys and values of a tableau file in TOML.
 
 A short decimal, for example ``0.5``, is exact. A decimal with the digits of a printed double, for example
-``0.3333333333333333``, is a double. If the key ``family`` is missing, the names of the arrays determine the
-family. The value of the key ``claims`` may be a text such as ``"rk=4"``.
+``0.3333333333333333``, is a double. The value of the key ``claims`` may be a text such as ``"rk=4"``.
 """
 
 from __future__ import annotations
@@ -28,8 +27,7 @@ def read(content: bytes, where: str) -> Data:
     """Return the keys and values of a JSON object.
 
     If the key ``family`` is missing, the names of the arrays determine the family. A number with a decimal
-    point or an exponent becomes a string. The suffix ``d`` in the string marks a double (see
-    :func:`~orderconds.exchange.arrays.coefficient`).
+    point or an exponent becomes a string (see :func:`~orderconds.exchange.arrays.coefficient`).
 
     >>> read(b'{"A": [[0.5]], "b": [0.3333333333333333], "order": 1}', "m.json")
     {'family': 'rk', 'A': [['0.5']], 'b': ['0.3333333333333333d'], 'order': 1}

@@ -1,4 +1,4 @@
-r"""Tableaux in LaTeX. The coefficients are in a Butcher tableau or in named matrices.
+r"""Tableaux in LaTeX, as a Butcher tableau or as named matrices.
 
 A Butcher tableau is an array with lines: ``\begin{array}{c|cc} ... \end{array}``. A named matrix has
 the form ``A = \begin{pmatrix} ... \end{pmatrix}``.
@@ -98,7 +98,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _texts(text: str) -> Arrays:
-    """Read the comments at the beginning of a file. The comment ``% name: heun`` gives {"name": "heun"}."""
+    """Read the comments at the beginning of a file, for example ``% name: heun`` as {"name": "heun"}."""
     entries: Arrays = {}
     for line in text.split("\n"):
         if line.strip() and not line.startswith("%"):

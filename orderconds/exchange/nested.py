@@ -13,9 +13,9 @@ MAX_DEPTH = 3
 
 
 def nested(text: str, opening: str, closing: str, where: str) -> Cells:
-    """Return the cells of a nested array in source text. ``opening`` and ``closing`` are its brackets.
+    """Return the cells of a nested array in source text.
 
-    Commas separate the cells. A comma within parentheses is part of a cell.
+    Commas separate the cells, except within parentheses.
 
     >>> nested("[[1, Rational(1, 2)], [3, 4]]", "[", "]", "x")
     [['1', 'Rational(1, 2)'], ['3', '4']]

@@ -31,8 +31,7 @@ def _python(x: Expression, tight: int) -> str:
     """Return x as Python source, in parentheses if the larger expression around x requires them.
 
     ``tight`` is 1 for the first factor of a product and after a minus sign, 2 for other factors and for
-    divisors, and 0 elsewhere. A sum needs parentheses if ``tight`` is 1 or 2. A product needs parentheses if
-    ``tight`` is 2.
+    divisors, and 0 elsewhere.
     """
     if isinstance(x, Constant):
         if x.is_double:

@@ -1,9 +1,9 @@
-"""NumPy archives (``.npz``). Coefficients are stored twice. For example, the array ``A`` contains the entries
-of A as doubles, and the array ``A_exact`` contains the exact entries as text.
+"""NumPy archives (``.npz``). For example, the array ``A`` contains the entries of A as doubles, and
+``A_exact`` contains the exact entries as text.
 
 If ``A_exact`` is missing, the coefficients are the doubles in ``A``. Arrays of Python objects are refused.
-The array ``order`` contains the claimed order in the family of the tableau. The array ``claims`` contains a
-text with claimed orders in given families. For example, ``rk=4`` claims order 4 in the family ``rk``.
+The array ``order`` contains the claimed order in the family of the tableau. The array ``claims`` contains
+claimed orders in given families as text, for example ``rk=4``.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def write(data: Data) -> bytes:
 def floats(value: Cells, roots: str = "{}") -> Floats:
     """Convert a coefficient, or nested lists of coefficients, to the nearest doubles.
 
-    A coefficient may contain names of polynomial roots. ``roots`` is the JSON text that defines the names.
+    ``roots`` is the JSON text that defines names of polynomial roots.
 
     >>> floats([["1/2", "1/3"]])
     [[0.5, 0.3333333333333333]]
@@ -96,7 +96,7 @@ def floats(value: Cells, roots: str = "{}") -> Floats:
 def nearest(text: str, roots: str = "{}") -> float:
     """Return the double nearest to a coefficient.
 
-    The coefficient may contain names of polynomial roots. ``roots`` is the JSON text that defines the names.
+    ``roots`` is the JSON text that defines names of polynomial roots.
 
     >>> nearest("1/3 - sqrt(3)/6")
     0.04465819873852045
@@ -121,8 +121,7 @@ def nearest(text: str, roots: str = "{}") -> float:
 def read(content: bytes, where: str) -> Data:
     """Read a tableau from an ``.npz`` archive, and return a dictionary with the keys of a tableau file.
 
-    If the archive contains the doubles ``A`` and the exact values ``A_exact``, the exact values are returned.
-    Raises TableauError if an entry of ``A`` is not the double nearest to the exact value.
+    Raises TableauError if an entry of ``A`` is not the double nearest to the exact value in ``A_exact``.
 
     >>> read(write({"name": "m", "family": "rk", "A": [["1/3"]], "b": ["1"]}), "m.npz")["A"]
     [['1/3']]

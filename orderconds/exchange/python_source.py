@@ -1,11 +1,9 @@
 """Python modules that assign arrays: ``A = np.array([[0, 0], [1/2, 0]])``, ``b = [0, 1]``, ``order = 2``.
 
-The file is parsed, not executed. The function :func:`read` evaluates the assignments at the top level one
-after another. An assignment may contain lists, tuples, numbers, arithmetic, square roots, names from
-earlier assignments, and constructors of arrays and of exact numbers from NumPy, SymPy and ``fractions``.
-Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. Some statements cannot be evaluated. If
-such a statement may change an array of the tableau, the file is refused. With the option ``--execute``,
-:mod:`orderconds.exchange.python_module` executes the file.
+The file is parsed, not executed. An assignment may contain lists, tuples, numbers, arithmetic, square roots,
+names from earlier assignments, and constructors of arrays and of exact numbers from NumPy, SymPy and
+``fractions``. Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. The file is refused if a
+statement that cannot be evaluated may change an array of the tableau.
 """
 
 from __future__ import annotations
@@ -37,7 +35,7 @@ from orderconds.tableau.file_format import Data
 
 ARRAYS = (*MATRICES, *ROWS)
 COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha", "beta"))
-"""Groups of names of arrays. A module contains a tableau if it assigns all arrays of one group."""
+"""A module contains a tableau if it assigns all arrays of one of these groups."""
 
 HINT = "write the numbers themselves, or execute the file with 'orderconds check --execute'"
 SAFE_FUNCTIONS = ("print", "len", "sum", "abs", "min", "max", "range", "round", "repr", "str")
@@ -152,8 +150,7 @@ def _header(text: str) -> Arrays:
 def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
     """Yield the variables of an assignment, each with the expression on the right-hand side.
 
-    If a target is not a variable, as in ``A[0] = 1``, nothing is yielded. If the target is a tuple, but the
-    right-hand side is not a tuple of the same length, nothing is yielded, either.
+    Nothing is yielded for assignments such as ``A[0] = 1`` and ``a, b = x``.
     """
     pairs: list[tuple[ast.expr, ast.expr]] = []
     if isinstance(statement, ast.Assign):
@@ -173,9 +170,7 @@ def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
 def _follow(statement: ast.stmt, values: Values) -> None:
     """Evaluate one statement at the top level of the module, and store the new values of its variables.
 
-    If the right-hand side of an assignment cannot be evaluated, the variable becomes unknown. Loops and
-    conditions are not evaluated: all variables that they may change become unknown. If an expression may
-    change a variable, all variables in the expression become unknown.
+    Loops and conditions are not evaluated: all variables that they may change become unknown.
     """
     if _unsafe_names(statement):
         _doubt([statement], values)
@@ -209,11 +204,7 @@ def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
 
 
 def _define(statement: Definition, values: Values) -> None:
-    """Store a function or class as an unknown value.
-
-    A later call may change each variable that occurs in the definition. ``values`` stores the names of these
-    variables.
-    """
+    """Store a function or class as an unknown value, with the variables that a later call may change."""
     # The body of a class is executed at once, but the bodies of its methods are not.
     parts: list[ast.AST] = []
     called: list[ast.expr] = []
@@ -241,10 +232,7 @@ def _define(statement: Definition, values: Values) -> None:
 
 
 def _activate(names: Iterable[str], node: ast.AST, values: Values) -> None:
-    """Add ``names`` to the active variables if their new value may be a function or an instance.
-
-    ``node`` is the part of the module that assigns the value.
-    """
+    """Add ``names`` to the active variables if ``node`` may assign a function or an instance to them."""
     definitions = ast.Lambda | ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
     if _mentioned(node) & values.active or any(isinstance(x, definitions) for x in ast.walk(node)):
         values.active.update(names)
@@ -253,7 +241,7 @@ def _activate(names: Iterable[str], node: ast.AST, values: Values) -> None:
 
 
 def _doubt(nodes: Sequence[ast.AST], values: Values, scoped: bool = False) -> None:
-    """Mark each variable as unknown that ``nodes`` may change. ``nodes`` are parts of the module.
+    """Mark each variable as unknown that ``nodes`` may change.
 
     If ``scoped`` is true, assignments in ``nodes`` define variables of a class, not of the module.
     """
@@ -375,7 +363,7 @@ def _import(statement: ast.ImportFrom, values: Values) -> None:
 
 
 def _is_script_part(statement: ast.If, values: Values) -> bool:
-    """Return True for ``if __name__ == "__main__":``. An import skips the body of the ``if``."""
+    """Return True for ``if __name__ == "__main__":``, whose body an import skips."""
     return "__name__" not in values.known and ast.unparse(statement.test) in (
         "__name__ == '__main__'",
         "'__main__' == __name__",
@@ -383,10 +371,7 @@ def _is_script_part(statement: ast.If, values: Values) -> bool:
 
 
 def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
-    """Evaluate an assignment to one entry of an array, such as ``A[1, 0] = 1/2``.
-
-    Return True on success, else False.
-    """
+    """Evaluate an assignment to one entry, such as ``A[1, 0] = 1/2``, and return True on success."""
     if not isinstance(statement, ast.Assign) or len(statement.targets) != 1:
         return False
     place: list[int] = []
@@ -441,7 +426,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
 
 
 def _row(cells: Cells) -> Cells:
-    """Convert a matrix with one row or one column to a list of numbers. Return other cells unchanged."""
+    """Convert a matrix with one row or one column, but no other cells, to a list of numbers."""
     if isinstance(cells, list) and cells and isinstance(cells[0], list):
         if len(cells) == 1:
             return cells[0]

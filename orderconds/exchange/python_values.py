@@ -34,8 +34,8 @@ NARROW = ("16", "32", "complex", "int", "bool")
 """Parts of the names of types such as ``float32`` and ``int64``. An array of such a type is not evaluated,
 because the type is complex or cannot store all doubles."""
 COPYING_CALLS = ("array", "Matrix", "ImmutableMatrix", "matrix")
-"""Constructors of arrays that copy their argument and its rows. ``list`` and ``tuple`` copy only the outer
-array and share its rows. ``asarray`` copies a list, but returns a NumPy array without copying it."""
+"""Constructors of arrays that copy their argument and its rows. ``list`` and ``tuple`` share the rows, and
+``asarray`` may return its argument."""
 QUOTIENT_CALLS = ("Fraction", "Rational")
 ROOTS = {"sqrt": 2, "cbrt": 3}
 LIBRARIES = ("fractions", "decimal", "math", "numpy", "sympy", "mpmath", "jax", "cupy", "autograd")
@@ -54,8 +54,7 @@ class Array:
     items: list[Value]
     integral: bool = False
     memory: int = field(default_factory=count().__next__, compare=False)
-    """An integer that identifies the memory in which the entries are stored. If this integer is equal for two
-    arrays, the arrays may share memory, and a change of one array may change the other."""
+    """If this integer is equal for two arrays, a change of one array may change the other."""
 
     def parts(self) -> set[int]:
         """Return the values of :attr:`memory` of this array and of its rows."""
@@ -87,8 +86,8 @@ class _NotLiteral(Exception):
 class Values:
     """The names that a module has assigned so far, with their values.
 
-    ``text`` is the source of the module. A comment ``# numbers: {...}`` in the source can define numbers with
-    names. ``named`` contains these names.
+    ``text`` is the source of the module. ``named`` contains the names of the numbers that a comment
+    ``# numbers: {...}`` defines.
 
     >>> values = Values("x = 2*(1 - sqrt(2))", ())
     >>> values.assign("x", values.value(ast.parse(values.text).body[0].value))
@@ -100,13 +99,11 @@ class Values:
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)
-    """A map from an imported name to the original name of the function. After
-    ``from sympy import Rational as R``, the key ``R`` has the value ``Rational``.
-    """
+    """A map from the imported name of a function to its original name."""
     sources: dict[str, tuple[frozenset[str], frozenset[int]]] = field(default_factory=dict)
-    """A map from the name of a variable to a pair of sets. If the variable is not evaluated, the first set
-    contains the variables from which its value may come. The second set contains :attr:`Array.memory` of each
-    array that these variables contained at the time of the assignment. Otherwise both sets are empty.
+    """A map from an unknown variable to the variables from which its value may come, and to
+    :attr:`Array.memory` of their arrays at the time of the assignment. Both sets are empty for an evaluated
+    variable.
     """
     active: set[str] = field(default_factory=set)
     """The variables whose use may execute code of the module: functions, classes and their instances."""
@@ -123,7 +120,7 @@ class Values:
             return Computed(f"{problem.found}", node.lineno)
 
     def assign(self, name: str, value: Value, mentioned: Collection[str] = ()) -> None:
-        """Assign a value to a name. A name in ``named`` is not changed, because a comment defines its value.
+        """Assign a value to a name, except to a name in ``named``, which a comment defines.
 
         If the right-hand side of the assignment is not evaluated, ``mentioned`` lists the variables in it.
         """
@@ -134,8 +131,7 @@ class Values:
     def change(self, names: Collection[str], mentioned: Collection[str], line: int) -> None:
         """Mark the variables ``names`` as unknown after a statement that may change them.
 
-        ``mentioned`` lists all variables in the statement. After the statement, an array in one of ``names``
-        may share memory with an array in one of ``mentioned``.
+        ``mentioned`` lists all variables in the statement.
         """
         traced = self._traced({*names, *mentioned})
         self.forget(names, line)
@@ -144,11 +140,7 @@ class Values:
             self.sources[name] = traced
 
     def _traced(self, names: Collection[str]) -> tuple[frozenset[str], frozenset[int]]:
-        """Return a pair of sets in the form of :attr:`sources`.
-
-        The first set contains ``names`` and the variables from which their values may come. The second set
-        contains :attr:`Array.memory` of all arrays in these variables.
-        """
+        """Return the entry of :attr:`sources` for a variable whose value may come from ``names``."""
         reached, memories = set(names), set[int]()
         for name in names:
             more, shared = self.sources.get(name, (frozenset(), frozenset()))
@@ -175,11 +167,7 @@ class Values:
         return False
 
     def _forget_others(self, changed: Array, line: int) -> None:
-        """Mark other arrays as unknown after a change of the array ``changed``.
-
-        An array is marked if it may share memory with ``changed``, unless ``changed`` is the array itself or
-        one of its rows.
-        """
+        """Mark each array as unknown that may share memory with ``changed``, but does not contain it."""
         for name, other in self.known.items():
             if isinstance(other, Array) and changed.memory in other.parts() and not _contains(other, changed):
                 self.known[name] = Computed("another statement may change the value", line)
@@ -240,7 +228,7 @@ class Values:
         raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
 
     def _source(self, node: ast.expr) -> str:
-        """Return a decimal as it appears in the source. The syntax tree contains only the nearest double."""
+        """Return a decimal as in the source, because the syntax tree contains only the nearest double."""
         if not self._lines:
             self._lines = self.text.encode().splitlines(keepends=True)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""
@@ -344,8 +332,8 @@ def _require_digits(node: ast.Call) -> None:
     """Raise an error if a call such as ``Float('0.577', 2)`` drops digits of its text."""
     text = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
     digits = sum(x.isdigit() for x in text) if isinstance(text, str) else 17
-    # The keyword ``precision`` is a number of bits. One bit corresponds to log10(2) = 0.30103 digits. The
-    # text may contain two digits more than this conversion gives.
+    # The keyword ``precision`` is in bits, and one bit corresponds to log10(2) = 0.30103 digits. The text
+    # may contain two more digits.
     allowed = [(x, 1.0, 0) for x in node.args[1:]]
     allowed += [(k.value, 0.30103, 2) if k.arg == "precision" else (k.value, 1.0, 0) for k in node.keywords]
     for given, factor, more in allowed:
@@ -374,14 +362,12 @@ def _array(function: str, given: Value) -> Value:
 
 
 def _copy(value: Value, integral: bool) -> Value:
-    """Return a copy of an array and of its rows. In the copies, the attribute ``integral`` has the value of
-    the argument ``integral``. Return a value that is not an array unchanged."""
+    """Copy an array and its rows with the given ``integral``, and return other values unchanged."""
     return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 
 def _twin(value: Array, integral: bool) -> Array:
-    """Return a new Array for the result of ``asarray(value)``. The attributes ``memory`` of the result and of
-    ``value`` are equal, because ``asarray`` may return its argument."""
+    """Return a new Array with the same ``memory``, because ``asarray`` may return its argument."""
     items = [_twin(x, integral) if isinstance(x, Array) else x for x in value.items]
     return Array(items, integral, value.memory)
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 DELIMITERS = (",", ";", "\t")
 COMMENTS = ("#", "%")
-"""The characters that begin a comment line. Blanks before the character are ignored."""
+"""The characters that begin a comment line, after optional blanks."""
 
 _WORD = re.compile(r"[^\W\d][\w ()./^-]*")
 _COLUMN_OF_TABLEAU = re.compile(r"[aA]\w*")
@@ -34,7 +34,7 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     """Return the rows of a table.
 
     The delimiter is the comma, the semicolon or the tab, whichever occurs in the most lines. The first row
-    may be a header. There are two kinds of headers:
+    may be a header of one of two kinds:
 
     - In a tableau, the first cell is ``c``, and the other cells begin with ``a``: ``c,a1,a2``.
     - In other tables, each cell is a text such as ``time (s)``. The first cell is not an array name
@@ -52,8 +52,7 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     delimiter = max(DELIMITERS, key=lambda mark: sum(mark in line for line in lines))
     table = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
     rows = [tuple(cell.strip() for cell in row) for row in table]
-    # Inside a quoted cell, a line that begins with # is not a comment. Therefore, the rows are filtered, not
-    # the lines of the text.
+    # Rows are filtered, not lines, because a line inside a quoted cell may begin with #.
     rows = [row for row in rows if any(row) and not _is_comment(row[0])]
     if rows and _is_header(rows[0], names):
         return Rows(tuple(rows[1:]), rows[0])

@@ -56,11 +56,10 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield the name and the definition of each named number. If the definition of x contains y, then y
-    precedes x.
+    """Yield the name and the definition of each named number, after the numbers in its definition.
 
-    A definition is a formula, or a pair that defines a real root of a polynomial. The pair contains the
-    coefficients by descending degree, and the index of the root among the real roots.
+    A definition is a formula, or defines a real root of a polynomial by the coefficients in descending degree
+    and the index of the root among the real roots.
     """
     remaining = json_table(entries.get("numbers", "{}"), "numbers")
     while remaining:
@@ -98,9 +97,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return ``data`` with new names for some numbers. A number with the name ``sqrt``, for example, receives
-    the name ``sqrt_``, because the generated source imports the function ``sqrt``.
-    """
+    """Return ``data`` with new names for numbers whose names are reserved, such as ``sqrt_`` for ``sqrt``."""
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()

@@ -1,8 +1,7 @@
 """Coefficients as unevaluated expressions, for file formats without named numbers.
 
-A tableau file may give a name to a formula and use the name in coefficients. Some file formats cannot store
-such names. In these formats, the formula replaces the name. The resulting expressions are not evaluated.
-Thus, rounded decimals keep their digits. Only operations with 0 and 1 are simplified.
+The formula of a named number replaces its name. Rounded decimals keep their digits. Only operations with 0
+and 1 are simplified.
 """
 
 from __future__ import annotations
@@ -152,10 +151,9 @@ class UnevaluatedNumbers:
 
 
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
-    """Return the tableau with unevaluated coefficients.
+    """Return the tableau with the unevaluated coefficients in ``file``.
 
-    The coefficients are the expressions in ``file``. The table ``numbers`` of the file defines numbers with
-    names. In the coefficients, these definitions replace the names.
+    The definitions in the table ``numbers`` of the file replace the names of numbers.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'
