@@ -1,20 +1,20 @@
 """Diagrams of trees. A diagram has vertices and edges, and the branches of a vertex are ordered.
 
-All trees and words are converted to diagrams before they are drawn. The signs of the vertices are:
+The signs of the vertices are:
 
 - *dot*: a vertex of a tree with one colour. In an action tree, a dot is a derivative of the Hamiltonian.
 - *black* or *white*: a vertex of a tree with two colours.
-- *transport*: a coadjoint action in an action tree. Text drawings show it as ``L``.
+- *transport*: a coadjoint action in an action tree.
 - *letter*: a letter of a word.
 - *bracket*: the Lie bracket of the two branches of the vertex.
 
-An edge is *plain*, *outward* or *inward*. Outward and inward edges occur in trees of partitioned methods with
-the coefficients a_ij and ahat_ij (:mod:`orderconds.trees.directed`), and in action trees:
+An edge is *plain*, *outward* or *inward*. Outward and inward edges occur in action trees and in trees of
+partitioned methods with the coefficients a_ij and ahat_ij (:mod:`orderconds.trees.directed`):
 
-- *outward*: the edge points from the parent to the child. The child is a velocity. A velocity is a
-  derivative of the Hamiltonian in p or in the momentum mu. The edge represents a coefficient a_ij.
-- *inward*: the edge points from the child to the parent. The child is a coadjoint action or a force. A
-  force is a derivative of the Hamiltonian in q. The edge represents a coefficient ahat_ij.
+- *outward*: the edge points from the parent to the child and represents a coefficient a_ij. The child is a
+  velocity, a derivative of the Hamiltonian in p or in the momentum mu.
+- *inward*: the edge points from the child to the parent and represents a coefficient ahat_ij. The child is a
+  coadjoint action or a force, a derivative of the Hamiltonian in q.
 """
 
 from __future__ import annotations
@@ -49,11 +49,10 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right.
 
-    If the vertex is a letter, ``label`` is the printed text of the letter. Otherwise ``label`` is empty.
+    ``label`` is the printed text of a letter, and empty for all other vertices.
 
-    The first branches of a force in an action tree are velocities. Let n be the number of these velocities,
-    and let m be the number of velocities before the edge to the parent. If n > 0, ``legs`` is the pair
-    (m, n). For all other vertices, ``legs`` is None.
+    For a force with n > 0 velocities in an action tree, ``legs`` is the pair (m, n), where m velocities
+    precede the edge to the parent. For all other vertices, ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -71,8 +70,8 @@ class Vertex:
 
 
 Diagram = tuple[Vertex, ...]
-"""The root vertices of a diagram, from left to right. The diagram of a tree has one root. The diagram of a
-word or forest may have several roots."""
+"""The root vertices of a diagram, from left to right. Only the diagram of a word or forest may have several
+roots."""
 
 
 def plain(forest: levels.Forest) -> Diagram:
@@ -111,10 +110,7 @@ def with_directions(tree: directed.DirectedTree) -> Diagram:
 
 
 def action(tree: Velocity) -> Diagram:
-    """Return the diagram of an action tree.
-
-    The root of an action tree has a sequence of velocities, and a multiset of forces and transports
-    (:mod:`orderconds.series.action_trees`). In the diagram, the velocities precede the forces and transports.
+    """Return the diagram of an action tree. Velocities precede forces and transports.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]

@@ -28,8 +28,8 @@ def differential(tree: levels.Tree) -> str:
 def hamiltonian(tree: levels.Tree) -> str:
     r"""Return the elementary Hamiltonian of a free tree (HLW IX.9.2).
 
-    The argument is a rooted tree: the free tree with one of its vertices as the root. The choice of the root
-    affects only the sign of the result. H is the Hamiltonian, and f is the Hamiltonian vector field.
+    The choice of the root affects only the sign of the result. H is the Hamiltonian, and f is the Hamiltonian
+    vector field.
 
     >>> hamiltonian(b"\0\1\1")
     "H''(f, f)"
@@ -41,11 +41,11 @@ def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
     ``f[x]`` is the derivative of the vector field f along the vector field x. ``f[x y]`` is the derivative of
-    ``f[y]`` along x. During this differentiation, y is frozen: its components in a frame of invariant vector
-    fields are held constant.
+    ``f[y]`` along x with frozen y: the components of y in a frame of invariant vector fields are held
+    constant.
 
-    The operator of a forest is the product of the operators of its trees. The factors are separated by spaces
-    (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+    The operator of a forest is the product of the operators of its trees (Munthe-Kaas and Wright, Found.
+    Comput. Math. 8 (2008) 227).
 
     >>> frozen_differential(b"\0\1\2\1"), frozen_differential(b"\0\1\0")
     ('f[f[f] f]', 'f[f] f')
@@ -73,9 +73,8 @@ def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
 def directed_hamiltonian(tree: directed.DirectedTree) -> str:
     r"""Return the elementary Hamiltonian of a tree with directed edges, up to the sign.
 
-    The equations of motion are q' = H_p and p' = -H_q. Each vertex denotes a partial derivative of H. Each
-    edge that begins at the vertex adds the subscript q. Each edge that ends at the vertex adds the
-    subscript p.
+    Each vertex denotes a partial derivative of H. Each edge that begins at the vertex adds the subscript q,
+    and each edge that ends at the vertex adds the subscript p.
 
     >>> directed_hamiltonian(b"\0\3\2")
     'H_pq(H_q, H_p)'
@@ -98,8 +97,8 @@ def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
 def bracket(word: Word, name: Callable[[Letter], str]) -> str:
     """Return the differential operator of a word as text. Each letter denotes a Lie derivative.
 
-    A Lyndon word is written as a commutator. All other words are written as products. In a product, the
-    leftmost letter acts first.
+    A Lyndon word is written as a commutator, and any other word as a product. In a product, the leftmost
+    letter acts first.
 
     >>> bracket((1, 1, 2), str), bracket((2, 1), str)
     ('[1, [1, 2]]', '2 1')

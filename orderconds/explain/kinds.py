@@ -17,8 +17,7 @@ from orderconds.explain.lines import Style, draw
 from orderconds.families import Family
 
 Member = Any
-"""A tree, forest or word. The encoding depends on the kind. For example, a rooted tree is encoded as bytes
-that contain the levels of its vertices."""
+"""A tree, forest or word. The encoding depends on the kind."""
 
 
 MAX_TREES = 7_000
@@ -38,7 +37,7 @@ class Kind:
     - ``names`` returns the text of the elementary differential or of the elementary Hamiltonian of a member.
 
     The members index order conditions of the family of methods that :meth:`family` returns. If
-    ``independent`` is true, the order conditions of the members are independent of each other.
+    ``independent`` is true, these order conditions are independent of each other.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -131,8 +130,9 @@ def of_family(label: str) -> Kind | None:
 
 
 def refuse_too_many_trees(family: Family, order: int) -> None:
-    """Raise an InputError if a single order n has more than :data:`MAX_TREES` trees. The function tests all n
-    from 1 to ``order``, but none above ``family.order_bound``. The trees are those of ``family``.
+    """Raise an InputError if a single order has more than :data:`MAX_TREES` trees of ``family``.
+
+    The function tests all orders from 1 to ``order``, but none above ``family.order_bound``.
 
     >>> refuse_too_many_trees(families.get("rk"), 12)
     """
@@ -295,10 +295,8 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # The function ``partitioned_differential`` needs a tree with black and white vertices. A vertex
-        # becomes white if the edge between the vertex and its parent points to the parent, and black if the
-        # edge points to the vertex. The byte that encodes this direction is also the byte that encodes the
-        # colour. The root has no parent, and ``coloured`` makes it black.
+        # A vertex becomes white if its edge to the parent points to the parent, else black, because the same
+        # byte encodes direction and colour.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

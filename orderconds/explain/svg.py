@@ -1,7 +1,6 @@
-"""Drawings of diagrams in SVG, with the root at the bottom. One document contains several drawings.
+"""Drawings of diagrams in SVG, with the root at the bottom.
 
-Coordinates are rounded to two decimal places. Therefore the bytes of a drawing do not depend on the platform.
-Lines have the colour of the surrounding text (``currentColor``).
+Coordinates are rounded to two decimal places, so that the bytes of a drawing do not depend on the platform.
 """
 
 from __future__ import annotations
@@ -29,9 +28,8 @@ RAISED = str.maketrans("()0123456789", "⁽⁾⁰¹²³⁴⁵⁶⁷⁸⁹")
 class Layout:
     """A vertex with its branches and its horizontal position ``x`` relative to its parent.
 
-    ``below`` contains the layouts of the branches. ``left`` and ``right`` contain one number for each level
-    of the subtree whose root is the vertex: the horizontal positions of the left end and of the right end of
-    the level, relative to the vertex. The unit of length is the least distance between neighbouring vertices.
+    ``left`` and ``right`` contain the horizontal positions of both ends of each level of the subtree,
+    relative to the vertex. The unit of length is the least distance between neighbouring vertices.
     """
 
     x: float
@@ -42,10 +40,10 @@ class Layout:
 
 
 def lay_out(vertex: Vertex) -> Layout:
-    r"""Return the layout of a vertex. The vertex is drawn below its branches, and in the middle between
-    the first and the last branch. Neighbouring branches are as close together as possible without an overlap.
+    r"""Return the layout of a vertex by the method of Reingold and Tilford.
 
-    The method is that of E. M. Reingold and J. S. Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
+    The vertex is drawn in the middle between its first and its last branch. Source: E. M. Reingold and J. S.
+    Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
 
     >>> from orderconds.explain.diagram import plain
     >>> [child.x for child in lay_out(plain(b"\0\1\1\1")[0]).below]
@@ -75,9 +73,9 @@ def lay_out(vertex: Vertex) -> Layout:
 
 
 def sheet(entries: Iterable[tuple[Diagram, Sequence[str]]], width: float = 900.0) -> str:
-    r"""Return an SVG document that contains all diagrams in rows. Each caption is below its diagram.
+    r"""Return an SVG document that contains all diagrams in rows, with captions.
 
-    The first line of a caption is monospaced. ``width`` is the width of the document in px.
+    ``width`` is the width of the document in px.
 
     >>> from orderconds.explain.diagram import plain
     >>> document = sheet([(plain(b"\0\1\1"), ["[..]"])])
@@ -126,16 +124,15 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Yield the SVG elements of the diagram and of its caption. The left end of the block is ``x``. The
-        diagram and the caption are centred in the block. The diagram is above the vertical position
-        ``ground``, the caption is below."""
+        """Yield the SVG elements of the diagram and of its caption. The left end of the block is ``x``, and
+        the vertical position ``ground`` separates the diagram from the caption."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)
             at += (right - left + 1) * STEP
         for line, text in enumerate(self.caption, start=1):
             baseline = ground + 1.4 * SIZE * line - 0.4 * SIZE
-            # The first line of the caption is the text of a tree. All other lines are formulas.
+            # The first line of the caption is the text of a tree.
             font = TEXT_FONT if line == 1 else FORMULA_FONT
             shown = text if line == 1 else _formula(text)
             yield _text(x + self.width / 2, baseline, shown, SIZE, "middle", font)
@@ -174,10 +171,7 @@ def _vertex(vertex: Vertex, x: float, y: float) -> str:
 
 
 def _edge(vertex: Vertex, branch: Branch, x: float, y: float, far: float, high: float) -> str:
-    """Return the SVG path of an edge. The path ends at the borders of the two vertices, not at their centres.
-
-    A directed edge has an arrow head in the middle.
-    """
+    """Return the SVG path of an edge between the borders of its two vertices."""
     length = ((far - x) ** 2 + (high - y) ** 2) ** 0.5
     along = ((far - x) / length, (high - y) / length)
     near, rim = _room(vertex), _room(branch.vertex)

@@ -1,6 +1,6 @@
 r"""Drawings of diagrams as TikZ pictures for use within formulas. The root is at the bottom.
 
-A picture needs the LaTeX package tikz. Pictures of action trees also need the tikz library shapes.geometric.
+Pictures of action trees need the tikz library shapes.geometric.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ ARROWS: dict[Edge, str] = {"plain": "", "outward": "[->]", "inward": "[<-]"}
 
 
 def picture(diagram: Diagram) -> str:
-    r"""Return an inline picture. The trees of a word or forest are drawn beside each other.
+    r"""Return an inline picture.
 
     >>> from orderconds.explain.diagram import plain
     >>> print(picture(plain(b"\0\1")))

@@ -1,8 +1,7 @@
-"""Families of integration methods. A family, such as ``rk`` or ``rkmk(1)``, turns a tableau into an
-integration method and provides the order conditions of this method.
+"""Families of integration methods.
 
-Each family has its own module. The first use of a family imports the module. The function :func:`register`
-adds new families. The function :func:`get` returns a family:
+A family, such as ``rk`` or ``rkmk(1)``, turns a tableau into an integration method and provides the order
+conditions of this method. The first use of a family imports its module:
 
 >>> from orderconds import families
 >>> families.get("rkmk(1)").label()

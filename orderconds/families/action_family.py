@@ -36,13 +36,12 @@ if TYPE_CHECKING:
 class ActionFamily(Family):
     """A family with one order condition for each action tree.
 
-    The left-hand side of the condition of the tree t is ``sum_i b_i tau_t(i)``. The velocity of
-    stage i is an element of the Lie algebra, and the number ``tau_t(i)`` is the coefficient of t in this
-    velocity. The conditions of order n belong to the trees with n vertices.
+    The left-hand side of the condition of the tree t is ``sum_i b_i tau_t(i)``. The number ``tau_t(i)`` is
+    the coefficient of t in the velocity of stage i, an element of the Lie algebra. The conditions of order n
+    belong to the trees with n vertices.
 
-    The function :meth:`conditions` returns independent conditions. To find them, it evaluates all conditions
-    for random integration methods. The function :meth:`decisive_conditions` evaluates no methods and
-    is faster. However, the conditions that it returns can be dependent.
+    The function :meth:`conditions` returns independent conditions. The function :meth:`decisive_conditions`
+    is faster, but its conditions can be dependent.
     """
 
     needs_nonzero_weights = True
@@ -57,12 +56,11 @@ class ActionFamily(Family):
 
     @abstractmethod
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of a random method of this family. The method has coefficients in
-        ``ring``.
+        """Return the action series of a random method of this family, with coefficients in ``ring``.
 
         If the elements of ``ring`` are vectors with n entries, the result contains the series of n random
-        methods: the k-th entries are the coefficients of the k-th method. The number of stages grows with
-        ``order``. With too few stages, independent conditions could seem dependent.
+        methods. The number of stages grows with ``order``. With too few stages, independent conditions could
+        seem dependent.
         """
 
     @abstractmethod
@@ -77,8 +75,8 @@ class ActionFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of all trees of the given order. Simple conditions come first.
 
-        The attribute ``relation`` of a dependent condition is a text. The text expresses the left-hand side
-        of the condition as a polynomial in the left-hand sides of independent conditions.
+        The attribute ``relation`` of a dependent condition expresses its left-hand side as a polynomial in
+        the left-hand sides of independent conditions.
         """
         related = _relations(self, order)
         return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
@@ -86,10 +84,9 @@ class ActionFamily(Family):
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
         """Return one polynomial for each dependent condition of the given order.
 
-        The keys of the result are the trees of the dependent conditions. The polynomial is equal to the
-        left-hand side of the dependent condition. The variables of the polynomial are the left-hand sides of
-        independent conditions. A polynomial is a tuple of terms (q, trees). A term is the number q times
-        one factor for each tree in ``trees``: the left-hand side of the condition of this tree.
+        The keys of the result are the trees of the dependent conditions. The polynomial expresses the
+        left-hand side of the dependent condition by those of independent conditions. A polynomial is a tuple
+        of terms (q, trees). A term is the number q times the left-hand sides of the conditions of ``trees``.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
@@ -119,8 +116,8 @@ class ActionFamily(Family):
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of the given order.
 
-        A class consists of all trees that differ only in the choice of the root. Their conditions are
-        equivalent. The result contains only the condition of the simplest tree of each class.
+        The conditions of trees that differ only in the choice of the root are equivalent. The result contains
+        only the condition of the simplest of these trees.
         """
         return tuple(map(self.condition, representatives(order)))
 
@@ -156,12 +153,8 @@ class ActionFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the tableau is a Runge-Kutta tableau or a composition, and if all its weights
-        are proved to be non-zero. Otherwise return None.
-
-        If the family is returned, the file of ``tableau`` should state the order of the method in this
-        family.
-        """
+        """Return this family for a Runge-Kutta tableau or a composition with provably non-zero weights, else
+        None."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def elementary_hamiltonian(self, condition: OrderCondition) -> str:
@@ -188,7 +181,7 @@ def _relations(family: ActionFamily, order: int) -> dict[Velocity, str]:
 def _text(polynomial: Polynomial) -> str:
     """Return a polynomial as text, such as ``3 <o(|L(o o))> - <o> <o(o)>``.
 
-    Here <t> denotes the left-hand side of the condition of the tree t. Terms with few factors come first.
+    Here <t> denotes the left-hand side of the condition of the tree t.
     """
     text = ""
     for q, trees in sorted(polynomial, key=lambda term: len(term[1])):
@@ -209,8 +202,7 @@ def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...]
 def longest_word(tree: Velocity) -> int:
     """Return the length of the longest word that is needed to compute the coefficient of ``tree``.
 
-    The coefficient of ``tree`` in the action series of a method is a sum of products. The factors of the
-    products are coefficients of words in the group elements of the stages and of the update.
+    The coefficient is a sum of products of coefficients of words.
 
     >>> from orderconds.series.action_trees import velocity
     >>> longest_word(velocity((velocity(), velocity())))

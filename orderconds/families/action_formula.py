@@ -7,12 +7,11 @@ The n-th factor is the coefficient of the n-th letter in the exponent with index
 the term is also divided by r!, where r is the number of letters that come from this exponential.
 
 This sum is split into sums whose indices increase strictly. A run consists of all letters that come from one
-exponential. These letters are adjacent. All terms with the same division of u into runs form one sum, which
-has one index for each run. The coefficient of u is the total of these sums.
+exponential. All terms with the same division of u into runs form one sum, which has one index for each run.
 
-The coefficient is simpler if the k letters are equal. Let S be the sum of the letter's coefficients in all
-exponents. In this case, the coefficient of u is S^k/k!. Printed conditions contain no denominator k!, because
-both sides are multiplied by k! (:func:`multiplier`).
+If the k letters are equal, the coefficient of u is S^k/k!, where S is the sum of the letter's coefficients in
+all exponents. Printed conditions contain no denominator k!, because both sides are multiplied by k!
+(:func:`multiplier`).
 """
 
 from __future__ import annotations
@@ -44,15 +43,14 @@ from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
 """A word whose letters are action trees. One letter can be the letter x of :meth:`ActionFormula.through`,
-which is not a tree. In the tuple, x is represented by the argument ``stage`` of that method, a string."""
+represented by the argument ``stage`` of that method."""
 
 
 def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    The attribute ``word`` of each :class:`Velocity` is a word of smaller trees. The coefficient of a word of
-    k equal letters has the denominator k!. The returned factor removes these denominators: it is the product
-    of k! over all such words in the tree.
+    The coefficient of a word of k equal letters has the denominator k!. The factor is the product of k! over
+    all such words in the tree.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -72,9 +70,8 @@ def _momentum_multiplier(tree: Momentum) -> int:
 class ActionFormula(ABC):
     """The base class of objects that write the conditions of action trees as sums over indices.
 
-    A subclass defines how the stages and the update depend on the velocities of the stages. The argument
-    ``row`` of the methods is the index of a stage, or None for the update. In all formulas, the coefficient
-    of a tree is multiplied by the :func:`multiplier` of this tree.
+    The argument ``row`` of the methods is the index of a stage, or None for the update. In all formulas, the
+    coefficient of a tree is multiplied by the :func:`multiplier` of this tree.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import force, velocity
@@ -86,17 +83,16 @@ class ActionFormula(ABC):
     def word(self, row: str, word: Word) -> Formula:
         """Return the coefficient of a word in the group element of stage ``row``.
 
-        If the word consists of k equal letters, return k! times the coefficient instead. This factor cancels
-        the denominator k! (see :func:`multiplier`).
+        If the word consists of k equal letters, return k! times the coefficient instead (see
+        :func:`multiplier`).
         """
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return a coefficient of the group element of stage ``row``, or of the update if ``row`` is None.
+        """Return the coefficient of the word (``before``, x, ``after``) in the group element of stage
+        ``row``, or of the update if ``row`` is None.
 
-        Suppose that a new letter x is added to the velocity of the stage ``stage``. The result is the
-        coefficient of the word that consists of the letters of ``before``, the letter x and the letters of
-        ``after``.
+        Here x is a new letter that is added to the velocity of the stage ``stage``.
         """
 
     def condition(self, tree: Velocity) -> Formula:
@@ -152,8 +148,8 @@ class ExponentialsFormula(ActionFormula):
     def word(self, row: str, word: Word) -> Formula:
         """Return the coefficient of a word in the group element of stage ``row``.
 
-        If the word consists of k equal letters, return k! times the coefficient instead. This factor cancels
-        the denominator k! (see :func:`multiplier`).
+        If the word consists of k equal letters, return k! times the coefficient instead (see
+        :func:`multiplier`).
         """
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
@@ -169,14 +165,12 @@ class ExponentialsFormula(ActionFormula):
     def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
         """Return the coefficient of a word in a part of a product of exponentials.
 
-        The product is that of stage ``row``, or that of the update if ``row`` is None. The part contains the
-        exponentials whose index j satisfies ``above < j < below``. If ``above`` is None, there is no lower
-        bound. If ``below`` is None, there is no upper bound.
+        The part contains the exponentials whose index j satisfies ``above < j < below``. For ``above`` and
+        ``below``, None means no bound.
         """
         if not word:
             return one()
-        # There is one term for each division of the word into runs (see the module docstring). The division
-        # into the most runs comes first.
+        # The division into the most runs comes first (see the module docstring).
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
@@ -185,10 +179,8 @@ class ExponentialsFormula(ActionFormula):
     ) -> tuple[Fraction, Formula]:
         """Return the contribution of one division of the word into runs to the result of :meth:`between`.
 
-        A run consists of all letters that come from one exponential. ``lengths`` contains the number of
-        letters in each run. The contribution is a product of a number and an index sum. The result is the
-        pair of these factors. The number is the product of 1/r! over the runs, where r is the number of
-        letters in the run.
+        ``lengths`` contains the number of letters in each run. The contribution is the product of the
+        returned number and the returned index sum.
         """
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
@@ -199,11 +191,10 @@ class ExponentialsFormula(ActionFormula):
         return Fraction(1, prod(map(factorial, lengths))), index_sum(places, relations, product(*factors))
 
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
-        """Return a coefficient of the product of exponentials of ``row``, a stage or None for the update.
+        """Return the coefficient of the word (``before``, x, ``after``) in the product of exponentials of
+        stage ``row``, or of the update if ``row`` is None.
 
-        Suppose that a new letter x is added to the exponent with index ``place``, with the coefficient one.
-        The result is the coefficient of the word that consists of the letters of ``before``, the letter x and
-        the letters of ``after``.
+        Here x is a new letter that is added to the exponent with index ``place``, with the coefficient one.
         """
         terms = []
         for r in range(len(before) + 1):
@@ -217,8 +208,10 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """The index sums of Crouch-Grossman methods. Stage i has one exponential for each coefficient a_ij. The
-    update has one exponential for each weight b_j. In both cases, j is the index of the exponential.
+    """The index sums of Crouch-Grossman methods.
+
+    Stage i has one exponential for each coefficient a_ij, and the update has one for each weight b_j. In both
+    cases, j is the index of the exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -227,26 +220,23 @@ class CrouchGrossmanFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return an unused name for the index of an exponential. The exponential with index j contains the
-        velocity of stage j. Therefore the name is a name for a stage index."""
+        """Return an unused name for a stage index, because exponential j contains the velocity of stage j."""
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
         """Return the coefficient of ``tree`` in one exponent of stage ``row``, or of the update if ``row`` is
         None.
 
-        Let j be the index ``place`` of the exponent, and let ``tau_t(j)`` be the result of :meth:`tau` for
-        ``tree`` and stage j. In stage i, the coefficient is ``a_ij tau_t(j)``. In the update, the
-        coefficient is ``b_j tau_t(j)``.
+        The coefficient is ``a_ij tau_t(j)`` in stage i, and ``b_j tau_t(j)`` in the update. Here j is
+        ``place``, and ``tau_t(j)`` is the result of :meth:`tau` for ``tree`` and stage j.
         """
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return a coefficient of the group element of stage ``row``, or of the update if ``row`` is None.
+        """Return the coefficient of the word (``before``, x, ``after``) in the group element of stage
+        ``row``, or of the update if ``row`` is None.
 
-        Suppose that a new letter x is added to the velocity of the stage ``stage``. The result is the
-        coefficient of the word that consists of the letters of ``before``, the letter x and the letters of
-        ``after``.
+        Here x is a new letter that is added to the velocity of the stage ``stage``.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -254,9 +244,9 @@ class CrouchGrossmanFormula(ExponentialsFormula):
 class CommutatorFreeFormula(ExponentialsFormula):
     """The index sums of commutator-free methods. The stages and the update are products of exponentials.
 
-    In stage i, the exponent with index J is ``sum_j alpha_iJj xi_j``. In the update, the exponent with index
-    J is ``sum_j beta_Jj xi_j``. Here xi_j is the velocity of stage j. The numbers alpha_iJj and beta_Jj are
-    the coefficients of the method. The weights are ``b_j = sum_J beta_Jj``.
+    The exponent with index J is ``sum_j alpha_iJj xi_j`` in stage i, and ``sum_j beta_Jj xi_j`` in the
+    update. Here xi_j is the velocity of stage j, and alpha_iJj and beta_Jj are the coefficients of the
+    method. The weights are ``b_j = sum_J beta_Jj``.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -272,19 +262,17 @@ class CommutatorFreeFormula(ExponentialsFormula):
         """Return the coefficient of ``tree`` in one exponent of stage ``row``, or of the update if ``row`` is
         None.
 
-        Let J be the index ``place`` of the exponent, and let ``tau_t(j)`` be the result of :meth:`tau` for
-        ``tree`` and stage j. In stage i, the coefficient is ``sum_j alpha_iJj tau_t(j)``. In the update, the
-        coefficient is ``sum_j beta_Jj tau_t(j)``. The class docstring defines alpha and beta.
+        The coefficient is ``sum_j alpha_iJj tau_t(j)`` in stage i, and ``sum_j beta_Jj tau_t(j)`` in the
+        update. Here J is ``place``, and ``tau_t(j)`` is the result of :meth:`tau` for ``tree`` and stage j.
         """
         stage = fresh("i")
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return a coefficient of the group element of stage ``row``, or of the update if ``row`` is None.
+        """Return the coefficient of the word (``before``, x, ``after``) in the group element of stage
+        ``row``, or of the update if ``row`` is None.
 
-        Suppose that a new letter x is added to the velocity of the stage ``stage``. The result is the
-        coefficient of the word that consists of the letters of ``before``, the letter x and the letters of
-        ``after``.
+        Here x is a new letter that is added to the velocity of the stage ``stage``.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -300,9 +288,8 @@ class MuntheKaasFormula(ActionFormula):
     """The index sums of Munthe-Kaas methods. Stage i has the exponential exp(X_i), and the update has exp(Y).
 
     The exponents are ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here ``v_j = dexpinv_{X_j} xi_j``,
-    and xi_j is the velocity of stage j. The operator dexpinv is the inverse of the differential of exp. The
-    operator is a power series in ad. The series is truncated after the power ``cutoff``. If ``cutoff`` is
-    None, the series is not truncated.
+    and xi_j is the velocity of stage j. The power series of dexpinv in ad is truncated after the power
+    ``cutoff``, or not at all if ``cutoff`` is None.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -315,22 +302,20 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i), where i is ``row``. The class docstring defines X_i.
+        """Return the coefficient of a word in exp(X_i), where i is ``row``.
 
-        If the word consists of k equal letters, return k! times the coefficient instead. This factor cancels
-        the denominator k! (see :func:`multiplier`).
+        If the word consists of k equal letters, return k! times the coefficient instead (see
+        :func:`multiplier`).
         """
         if len(set(word)) > 1:
             return self._exponential(row, word)
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return a coefficient of exp(X_i), where i is ``row``, or of exp(Y) if ``row`` is None. The class
-        docstring defines X_i and Y.
+        """Return the coefficient of the word (``before``, x, ``after``) in exp(X_i), where i is ``row``, or
+        in exp(Y) if ``row`` is None.
 
-        Suppose that a new letter x is added to the velocity of the stage ``stage``. The result is the
-        coefficient of the word that consists of the letters of ``before``, the letter x and the letters of
-        ``after``.
+        Here x is a new letter that is added to the velocity of the stage ``stage``.
         """
         return self._exponential(row, (*before, stage, *after))
 
@@ -340,9 +325,8 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in the n-th power of X_i, where i is ``row``, or in the n-th
-        power of Y if ``row`` is None. The class docstring defines X_i and Y.
-        """
+        """Return the coefficient of ``word`` in the n-th power of X_i, where i is ``row``, or of Y if ``row``
+        is None."""
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -368,10 +352,7 @@ class MuntheKaasFormula(ActionFormula):
     def _argument(self, row: str | None, word: Marked) -> Formula:
         """Return the coefficient of ``word`` in X_i, where i is ``row``, or in Y if ``row`` is None.
 
-        The class docstring defines X_i and Y as linear combinations of the elements v_j. Here v_j is a linear
-        combination of products of one factor xi_j, the velocity of stage j, and several factors X_j. The
-        factor xi_j supplies one letter of the word, and the factors X_j supply all other letters. The result
-        is a sum over the position of the letter that xi_j supplies.
+        The result is a sum over the position of the letter that the velocity xi_j of stage j supplies.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -395,9 +376,8 @@ class MuntheKaasFormula(ActionFormula):
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # X is the exponent of the stage. The power X^0 = 1 contains only the empty word. For m > 0, each
-            # word in X^m has at least m letters. A term is skipped if ``before`` has a length that no word in
-            # X^m has, or if ``behind`` has a length that no word in X^n has.
+            # For the exponent X of the stage and m > 0, each word in X^m has at least m letters, and X^0 = 1
+            # contains only the empty word.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):
@@ -408,11 +388,10 @@ class MuntheKaasFormula(ActionFormula):
 
 class PadeFormula(MuntheKaasFormula):
     """The index sums of Munthe-Kaas methods that truncate the series of dexp, not the series of dexpinv.
-    Stage i has the exponential exp(X_i), and the update has exp(Y).
 
-    The exponents are ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here v_j is the solution of the
-    equation ``dexp_{X_j} v_j = xi_j``, and xi_j is the velocity of stage j. The operator dexp is the
-    differential of exp. The operator is a power series in ad. The series is truncated after the power
+    Stage i has the exponential exp(X_i), and the update has exp(Y). The exponents are
+    ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here v_j is the solution of ``dexp_{X_j} v_j = xi_j``,
+    and xi_j is the velocity of stage j. The power series of dexp in ad is truncated after the power
     ``cutoff``.
 
     >>> from orderconds.formula import named

@@ -1,8 +1,6 @@
 """Runge-Kutta methods in the coordinates of the ambient space, a vector space that contains the manifold.
 
-A step may leave the manifold. The exact solution stays on the manifold. Therefore the distance between the
-numerical solution and the manifold after one step is at most the local error. The order is the order of the
-tableau in the family ``rk``. This family is intended for comparisons with methods that stay on the manifold.
+A step may leave the manifold. The order is the order of the tableau in the family ``rk``.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """The base class of all families of integration methods.
 
 A family determines which integration method a tableau defines. The order conditions of the family compare the
-series of the method with the series of the exact flow. The base class declares all attributes and functions
-of a family that other modules use.
+series of the method with the series of the exact flow.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 Key = Hashable
-"""The key of a condition: its tree, forest or word. The type of the key depends on the family."""
+"""The key of a condition: its tree, forest or word."""
 
 Kind = TypeVar("Kind")
 
@@ -40,41 +39,33 @@ class Family(ABC):
     """A family of integration methods, such as the Crouch-Grossman methods.
 
     A subclass sets ``name``, ``description`` and ``formats``, and implements :meth:`conditions` and
-    :meth:`evaluate`. All other attributes and functions have defaults. The function
-    :func:`orderconds.families.register` makes the family available to every command. The options of a
-    family, such as ``cutoff``, are integer parameters of the constructor of the class.
+    :meth:`evaluate`. The options of a family, such as ``cutoff``, are integer parameters of the constructor.
     """
 
     name: ClassVar[str] = ""
     """The name of the family in commands and claims, in lower case."""
     description: ClassVar[str] = ""
-    """A description in one line. The command ``orderconds list families`` prints the description."""
+    """A description in one line."""
     formats: ClassVar[tuple[str, ...]] = ()
     """The tableau formats that the family accepts, in order of decreasing preference."""
     has_tableau: ClassVar[bool] = True
-    """True if each method of the family is defined by a tableau. False if each method is defined by a label
-    such as ``taylor(12)``.
-    """
+    """False if each method of the family is defined by a label such as ``taylor(12)``, not by a tableau."""
     source: ClassVar[str] = ""
-    """The publication that defines the methods if ``has_tableau`` is false. Otherwise an empty text."""
+    """The publication that defines the methods if ``has_tableau`` is false, else an empty text."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
-    """True if formulas of the family divide by the weights b_i. Then all weights must be non-zero."""
+    """True if formulas of the family divide by the weights b_i."""
     search_limit: ClassVar[int] = 8
     """The highest order that ``check`` computes for a tableau file without a stated order."""
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
-    """True if the module :mod:`orderconds.ring.nodal` can evaluate the order conditions of this family. For
-    some methods with irrational coefficients, such as Gauss methods, this module needs only rational
-    numbers. The module docstring describes these methods."""
+    """True if the module :mod:`orderconds.ring.nodal` can evaluate the order conditions of this family."""
     trees: ClassVar[str | None] = None
-    """The name of the kind of trees, forests or words that index the conditions. The kinds are defined in
-    :mod:`orderconds.explain.kinds`. None if there is no such kind."""
+    """The name of the kind (:mod:`orderconds.explain.kinds`) of trees that index the conditions, or None."""
     illustrates: ClassVar[tuple[str, ...]] = ()
-    """Names of kinds of trees. When ``orderconds trees --explain`` prints trees of these kinds, it prints the
-    order conditions of this family with them."""
+    """Kinds of trees for which ``orderconds trees --explain`` prints the order conditions of this family."""
 
     symbols: ClassVar[Mapping[str, str]] = {
         "a": r"$a_{ij}$ are the coefficients of the stages",
@@ -88,9 +79,8 @@ class Family(ABC):
 
     # Relations to other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """Maps the names of other families to reasons. Each reason explains why a method of order p in this
-    family has at least order p in the other family.
-    """
+    """Maps the names of other families to reasons why a method of order p in this family has at least order p
+    in the other family."""
     abelian: ClassVar[str | None] = None
     """The name of the family to which this family reduces on an abelian group, or None."""
     low_order: ClassVar[str | None] = None
@@ -99,16 +89,15 @@ class Family(ABC):
     """True if ``check`` computes the order of a method in this family to find bounds, from above or from
     below, of the orders of this method in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of families. If a low-storage scheme has order p in this family, it has at least order p in
-    these families."""
+    """The names of families in which a low-storage scheme has at least the order that it has in this family.
+    """
 
     # Methods
     on_groups: ClassVar[bool] = False
     """True if a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """True if the stages do not depend on the weights. Then one set of stages is enough for two updates with
-    different weights. The difference of the two updates estimates the error.
-    """
+    """True if the stages do not depend on the weights. Then the difference of two updates with different
+    weights estimates the error."""
     keeps_manifold: ClassVar[bool] = True
     """True if a step stays on the manifold on which the problem is posed."""
     keeps_energy: ClassVar[bool] = False
@@ -116,11 +105,10 @@ class Family(ABC):
     controls_steps: ClassVar[bool] = False
     """True if step-size control needs no embedded method."""
     takes_cutoff: ClassVar[bool] = False
-    """True if the family has the option ``cutoff``. This option truncates the series of dexpinv or dexp."""
+    """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order for which the compiler can minimise the number of brackets of a method. The compiler
-    does this only for methods without ``cutoff``.
-    """
+    """The highest order for which the compiler can minimise the number of brackets of a method without
+    ``cutoff``."""
     cutoff: int | None = None
     """The power of ad after which the series of dexpinv or dexp is truncated. None means no truncation."""
 
@@ -129,16 +117,13 @@ class Family(ABC):
 
     # Search
     unknowns: ClassVar[str | None] = None
-    """The name of a tableau format. A search with ``orderconds solve`` in this family computes the
-    coefficients of a tableau in this format. None if the command does not accept the family.
-    """
+    """The tableau format in which ``orderconds solve`` searches, or None if the command does not accept the
+    family."""
     symplectic: ClassVar[bool] = False
-    """True if a search considers only symplectic tableaux. A tableau is symplectic if b_i a_ij + b_j a_ji =
-    b_i b_j for all i and j."""
+    """True if a search considers only symplectic tableaux: b_i a_ij + b_j a_ji = b_i b_j for all i and j."""
     equal_abscissae: ClassVar[bool] = False
-    """True if every method of this family with positive weights and order three has equal abscissae. A stage
-    has three abscissae c_i, chat_i and m_i, which the module :mod:`orderconds.solve.abscissae` defines.
-    """
+    """True if every method of this family with positive weights and order three has equal abscissae c_i,
+    chat_i and m_i (:mod:`orderconds.solve.abscissae`)."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed, or None if there is no limit."""
 
@@ -166,8 +151,8 @@ class Family(ABC):
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the :meth:`conditions` of the given order without dependent conditions.
 
-        A condition is dependent if it follows from other conditions of the same order or of lower orders. The
-        base class returns all :meth:`conditions`, because they are independent in most families.
+        A condition is dependent if it follows from other conditions of the same order or of lower orders. By
+        default, return all :meth:`conditions`.
         """
         return self.conditions(order)
 
@@ -185,18 +170,13 @@ class Family(ABC):
     def dependence_holds(self, order: int) -> bool:
         """Return True if :meth:`conditions` omits only dependent conditions of the given order.
 
-        The base class returns True. A subclass overrides this function if no theorem proves that the omitted
-        conditions are dependent.
+        By default, return True.
         """
         return True
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of the given order. By default, return
-        :meth:`conditions`.
-
-        A subclass can override this function if the function :meth:`conditions` is slow because it computes
-        the rank of a matrix.
-        """
+        :meth:`conditions`."""
         return self.conditions(order)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Key, Callable[[], OrderCondition]]]:
@@ -214,8 +194,7 @@ class Family(ABC):
     ) -> tuple[Element, ...]:
         """Return the left-hand side minus the right-hand side of each condition, as elements of ``ring``.
 
-        The coefficients can be balls (intervals). Raises ZeroDivisionError if a divisor is a ball that
-        contains zero.
+        Raises ZeroDivisionError if a divisor is a ball (interval) that contains zero.
 
         >>> from orderconds.families import get
         >>> from orderconds.tableau import Tableau, find
@@ -242,11 +221,9 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of conditions of the given order.
+        """Return the residuals of conditions of the given order. By default, use :meth:`conditions`.
 
-        For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error. The base
-        class returns the residuals of :meth:`conditions`. A subclass can use another set of conditions, for
-        example the conditions of all trees.
+        For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error.
         """
         return self.residuals(method, ring, self.conditions(order))
 
@@ -267,9 +244,7 @@ class Family(ABC):
     def for_method(self, method: Method) -> Family:
         """Return the family in which the order of ``method`` is tested if the tableau file states no order.
 
-        The function is called for the family that has the same name as the format of the tableau. By default,
-        return ``self``. The family of splittings into two vector fields returns the family of splittings into
-        n vector fields, where n is the number of vector fields of ``method``.
+        By default, return ``self``.
         """
         return self
 
@@ -288,9 +263,7 @@ class Family(ABC):
     def claimed_variants(self) -> tuple[Family, ...]:
         """Return variants of this family, such as ``rkmk(0)`` and ``rkmk(1)``.
 
-        The variant with the cheapest step comes first. The command ``orderconds solve`` writes the order of
-        the new method in this variant to the tableau file. The command also writes the order in the next
-        variant if this order is higher, and continues until the order does not increase.
+        The variant with the cheapest step comes first.
         """
         return (self,)
 
@@ -304,15 +277,14 @@ class Family(ABC):
         return evaluations(tableau)
 
     def degree_of_step(self) -> int:
-        """Return the order of a family without tableau. For example, the family ``taylor(12)`` has order 12.
+        """Return the order of a family without tableau, such as 12 for ``taylor(12)``.
 
         Raises :class:`~orderconds.errors.InputError` for a family with a tableau.
         """
         raise InputError(f"the order of family {self.label()} depends on the tableau", expected="a tableau")
 
     def stability_coefficients(self) -> tuple[Fraction, ...] | None:
-        """Return the coefficients of the stability polynomial of a family without tableau. The constant term
-        comes first.
+        """Return the coefficients of the stability polynomial, with the constant term first.
 
         Return None for a family with a tableau.
         """
@@ -321,9 +293,8 @@ class Family(ABC):
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the unknown coefficients of a method with ``stages`` stages, for use in a search.
 
-        If ``explicit`` is true, the method is explicit. In some families, the number of stages does not
-        determine which coefficients a method has. Then the function raises
-        :class:`~orderconds.errors.InputError`.
+        Raises :class:`~orderconds.errors.InputError` if the number of stages does not determine which
+        coefficients a method has.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 
@@ -340,7 +311,7 @@ class Family(ABC):
     # Theorems
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order in this family. The bound follows from orders in other families.
+        """Return a lower bound of the order in this family that follows from orders in other families.
 
         ``orders`` maps the labels of other families to the orders of the method in these families. The bound
         is 0 if no theorem applies.
@@ -348,7 +319,7 @@ class Family(ABC):
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order. The bound follows from properties of the coefficients.
+        """Return a lower bound of the order that follows from properties of the coefficients.
 
         The bound is 0 if no theorem applies.
         """
@@ -376,13 +347,12 @@ class Family(ABC):
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
         """Describe the conditions that are the same for the method with and without truncation of dexpinv.
 
-        See :class:`UnseenCut` for the description. Return None if no description is known.
+        Return None if no description is known.
         """
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
-        """Return the reductions that apply to a method. A reduction is a theorem. If it applies, some
-        conditions need not be evaluated.
+        """Return the reductions that apply to a method: theorems that make some conditions superfluous.
 
         ``orders`` maps the labels of other families to the proved orders of the method in these families.
 
@@ -417,9 +387,7 @@ class Family(ABC):
     def solved_as(self, nystroem: bool) -> str:
         """Return the label of the family whose conditions ``orderconds solve`` solves for this family.
 
-        By default, return the label of this family. Some families use the conditions of another family. For
-        example, the family ``composition`` uses those of ``symmetric_composition``. The option ``--rkn`` of
-        the command sets ``nystroem`` to true, and then the family ``splitting`` uses those of ``rkn``.
+        By default, return the label of this family. ``nystroem`` is the option ``--rkn`` of the command.
         """
         return self.label()
 
