@@ -4,14 +4,11 @@ The Cayley transform is cay(x) = (1 - x/2)^-1 (1 + x/2). If a step is a product 
 Omega is the matrix for which cay(Omega) is this product.
 
 Omega is a linear combination of the values A_i = h A(c_i h) at the nodes c_i, of commutators such as
-A_i A_j - A_j A_i, and of sums such as A_i A_j A_k + A_k A_j A_i. The matrix P of the quadratic group defines
-the Lie algebra {X: X^T P + P X = 0}. If A(t) is in this algebra for all t, Omega is in it, too.
+A_i A_j - A_j A_i, and of sums such as A_i A_j A_k + A_k A_j A_i.
 
 The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... Reversing the n letters of a word multiplies
-its coefficient in Omega by (-1)^(n+1). Therefore a word and its reverse have equivalent conditions, and only
-one of these conditions is kept. If n is even and a word equals its reverse, the coefficient of the word is
-zero, and its condition is omitted (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv.
-Comput. Math. 8 (1998) 317).
+its coefficient in Omega by (-1)^(n+1) (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso,
+Adv. Comput. Math. 8 (1998) 317).
 """
 
 from __future__ import annotations
@@ -36,10 +33,10 @@ if TYPE_CHECKING:
 
 @register
 class CayleyFamily(MagnusFamily):
-    """Cayley methods: a step is a Cayley transform or a product of Cayley transforms.
+    """Cayley methods: each step cay(Omega) is a Cayley transform or a product of Cayley transforms.
 
-    In both cases, the step is cay(Omega). The module docstring defines Omega. In printed conditions, omega_ij
-    is the coefficient of A_j A_i in Omega, and omega_ijk is the coefficient of A_k A_j A_i.
+    In printed conditions, omega_ij is the coefficient of A_j A_i in Omega, and omega_ijk is the coefficient
+    of A_k A_j A_i.
 
     >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -76,7 +73,7 @@ class CayleyFamily(MagnusFamily):
         """Express the coefficient of ``word`` in Omega by the coefficients of independent words.
 
         The coefficient is zero, or it is equal to the coefficient of one independent word or to its negative
-        (see :meth:`independent`). The result is this expression as a polynomial.
+        (see :meth:`independent`).
         """
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}

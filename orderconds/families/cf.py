@@ -45,13 +45,12 @@ EXPONENTIAL_SYMBOLS = {
     "b": r"$b_j = \sum_I \beta_{Ij}$",
     "c": r"$c_i = \sum_j a_{ij}$ are the abscissae",
 }
-"""Definitions, in LaTeX, of the coefficients in printed conditions. The keys are the names."""
+"""Definitions, in LaTeX, of the coefficients in printed conditions."""
 
 
 @register
 class CommutatorFreeFamily(OrderedForestFamily):
-    """Commutator-free methods. A Runge-Kutta tableau is read as a Crouch-Grossman method, a commutator-free
-    method with one k_j in each exponent.
+    """Commutator-free methods. A Runge-Kutta tableau is read as a Crouch-Grossman method.
 
     >>> for condition in CommutatorFreeFamily().conditions(3):
     ...     print(condition)
@@ -86,17 +85,14 @@ class CommutatorFreeFamily(OrderedForestFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a tableau in the format ``cf``, else None.
 
-        If the family is returned, the tableau file should state the order of the method in this family. This
-        family also accepts a tableau (A, b), as a Crouch-Grossman method. But the result for such a tableau
-        is None, because its file should state the order in the family ``cg`` instead.
+        The file of a tableau (A, b) should state the order in the family ``cg`` instead.
         """
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
         """Return True if a method is a commutator-free method that is proved to be symmetric.
 
-        The proof is that the exponentials of the method form a palindrome, as defined in
-        :mod:`orderconds.tableau.palindromes`. If the result is False, the method may still be symmetric.
+        If the result is False, the method may still be symmetric.
         """
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
@@ -159,15 +155,14 @@ def _word(
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
     The function ``row(J, j)`` returns the coefficient of the stage value k_j in the exponent with index J.
-    The function ``row_total(j)`` returns the sum of ``row(J, j)`` over J. If ``row_sum`` is not None, it is
-    the symbol for the sum of ``row_total(j)`` over j. For example, the symbol c_i denotes the sum of a_ij
-    over j.
+    The sum of ``row(J, j)`` over J is ``row_total(j)``, and ``row_sum`` is the symbol for the sum of
+    ``row_total(j)`` over j.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
-        # All letters of the word are equal. Exponentials of multiples of one letter commute, so their
-        # product is the exponential of the sum of the exponents.
+        # Exponentials of multiples of one letter commute, so their product is the exponential of the sum of
+        # the exponents.
         j = fresh()
         first = alone or index_sum((j,), (), product(row_total(j), _stage(letters[0], j)))
         return product(*([first] * len(letters)))

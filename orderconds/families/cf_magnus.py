@@ -1,12 +1,11 @@
-"""Commutator-free Magnus methods for Y' = A(t) Y. One step is a product of exponentials.
+"""Commutator-free Magnus methods for Y' = A(t) Y.
 
 The step with m exponentials is exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i). Here A_i = h A(c_i h), and
 c_i are the nodes.
 
-There is one condition for each word. The letter k of a word denotes X_k in the expansion A(t) = X_1 + t X_2 +
-.... The weight of the letter k is k. The condition of a word states that its coefficients in the step and in
-the exact flow are equal. The coefficient in the exact flow is an iterated integral (Blanes and Moan, Appl.
-Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
+The letter k of a word denotes X_k in the expansion A(t) = X_1 + t X_2 + .... The condition of a word states
+that its coefficients in the step and in the exact flow are equal (Blanes and Moan, Appl. Numer. Math. 56
+(2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
 """
 
 from __future__ import annotations
@@ -87,14 +86,13 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return iterated_integral(word)
 
     def scale(self, word: Word) -> int:
-        """Return n! for a word of length n. Both sides of the condition are multiplied by n!, so that the
-        numbers in :meth:`formula` are integers."""
+        """Return n! for a word of length n, so that the numbers in :meth:`formula` are integers."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
         """Return the left-hand side of the condition of a word as an index sum.
 
-        The indices I, J, ... are indices of exponentials. The indices i, j, ... are indices of nodes.
+        The indices I, J, ... number the exponentials, and i, j, ... number the nodes.
         """
         return composition_formula(word, _exponential, "J")
 

@@ -1,7 +1,6 @@
 """Crouch-Grossman methods: y1 = exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1).
 
-Here k_j is the value of the vector field at stage j. The exponential of k_1 acts first. In stage i, the
-coefficients a_ij replace b_j.
+Here k_j is the value of the vector field at stage j. In stage i, the coefficients a_ij replace b_j.
 """
 
 from __future__ import annotations
@@ -92,9 +91,8 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
     """Return True if the tableau (A, b) of a Crouch-Grossman method is proved to define a symmetric method.
 
-    The proof is that the exponentials of the method form a palindrome, as defined in
-    :mod:`orderconds.tableau.palindromes`. If the result is True, the variational Crouch-Grossman method of
-    the same tableau is symmetric, too. If the result is False, the methods may still be symmetric.
+    If the result is True, the variational Crouch-Grossman method of the same tableau is symmetric, too. If
+    the result is False, the methods may still be symmetric.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))
@@ -109,14 +107,13 @@ def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
 def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) -> Formula:
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
-    The exponent with index i is a multiple of the stage value k_i. The function ``row(i)`` returns the
-    coefficient of k_i. If ``row_sum`` is not None, it is the symbol for the sum of ``row(i)`` over i. For
-    example, the symbol c_i denotes the sum of a_ij over j.
+    The function ``row(i)`` returns the coefficient of the stage value k_i, and ``row_sum`` is the symbol for
+    the sum of ``row(i)`` over i.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:
-        # All letters of the word are equal. Exponentials of multiples of one letter commute, so their
-        # product is the exponential of the sum of the exponents.
+        # Exponentials of multiples of one letter commute, so their product is the exponential of the sum of
+        # the exponents.
         i = fresh()
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
         first = alone or index_sum((i,), (), product(row(i), _stage(letters[0], i)))

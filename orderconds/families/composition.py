@@ -4,10 +4,9 @@ The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector 
 is symmetric, X_2, X_4, ... are zero. The logarithm of Phi_{alpha h} is the sum of alpha^k h^k X_k over k. The
 logarithm of the adjoint Phi*_{beta h} is the sum of -(-beta)^k h^k X_k over k.
 
-There is one condition for each word. The letter k of a word denotes X_k and has the weight k. The condition
-of a word states that the word has the same coefficient in the series of one step as in the series of the
-exact flow. If all n letters of a word are 1, the coefficient in the exact flow is 1/n!, otherwise zero (HLW
-III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+The letter k of a word denotes X_k and has the weight k. The condition of a word states that the word has the
+same coefficient in the series of one step as in the series of the exact flow (HLW III.3.1; Murua and
+Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -80,13 +79,12 @@ class CompositionFamily(WordFamily):
     def exact(self, word: Word) -> Fraction:
         """Return the coefficient of a word in the exact flow.
 
-        If all n letters of the word are 1, the coefficient is 1/n!. Otherwise the coefficient is zero.
+        If all n letters of the word are 1, the coefficient is 1/n!, otherwise zero.
         """
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 
     def scale(self, word: Word) -> int:
-        """Return n! for a word of length n. Both sides of the condition are multiplied by n!, so that the
-        numbers in :meth:`formula` are integers."""
+        """Return n! for a word of length n, so that the numbers in :meth:`formula` are integers."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
@@ -157,19 +155,17 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 
 
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
-"""A function that maps a word and the summation index of a factor to a pair (formula, divisor).
+"""A function that maps a word and the summation index of a factor of the step to a pair (formula, divisor).
 
-One step is a product of factors, such as exponentials. The coefficient of the word in the series of the
-factor is the formula divided by the integer ``divisor``.
+The coefficient of the word in the series of the factor is the formula divided by the integer ``divisor``.
 """
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
     """Return n! times the coefficient of a word of n letters in the series of one step, as an index sum.
 
-    The step is a product of factors, such as exponentials. The function ``block`` returns the coefficient
-    of a word in the series of one factor (:data:`BlockFormula`). The argument ``kind``, such as "i" or
-    "J", is the name of the summation indices.
+    The function ``block`` returns the coefficient of a word in the series of one factor of the step
+    (:data:`BlockFormula`). The argument ``kind``, such as "i" or "J", is the name of the summation indices.
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))

@@ -1,19 +1,16 @@
 """Families with the option ``cutoff``: the series of dexpinv in powers of ad is truncated.
 
-The value r of ``cutoff`` is the exponent of the last power that is kept. For even r >= 2, the next Bernoulli
-number B_(r+1) is zero. Then the cutoffs r and r + 1 define the same method. Let R = r + 1 if r >= 2 is even,
-and R = r otherwise.
+The value r of ``cutoff`` is the exponent of the last power that is kept. Let R = r + 1 if r >= 2 is even,
+because the Bernoulli number B_(r+1) is zero, and R = r otherwise.
 
 Let p be the order without truncation. For RKMK methods, p is the order of the Runge-Kutta method of the
 tableau. For VRKMK methods, p is the order of the symplectic partitioned Runge-Kutta method of the tableau
 (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
 
-The truncation changes one step by O(h^(R+3)). The order with truncation is min(p, R + 2) (compare Bogfjellmo
-and Marthinsen, Theorem 3.5.3).
+The order with truncation is min(p, R + 2) (compare Bogfjellmo and Marthinsen, Theorem 3.5.3).
 
-The branches at a vertex of a tree form a word, whose letters are smaller trees. The coefficient of the tree
-is computed from the coefficients of these words. The truncation changes only the coefficients of words with
-more than R + 1 letters.
+The branches at a vertex of a tree form a word, whose letters are smaller trees. The truncation changes only
+the coefficients of words with more than R + 1 letters.
 """
 
 from __future__ import annotations
@@ -36,10 +33,10 @@ CLAIMED = (0, 1, 2)
 
 
 class DexpinvCut(Family):
-    """A family with the option ``cutoff``. If ``cutoff`` is r, the series of dexpinv ends with the power r of
-    ad. If ``cutoff`` is None, the series is not truncated.
+    """A family in which the series of dexpinv ends with the power ``cutoff`` of ad.
 
-    Raises :class:`~orderconds.errors.InputError` for a negative ``cutoff``.
+    If ``cutoff`` is None, the series is not truncated. Raises :class:`~orderconds.errors.InputError` for a
+    negative ``cutoff``.
     """
 
     takes_cutoff = True
@@ -76,9 +73,8 @@ class DexpinvCut(Family):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order of a method in this family.
 
-        ``orders`` maps the names of other families to the orders of the method in these families. Let p and R
-        be the numbers that the module docstring defines. One bound is min(p, R + 2), or p if ``cutoff`` is
-        None. The base class gives another bound. The result is the larger of the two bounds.
+        ``orders`` maps the names of other families to the orders of the method in these families. With p and
+        R from the module docstring, the bound is at least min(p, R + 2), or at least p if ``cutoff`` is None.
         """
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
@@ -92,9 +88,7 @@ class DexpinvCut(Family):
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
         """Describe the conditions that are the same for the method with and without truncation of dexpinv.
 
-        The description contains the order of the method without truncation, which is the order in the family
-        :attr:`abelian`. Return None if :attr:`abelian` is None, or if ``method`` is not a Runge-Kutta
-        tableau.
+        Return None if :attr:`abelian` is None, or if ``method`` is not a Runge-Kutta tableau.
         """
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
@@ -102,10 +96,9 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return R + 1, the greatest length of a word whose term is not changed by the truncation of dexpinv. The
-    module docstring defines R.
+    """Return the greatest length of a word whose coefficient is not changed by the truncation of dexpinv.
 
-    If ``cutoff`` is None, the result is 2^30, because no word is too long.
+    If ``cutoff`` is None, the result is 2^30.
 
     >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
     [1, 2, 4, 4, 6]

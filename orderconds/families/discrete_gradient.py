@@ -1,9 +1,8 @@
-"""Discrete gradient methods on Lie groups. The methods use the differential of the Hamiltonian H.
+"""Discrete gradient methods on Lie groups.
 
-A quadrature rule approximates the mean of the differential dH over one step. The tableau contains the nodes
-and weights of the rule. The methods preserve the energy exactly (H. Marthinsen, *On symplectic integration in
-Lie groups and manifolds*, PhD thesis, NTNU Trondheim, 2014, Section 2.6). The condition of order one is
-sum_i b_i = 1. The condition of order two is sum_i b_i c_i = 1/2. The order is never higher than two.
+A quadrature rule approximates the mean of the differential dH of the Hamiltonian H over one step. The methods
+preserve the energy exactly (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, PhD
+thesis, NTNU Trondheim, 2014, Section 2.6). The order is never higher than two.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Elementary weights of rooted trees as index sums, and the order conditions of trees.
 
 The order condition of a tree states that the elementary weight is equal to 1/gamma, where gamma is the
-density of the tree. A tree can have edges of two kinds, 0 and 1. In the elementary weight, an edge of kind 0
-gives a factor a_ij, and an edge of kind 1 gives a factor ahat_ij.
+density of the tree. In the elementary weight, an edge of kind 0 gives a factor a_ij, and an edge of kind 1
+gives a factor ahat_ij.
 """
 
 from __future__ import annotations
@@ -59,9 +59,8 @@ def elementary_weight(
 ) -> Formula:
     r"""Return the elementary weight of a tree as an index sum.
 
-    A tree with n vertices is a bytes object of length n. The function ``below`` returns the branches at the
-    root of a tree. A branch is a pair (kind, subtree), where kind is the kind of the edge from the root to
-    the subtree.
+    A tree with n vertices is a bytes object of length n. The function ``below`` returns a pair (kind,
+    subtree) for each edge at the root of a tree.
 
     >>> from orderconds.formula import named
     >>> from orderconds.trees.levels import children
@@ -79,11 +78,11 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return the order conditions of the trees. Each condition is a :func:`weight_condition`.
+    """Return the order conditions of the trees.
 
-    The elementary weights of some trees are polynomials in the elementary weights of other trees. The
-    function ``switching`` returns the polynomial of a tree. If ``switching`` is given, each condition of such
-    a tree stores the polynomial as text.
+    The function ``switching`` expresses the elementary weights of some trees as polynomials in the elementary
+    weights of other trees. If ``switching`` is given, the condition of such a tree stores the polynomial as
+    text.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -118,13 +117,10 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return an index sum for ``tree``. Each term is the product of ``factors`` and of the factors that
-    come from the branches at the root.
+    """Return an index sum for ``tree``, with the factors ``factors`` and the factors of the branches at the
+    root.
 
-    A leaf gives a factor c_i or chat_i. A larger branch gives a factor a_ij or ahat_ij, a new summation index
-    j, and the factors of its own branches. If larger branches are equal, the factor is a power of one inner
-    sum. The other summation indices are ``indices``. The last item of ``indices`` is the index of the root.
-    The function ``below`` returns the branches at the root of a tree (see :func:`elementary_weight`).
+    The last of the summation indices ``indices`` is the index of the root.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

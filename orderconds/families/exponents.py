@@ -1,8 +1,8 @@
 """Exponents of methods for Y' = A(t) Y as series over words.
 
 The exponents are linear combinations of products of the values A_i = h A(c_i h), where c_i are the nodes. If
-A(t) = X_1 + t X_2 + ..., then A_i = sum_k c_i^(k-1) h^k X_k. The letter k denotes X_k and has the weight k.
-The word (k_1, ..., k_m) denotes the product X_{k_m} ... X_{k_1}. The rightmost factor acts first.
+A(t) = X_1 + t X_2 + ..., then A_i = sum_k c_i^(k-1) h^k X_k. The word (k_1, ..., k_m) denotes the product
+X_{k_m} ... X_{k_1}.
 """
 
 from __future__ import annotations
@@ -33,10 +33,9 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 
 
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
-    """Return one function for each exponent of a method. The function of an exponent maps a word to the
-    coefficient of the word in this exponent.
+    """Return, for each exponent of a method, the function that maps a word to its coefficient.
 
-    The function of the exponential that acts first is the first entry. Each function stores its results.
+    The function of the exponential that acts first is the first entry.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse

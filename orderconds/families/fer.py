@@ -1,13 +1,12 @@
 """Fer methods for Y' = A(t) Y. A step is a product of exponentials, exp(F_1) exp(F_2).
 
-Let A_i be h times the value of A at node i. Then F_1 = sum_i b_i A_i. If a method has two exponentials, the
-exponent F_2 is a combination of brackets. If a method has more exponentials, F_2 denotes the logarithm of
-the product of all factors except exp(F_1). In both cases F_2 = sum_{ij} phi_ij A_j A_i + ....
+Let A_i = h A(c_i h), where c_i are the nodes. Then F_1 = sum_i b_i A_i, and
+F_2 = sum_{ij} phi_ij A_j A_i + .... If a method has more than two exponentials, F_2 denotes the logarithm of
+the product of all factors except exp(F_1).
 
-There is one condition for each Lyndon word. The letters are numbers. The number k denotes X_k in
-A(t) = X_1 + t X_2 + .... A word with one letter gives a condition on the quadrature rule with the nodes c_i
-and the weights b_i. If these conditions hold, F_1 approximates F, the integral of A over one step. Let Y be
-the exact flow. The conditions of longer words compare F_2 with the logarithm of exp(-F) Y.
+There is one condition for each Lyndon word. The letter k denotes X_k in A(t) = X_1 + t X_2 + .... Let F be
+the integral of A over one step, and let Y be the exact flow. The conditions of words with one letter compare
+F_1 with F. The conditions of longer words compare F_2 with the logarithm of exp(-F) Y.
 
 Sources: Fer (1958); Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3;
 Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259.
@@ -66,11 +65,7 @@ class FerFamily(MagnusFamily):
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the exponents do not have the form of a Fer method.
-
-        The exponent of the exponential that acts last must not contain commutators. All terms of the other
-        exponents must be commutators.
-        """
+        """Raise :class:`~orderconds.errors.InputError` if the exponents are not those of a Fer method."""
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
         if last[1] > 1 or any(least == 1 for least, _ in others):
@@ -86,9 +81,8 @@ class FerFamily(MagnusFamily):
     def exact(self, word: Word) -> Fraction:
         """Return the right-hand side of the condition of a word.
 
-        For a word that consists of one letter k, the right-hand side is 1/k. Let Y be the exact flow of
-        Y' = A(t) Y, and let F be the integral of A over one step. For a longer word, the right-hand side is
-        the coefficient of the word in the series log(exp(-F) Y).
+        For a word that consists of one letter k, the right-hand side is 1/k. For a longer word, the
+        right-hand side is the coefficient of the word in log(exp(-F) Y) (see the module docstring).
         """
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
@@ -96,17 +90,16 @@ class FerFamily(MagnusFamily):
         """Return the left-hand side of the condition of a word as a sum over nodes.
 
         For a word that consists of one letter k, the terms of the sum are b_i c_i^(k-1). For a longer word
-        with the letters k_1, k_2, ..., the terms are phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) .... The module
-        docstring defines b_i and phi_{ij...}.
+        with the letters k_1, k_2, ..., the terms are phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ... (see the module
+        docstring).
         """
         return node_sum("b" if len(word) == 1 else "phi", word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
         """Return a function that maps each word to the left-hand side of its condition.
 
-        Let F_1 be the exponent of the exponential that acts last. Let F_2 be the logarithm of the product of
-        all other exponentials. For a word with one letter, the left-hand side is the coefficient of the word
-        in F_1. For a longer word, the left-hand side is the coefficient of the word in F_2.
+        For a word with one letter, the left-hand side is the coefficient of the word in F_1, otherwise in
+        F_2. The module docstring defines F_1 and F_2.
         """
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)
