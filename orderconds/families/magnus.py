@@ -1,5 +1,5 @@
-"""Magnus methods for Y' = A(t) Y. One step is the exponential of Omega. The exponent Omega is a linear
-combination of the values A_i = h A(c_i h) and of their brackets, where c_i are the nodes.
+"""Magnus methods exp(Omega) for Y' = A(t) Y. The exponent Omega is a linear combination of the values
+A_i = h A(c_i h) and of their brackets, where c_i are the nodes.
 
 If all brackets are expanded, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + .... In the product
 A_j A_i, the factor A_i acts first. If a step is a product of several exponentials, Omega is the logarithm of
@@ -145,8 +145,7 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
     """Return the coefficient of ``word`` in a Lie element as a linear combination of the coefficients of
     Lyndon words. The linear combination is the same for all Lie elements.
 
-    With the shuffle product, each word is a polynomial in Lyndon words. In a Lie element, a shuffle product
-    of two or more words has the coefficient zero. Therefore only the linear terms of the polynomial remain.
+    In a Lie element, a shuffle product of two or more words has the coefficient zero.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}
@@ -155,10 +154,10 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
 
 
 def random_product(ring: Residues, generator: np.random.Generator, size: int, transform: str) -> Magnus:
-    """Return a random product of exponentials (``transform`` is "exp") or of Cayley transforms ("cay").
+    """Return a random product of ``size`` exponentials (``transform`` is "exp") or Cayley transforms ("cay").
 
-    The method has ``size`` random nodes c_i, and the product has ``size`` factors. The argument of each
-    factor is a random linear combination of the values A_i = h A(c_i h).
+    The argument of each factor is a random linear combination of the values A_i = h A(c_i h) at ``size``
+    random nodes c_i.
 
     >>> import numpy as np
     >>> from orderconds.ring import Residues

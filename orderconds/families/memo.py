@@ -1,8 +1,7 @@
 """A cache for the series of a method.
 
-A check evaluates the conditions of one method for orders 1, 2, .... A series computes the coefficient of a
-large tree from the coefficients of smaller trees, and keeps the computed coefficients. The cache keeps the
-series, so the conditions of higher orders use the coefficients from lower orders.
+A series keeps the computed coefficients, so the conditions of higher orders use the coefficients from lower
+orders.
 """
 
 from __future__ import annotations

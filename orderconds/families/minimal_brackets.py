@@ -1,8 +1,7 @@
-"""Runge-Kutta-Munthe-Kaas methods, rewritten as programs with few brackets. For a method of the family
-``rkmk`` that does not truncate dexpinv, the compiler emits such a program.
+"""Runge-Kutta-Munthe-Kaas methods, rewritten as programs with few brackets.
 
-The order of the program is checked with the order conditions of ``rkmk``. The left-hand sides of the
-conditions are coefficients of the Lie-Butcher series of the program.
+The left-hand sides of the order conditions of ``rkmk`` are coefficients of the Lie-Butcher series of the
+program.
 """
 
 from __future__ import annotations
@@ -40,8 +39,7 @@ class MinimalBrackets(MuntheKaasFamily):
     def series(self, method: Method, ring: Ring) -> ForestSeries:
         """Return the Lie-Butcher series of one step of :attr:`program`. The argument ``method`` is not
         used."""
-        # The ring Enclosures computes with balls. Each coefficient of the program stores its ball in the
-        # attribute ``value``.
+        # Enclosures computes with balls, and each coefficient stores its ball in the attribute ``value``.
         inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self
         return BracketedSeries(ring, inner.program)
 

@@ -1,13 +1,10 @@
-"""Families with one condition for each Lyndon word. The letters of the words are ordered trees, so a word is
-an ordered forest.
+"""Families with one condition for each Lyndon word over ordered trees.
 
 The Lie-Butcher series of a Lie group method has one coefficient for each word. The coefficients satisfy the
 shuffle relations, so the coefficients of Lyndon words determine all other coefficients
 (:mod:`orderconds.words.lyndon`). Larger trees come first in the alphabet.
 
-To remove common factors, both sides of a condition are multiplied by the integer :func:`scale`. For example,
-the tree ``[..]`` is a root with two leaves. Its condition 1/2 sum_i b_i c_i^2 = 1/6 is multiplied by 2, and
-becomes sum_i b_i c_i^2 = 1/3.
+To remove common factors, both sides of a condition are multiplied by the integer :func:`scale`.
 """
 
 from __future__ import annotations
@@ -91,8 +88,8 @@ class OrderedForestFamily(Family):
 
 @lru_cache(maxsize=1 << 16)
 def scale(forest: Forest) -> int:
-    r"""Return a product of factorials. A forest is a word, and its letters are trees. The branches at each
-    vertex also form a word. A word of length n gives the factor n!.
+    r"""Return the product of the factorials of the lengths of all words in a forest. The words are the forest
+    itself, and the branches at each vertex.
 
     >>> scale(b"\0\1\1\0")
     4
@@ -113,8 +110,8 @@ def lyndon_forests(order: int) -> tuple[Forest, ...]:
 
 
 def longest_word(forest: Forest) -> int:
-    r"""Return the length of the longest word in a forest. A forest is a word, and its letters are trees. The
-    branches at each vertex also form a word.
+    r"""Return the length of the longest word in a forest. The words are the forest itself, and the branches
+    at each vertex.
 
     >>> longest_word(b"\0\1\1\1\0")
     3

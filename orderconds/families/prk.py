@@ -82,9 +82,7 @@ class PartitionedFamily(Family):
         """Return this family for a pair of tableaux unless the pair is proved to be symplectic. Otherwise
         return None.
 
-        If this family is returned, the tableau file should state up to which order the pair satisfies the
-        conditions of this family. The file of a symplectic pair should state up to which order the pair
-        satisfies the conditions of the family ``sprk_separable``.
+        The tableau file of a symplectic pair should state the order in the family ``sprk_separable``.
         """
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
@@ -100,8 +98,7 @@ class PartitionedFamily(Family):
         """For a symplectic pair with b = bhat and non-zero weights, return the family ``sprk`` and the first
         tableau of the pair. For other methods, return None.
 
-        If a symplectic pair has non-zero weights b = bhat, the conditions of ``sprk`` imply all conditions of
-        ``prk``. The family ``sprk`` has fewer conditions, one for each free tree (HLW VI.7, Theorem 7.4).
+        For such a pair, the conditions of ``sprk`` imply all conditions of ``prk`` (HLW VI.7, Theorem 7.4).
         """
         if not isinstance(method, PartitionedRungeKutta):
             return None

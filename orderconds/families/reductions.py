@@ -9,9 +9,9 @@ reductions:
 - *substitution*: for some methods, the conditions of another family imply all conditions of order n and are
   faster to evaluate. For a symplectic pair with b = bhat, the conditions of free trees with directed edges
   imply the conditions of all rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
-- *truncation of dexpinv*: some methods truncate the series of dexpinv, the inverse of the differential of
-  exp. The truncation leaves many conditions unchanged. If these conditions hold for the method without
-  truncation, they are not evaluated (:mod:`orderconds.families.dexpinv_cut`).
+- *truncation of dexpinv*: a truncation of the series of dexpinv, the inverse of the differential of exp,
+  leaves many conditions unchanged. If these conditions hold for the method without truncation, they are not
+  evaluated (:mod:`orderconds.families.dexpinv_cut`).
 
 The assumptions of a reduction are verified for each tableau in exact arithmetic. If the coefficients are
 balls (intervals), only the third reduction is used. In this case, a separate proof must show that the balls
@@ -43,9 +43,9 @@ class Substitute(Struct, frozen=True):
 class UnseenCut(Struct, frozen=True):
     """A description of the conditions that the truncation of dexpinv does not change.
 
-    ``order`` is the order of the method without truncation. The formula for the coefficient of a tree or
-    forest contains words, whose letters are trees. The function ``length`` returns the length of the longest
-    word. If this length is at most ``longest``, the truncation does not change the coefficient.
+    ``order`` is the order of the method without truncation. The function ``length`` returns the length of the
+    longest word in the formula for the coefficient of a tree or forest. If this length is at most
+    ``longest``, the truncation does not change the coefficient.
     """
 
     order: int
@@ -56,10 +56,9 @@ class UnseenCut(Struct, frozen=True):
 class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
-    ``even`` is true if the method is symmetric. Then the order of the method is even. ``substitute`` contains
-    a family whose conditions imply the conditions of the original family, or is None. If the method truncates
-    the series dexpinv, ``cut`` describes which conditions are the same with and without truncation. Without a
-    description, ``cut`` is None.
+    ``even`` is true if the method is symmetric. ``substitute`` contains a family whose conditions imply the
+    conditions of the original family, or is None. ``cut`` describes which conditions the truncation of
+    dexpinv does not change, or is None.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]
@@ -76,9 +75,8 @@ class Reductions(Struct, frozen=True):
         return self.even and n % 2 == 0
 
     def rest_follows(self, n: int) -> bool:
-        """Return True if ``substitute.method`` satisfies the conditions of order n of
-        ``substitute.family``. Then all conditions of order n of the original family hold, too. If
-        ``substitute`` is None, return False."""
+        """Return True if ``substitute.method`` satisfies the conditions of order n of ``substitute.family``.
+        If ``substitute`` is None, return False."""
         if self.substitute is None:
             return False
         family, method = self.substitute.family, self.substitute.method
@@ -86,11 +84,10 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Return True if the method is known to satisfy the condition of the tree or forest ``key``. The
-        condition has the order ``n``.
+        """Return True if the method is known to satisfy the condition of order ``n`` of the tree or forest
+        ``key``.
 
-        The method uses a truncation of dexpinv. Without the truncation, it satisfies all conditions up to
-        the order ``cut.order``. The truncation changes the left-hand sides of some conditions. All other
-        conditions up to this order are satisfied with the truncation, too.
+        A condition is known to hold if the truncation of dexpinv does not change it and ``n`` is at most
+        ``cut.order``.
         """
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

@@ -39,12 +39,11 @@ BUILT_IN = {
     "cayley": "orderconds.families.cayley",
     "taylor": "orderconds.families.taylor",
 }
-"""A map from the name of each built-in family to the module of the family. ``orderconds list families`` lists
-the families in the order of this map."""
+"""A map from the name of each built-in family to its module, in the order of ``orderconds list families``."""
 
 ENTRY_POINT_GROUP = "orderconds.families"
-"""The entry-point group in which other packages register families. An entry maps the name of a family to
-its class and has the form ``name = "module:Class"``."""
+"""The entry-point group in which other packages register families. An entry has the form
+``name = "module:Class"``."""
 
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
 _LABEL = re.compile(r"\s*([a-z][a-z0-9_-]*)\s*(?:\(\s*(\d{1,3})\s*\))?\s*")
@@ -54,16 +53,12 @@ FamilyClass = TypeVar("FamilyClass", bound=type[Family])
 
 
 def register(family: FamilyClass) -> FamilyClass:
-    """Add the class of a family to the registry, and return the class. Commands and tableau files accept the
-    name of a registered family. The function can be used as a decorator.
-
-    An installed package adds a family by an entry point of the group ``orderconds.families``.
+    """Add the class of a family to the registry, and return the class.
 
     Raises :class:`~orderconds.errors.InputError` if the class has no name, no description or no formats, or
     if another family has the same name. A name consists of lower-case letters, digits and ``_``.
 
-    The family in the example has one condition for each order, the condition of the bushy tree. In this tree,
-    all vertices except the root are children of the root.
+    The family in the example has one condition for each order, the condition of the bushy tree.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily
@@ -195,8 +190,7 @@ def family_class(name: str) -> type[Family]:
 
 
 def _installed(name: str) -> type[Family] | None:
-    """Register the family ``name`` of an installed package and return the class of the family. If no
-    installed package provides this family, return None."""
+    """Register and return the class of the family ``name`` of an installed package, or return None."""
     from importlib import metadata
 
     for entry in metadata.entry_points(group=ENTRY_POINT_GROUP, name=name):

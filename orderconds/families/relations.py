@@ -5,10 +5,9 @@ Two laws make conditions dependent.
 
 - For trees u and v, let u o v be the tree u with v as an additional branch of the root. The elementary
   weights phi of a symplectic method satisfy phi(u o v) + phi(v o u) = phi(u) phi(v) (HLW VI.7.1).
-- The coefficients a(w) of the words w in a group-like series satisfy a(u) a(v) = a(u sh v). The series of a
-  Lie group method is group-like. The shuffle product u sh v is a sum of words, and a(u sh v) is the sum of
-  the coefficients of these words. Therefore the coefficients of Lyndon words determine all other coefficients
-  (Reutenauer, Free Lie Algebras, Thm 6.1).
+- The coefficients a(w) of the words w in a group-like series satisfy a(u) a(v) = a(u sh v), where a is linear
+  and sh is the shuffle product. The series of a Lie group method is group-like. Therefore the coefficients of
+  Lyndon words determine all other coefficients (Reutenauer, Free Lie Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -26,14 +25,12 @@ from orderconds.words.lyndon import lyndon_factors
 from orderconds.words.shuffle import shuffle
 
 Polynomial = dict[tuple[Any, ...], Fraction]
-"""A polynomial in the left-hand sides of conditions. The key of a condition denotes its left-hand side. A
-monomial is a sorted tuple of keys. The dictionary maps each monomial to the coefficient of the monomial."""
+"""A polynomial in the left-hand sides of conditions: a map from monomials to coefficients. A monomial is a
+sorted tuple of keys of conditions."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
-"""A function that moves the root of a tree along each edge at the root. For each edge, the function yields
-three trees u, v, w. Without the edge, the tree consists of two trees: u contains the root, and v does not.
-The tree w is the result of the move: the given tree with the root of v as its root. In the notation
-w = v o u, the tree u is an additional branch at the root of v."""
+"""A function that maps a tree to the triples (u, v, v o u) with u o v equal to the tree, one for each branch
+v of the root. The module docstring defines u o v."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
@@ -83,9 +80,7 @@ class RootSwitching:
     """A function that maps a tree to a polynomial. For a symplectic method, the elementary weight of the tree
     is this polynomial in the elementary weights of independent trees.
 
-    The call ``independent(n)`` returns the independent trees with n vertices. The elementary weights of these
-    trees and of smaller trees determine the elementary weight of each tree with n vertices. ``moves`` is a
-    function of type :data:`Moves`.
+    The call ``independent(n)`` returns the independent trees with n vertices.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING
     >>> from orderconds.trees.levels import parse, text
@@ -125,11 +120,10 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions. Each dependent condition is replaced by a copy that stores a polynomial as text.
+    """Return the conditions, with a relation in each dependent condition.
 
-    The left-hand side of a dependent condition is a polynomial in left-hand sides of independent conditions.
-    The function ``polynomial`` maps the key of a condition to this polynomial. The function ``text`` converts
-    a key to text. Independent conditions are returned unchanged.
+    The relation is the text of a polynomial in left-hand sides of independent conditions. The function
+    ``polynomial`` maps the key of a condition to the polynomial, and ``text`` converts a key to text.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
@@ -160,9 +154,8 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The product of the coefficients of the words in ``factors`` is the coefficient of the shuffle product of
-    # these words. The shuffle product contains ``word`` with multiplicity ``repeated``. All other words in
-    # the shuffle product are lexicographically smaller.
+    # The product of the coefficients of the words in ``factors`` is the coefficient of their shuffle product.
+    # The shuffle product is ``repeated`` times ``word``, plus lexicographically smaller words.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}

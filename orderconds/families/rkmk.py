@@ -1,6 +1,5 @@
-"""Runge-Kutta-Munthe-Kaas methods. The methods use dexpinv, the inverse of the differential of exp. The
-function dexpinv is a power series in the operator ad. The family ``rkmk(r)`` truncates the series after the
-term with ad^r. The family ``rkmk`` does not truncate the series.
+"""Runge-Kutta-Munthe-Kaas methods. The family ``rkmk(r)`` truncates the series of dexpinv, the inverse of the
+differential of exp, after the term with ad^r. The family ``rkmk`` does not truncate the series.
 
 There is one condition for each Lyndon word over ordered trees. The left-hand side of the condition is a
 multiple of the coefficient of the word in the Lie-Butcher series of the method.
@@ -97,11 +96,11 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of one word. The first letter of the word is the tree with two vertices. The
-        other ``order`` - 2 letters are trees with one vertex.
+        """Return the condition of the word that consists of the tree with two vertices, followed by
+        ``order`` - 2 trees with one vertex.
 
-        The module docstring defines R. Let ``order`` be R + 3. If a method with truncated dexpinv satisfies
-        all other conditions up to the order R + 3, the method violates the returned condition.
+        A method that satisfies all other conditions up to the order R + 3 violates the condition of this
+        order. The module docstring defines R.
 
         If dexpinv is not truncated or ``order`` < 3, return None.
         """
@@ -113,10 +112,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return independent conditions of the given order. Together with the conditions of lower order, the
         returned conditions imply all :meth:`conditions` of the given order.
 
-        Without truncation of dexpinv, there is one independent condition for each rooted tree. The module
-        docstring defines R. A truncation of dexpinv adds one condition of order R + 3. Because this condition
-        contradicts the other conditions up to this order (:meth:`first_unmet`), the order of the method is at
-        most R + 2.
+        Without truncation of dexpinv, there is one independent condition for each rooted tree. A truncation
+        of dexpinv adds one condition of order R + 3, which contradicts the other conditions
+        (:meth:`first_unmet`). The module docstring defines R.
 
         The computation requires NumPy. If ``order`` is above :data:`RANKED`, return all :meth:`conditions`.
 
@@ -145,7 +143,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
     def highest_order(self, limit: int) -> int:
         """Return the highest order of methods that truncate dexpinv after the term with ad^r, where r is
         ``self.cutoff``. The result is at most ``limit``. Raises ValueError if ``limit`` is above
-        :data:`RANKED`, because the independent conditions are not computed above this order.
+        :data:`RANKED`.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -163,12 +161,11 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
 
 class _Words:
-    """Sums over stage indices. They are the coefficients of words in the series of u_i and exp(u_i). The
-    letters of a word are trees.
+    """Sums over stage indices: the coefficients of words in the series of u_i and exp(u_i).
 
-    Let u_i be the exponent of stage i, and let k_j be the value of the vector field at stage j. Let
-    dexpinv_u be the inverse of the differential of exp at u. Then u_i = sum_j a_ij dexpinv_{u_j}(k_j). If
-    the index ``i`` is None, u_i is the exponent of the whole step, and b_j replaces a_ij.
+    Let u_i be the exponent of stage i, and let k_j be the value of the vector field at stage j. Then
+    u_i = sum_j a_ij dexpinv_{u_j}(k_j). If the index ``i`` is None, u_i is the exponent of the whole step,
+    and b_j replaces a_ij.
     """
 
     def __init__(self, cutoff: int | None) -> None:
@@ -176,7 +173,7 @@ class _Words:
         self._known: dict[tuple[int, tuple[Forest, ...]], tuple[str, Formula]] = {}
 
     def exponential(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in exp(u_i). The class docstring defines u_i."""
+        """Return the coefficient of a word in exp(u_i), where u_i is the exponent of stage ``i``."""
         if len(set(word)) == 1:
             first = self._power(i, 1, word[:1])
             return total((Fraction(1, factorial(len(word))), product(*([first] * len(word)))))
@@ -184,7 +181,7 @@ class _Words:
         return total(*powers) if word else one()
 
     def _power(self, i: str | None, n: int, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in the n-th power of u_i. The class docstring defines u_i."""
+        """Return the coefficient of a word in the n-th power of u_i, the exponent of stage ``i``."""
         if n == 0 or len(word) < n:
             return zero() if n or word else one()
         if i is None:
@@ -204,7 +201,7 @@ class _Words:
         )
 
     def _argument(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in u_i. The class docstring defines u_i."""
+        """Return the coefficient of a word in u_i, the exponent of stage ``i``."""
         if i is not None and word == (b"\0",):
             return coefficient("c", i)
         j = fresh()
@@ -219,13 +216,10 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # The series dexpinv_u(x) is a sum of terms q u^n x u^m with numbers q. In the word, x gives
-                # the letter ``tree``, u^m gives the letters before ``tree``, and u^n gives the letters after
-                # ``tree``. Each factor u gives one or more letters. Hence u^m gives at least m letters, and
-                # u^0 gives none.
+                # In a term q u^n x u^m of dexpinv_u(x), x gives ``tree``, u^m the letters before it, and u^n
+                # the letters after it. Each factor u gives one or more letters, and u^0 gives none.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
-                    # In the product u^n x u^m, the factor u^m acts first. The letters of a word appear in
-                    # the order in which they act, so the letters of u^m come first.
+                    # The letters of u^m come first, because u^m acts first in the product u^n x u^m.
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
                     value = self.exponential(j, trees_of(branches(tree)))
                     terms.append((q, product(first, value, last)))
@@ -237,8 +231,8 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # The tableau has n = ``order`` stages. As functions of such a tableau, the elementary weights of the
-        # trees with n vertices are linearly independent.
+        # As functions of a tableau with n = ``order`` stages, the elementary weights of the trees with n
+        # vertices are linearly independent.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 

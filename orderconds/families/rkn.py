@@ -1,16 +1,14 @@
-"""Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q), where T is quadratic in p. For such Hamiltonians some
-brackets of T and V are zero.
+"""Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q), where T is quadratic in p.
 
 Let x and y be functions of q alone. Then [x,[T,y]] is also a function of q alone, because T is quadratic in
 p. Let F be the smallest set that contains V and, for all x and y in F, also [x,[T,y]]. All elements of F are
-functions of q alone, so [x,y] = 0 for all x and y in F. If T and V are instead the generators of a free
-algebra, the brackets [x,y] need not be zero. These brackets generate an ideal. The shortest non-zero bracket
-is the bracket of x = V and y = [V,[T,V]]. Up to the sign, it is [V,[V,[V,T]]].
+functions of q alone, so [x,y] = 0 for all x and y in F. In the free algebra over T and V, the brackets [x,y]
+generate an ideal. The shortest non-zero bracket is [V,[V,[V,T]]], up to the sign.
 
-A functional is a linear combination of words over T and V. The functionals that are zero on the ideal form a
-vector space. There is one condition for each functional in a basis of the vector space. The numbers of
-independent conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci.
-Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+A functional is a linear combination of words over T and V. There is one condition for each element of a basis
+of the functionals that are zero on the ideal. The numbers of independent conditions of orders 1, 2, ... are
+2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J.
+Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -50,9 +48,8 @@ T, V = 0, 1
 
 @register
 class NystroemFamily(Family):
-    """Splittings of the Hamiltonian T + V, where T is quadratic in p and V depends on q only. A step is a
-    product of flows of T and V. The key ``rkn`` of the tableau file states which part is V. Each condition
-    corresponds to a linear combination of words over T and V.
+    """Splittings of the Hamiltonian T + V, where T is quadratic in p and V depends on q only. The key ``rkn``
+    of the tableau file states which part is V.
 
     >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]
@@ -86,8 +83,8 @@ class NystroemFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each element of :func:`functionals`.
 
-        The left-hand side of a dependent condition is a polynomial in the left-hand sides of independent
-        conditions. The attribute ``relation`` of a dependent condition contains this polynomial.
+        The attribute ``relation`` of a dependent condition is a polynomial in left-hand sides of independent
+        conditions.
         """
         return with_relations(map(self._condition, functionals(order)), relation, text)
 
@@ -118,11 +115,7 @@ class NystroemFamily(Family):
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family if the method is a splitting and its tableau file contains the key ``rkn``.
-        Otherwise return None.
-
-        If this family is returned, the tableau file should state up to which order the method satisfies the
-        conditions of this family.
-        """
+        Otherwise return None."""
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
@@ -133,10 +126,7 @@ class NystroemFamily(Family):
 
         The bound for this family is ``order``. The bound for the family ``splitting`` is min(``order``, 4).
 
-        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Therefore both families
-        have the same conditions up to order three. The order of a symmetric method is even. Hence a symmetric
-        splitting that satisfies these conditions up to order three has order four in the family
-        ``splitting``.
+        Up to order three, both families have the same conditions. The order of a symmetric method is even.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
@@ -194,15 +184,15 @@ def formula(functional: Functional) -> Formula:
 
 def _scale(functional: Functional) -> int:
     """Return the least positive integer factor that turns the coefficients of the left-hand side of a
-    condition into integers. Both sides of the condition are multiplied by the factor."""
+    condition into integers."""
     splitting = SplittingFamily()
     return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
 
 
 @lru_cache(maxsize=32)
 def functionals(order: int) -> tuple[Functional, ...]:
-    """Return a basis of the linear functionals that are zero on the ideal. Each functional is a linear
-    combination of words of length ``order``. The module docstring defines the ideal.
+    """Return a basis of the functionals over words of length ``order`` that are zero on the ideal. The module
+    docstring defines the ideal.
 
     >>> [len(functionals(n)) for n in (1, 2, 3, 4)]
     [2, 4, 8, 15]
@@ -223,10 +213,10 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return the elements of F whose words have ``weight`` letters. The module docstring defines the set F.
+    """Return the elements of the set F of the module docstring whose words have ``weight`` letters.
 
-    For x and y in F, the result contains only one of the two elements [x,[T,y]] and [y,[T,x]]. The difference
-    of the two elements is [T,[x,y]], which is in the ideal that the commutators [x,y] generate.
+    For x and y in F, the result contains only one of [x,[T,y]] and [y,[T,x]], because the difference
+    [T,[x,y]] is in the ideal.
     """
     if weight == 1:
         return (expand(V),)
@@ -241,8 +231,8 @@ def _potentials(weight: int) -> tuple[Series, ...]:
 
 @lru_cache(maxsize=32)
 def _ideal(order: int) -> tuple[Series, ...]:
-    """Return the commutators [x, y] whose words have at most ``order`` letters, where x and y are elements
-    of the set F. The module docstring defines F. The commutators generate an ideal."""
+    """Return the generators [x, y] of the ideal of the module docstring, with words of at most ``order``
+    letters."""
     known = [(n, x) for n in range(1, order) for x in _potentials(n)]
     return tuple(
         bracket
@@ -293,8 +283,8 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return all products with functionals from :func:`independent` as factors. The orders of the factors add
-    up to ``order``. No factor has an order above ``heaviest``."""
+    """Return all products of total order ``order``. The factors are functionals from :func:`independent`
+    of order at most ``heaviest``."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:

@@ -3,7 +3,7 @@ PhD thesis, NTNU Trondheim, 2014, Section 2.5).
 
 The methods are those of the family ``vrkmk(0)``: variational Runge-Kutta-Munthe-Kaas methods. In these
 methods the identity map is used instead of dexpinv, which is the inverse of the differential of exp. Hence a
-step computes no brackets, and the order is at most two. The methods with one stage are theta-methods.
+step computes no brackets, and the order is at most two.
 """
 
 from __future__ import annotations
@@ -58,8 +58,7 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order of a method in this family.
 
-        ``orders`` maps the labels of other families to the orders of the method in these families. One lower
-        bound is the order in the family ``vrkmk(0)``. The base class gives another lower bound. The result is
-        the larger of the two.
+        ``orders`` maps the labels of other families to the orders of the method in these families. The result
+        is at least the order in the family ``vrkmk(0)``.
         """
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

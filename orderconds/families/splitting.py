@@ -1,12 +1,11 @@
-"""Splittings of a vector field A + B + .... The summands A, B, ... are called the parts of the splitting.
-Each step is a product of flows of the parts.
+"""Splittings of a vector field A + B + ... into its parts A, B, .... Each step is a product of flows of the
+parts.
 
 For two parts, one step of size h is ``... exp(b_2 h B) exp(a_2 h A) exp(b_1 h B) exp(a_1 h A)``. The
 rightmost flow acts first, so A acts first in each stage.
 
-There is one condition for each word over A, B, .... In the series of the exact flow, every word of n letters
-has the coefficient 1/n!. In the series of the step, the word must have the coefficient 1/n!, too (HLW III.5;
-McLachlan and Quispel, Acta Numerica 11 (2002) 341).
+There is one condition for each word over A, B, .... A word of n letters must have the coefficient 1/n! in the
+series of the step (HLW III.5; McLachlan and Quispel, Acta Numerica 11 (2002) 341).
 """
 
 from __future__ import annotations
@@ -42,9 +41,8 @@ MAX_PARTS = 6
 
 @register
 class SplittingFamily(WordFamily):
-    """Splittings of a vector field into a sum of vector fields, called parts. The number of parts is
-    ``parts``. The parts have the indices 0, 1, .... A word is a sequence of indices of parts. In the printed
-    form of a word, the letters A, B, ... replace the indices.
+    """Splittings of a vector field into a sum of ``parts`` vector fields, called parts. A word is a sequence
+    of indices 0, 1, ... of parts, printed as letters A, B, ....
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -130,19 +128,15 @@ class SplittingFamily(WordFamily):
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family if the method is a splitting or a composition of a method with its adjoint.
-        Otherwise return None.
-
-        If this family is returned, the tableau file should state up to which order the method satisfies the
-        conditions of this family.
-        """
+        Otherwise return None."""
         method = tableau.method
         if isinstance(method, AdjointComposition):
             return cls()
         return cls(len(method.parts)) if isinstance(method, Splitting) else None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order in this family. The bound is the order in the family ``rkn``,
-        but at most 3. Up to order 3, the families ``splitting`` and ``rkn`` have the same conditions."""
+        """Return a lower bound of the order in this family: the order in the family ``rkn``, but at most 3.
+        Up to order 3, the families ``splitting`` and ``rkn`` have the same conditions."""
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -150,8 +144,7 @@ class SplittingFamily(WordFamily):
         return None if isinstance(tableau.method, Splitting) else super().work(tableau)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label ``rkn`` if ``nystroem`` is true. Otherwise return the label of ``self``. The
-        option ``--rkn`` sets ``nystroem``."""
+        """Return the label ``rkn`` if ``nystroem`` is true. Otherwise return the label of ``self``."""
         return "rkn" if nystroem else self.label()
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
@@ -160,8 +153,8 @@ class SplittingFamily(WordFamily):
         return ProductOfExponentials(ring, len(steps), lambda J, k: steps[J][1] if steps[J][0] == k else None)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknowns of a splitting with ``stages`` stages. Every stage contains one flow for each
-        part of the vector field. The unknowns are the step sizes of the flows."""
+        """Return the unknowns of a splitting with ``stages`` stages: one step size for each part in each
+        stage."""
         refuse_explicit(self.label(), explicit)
         letters = "abcdef"[: self.parts]
         names = tuple((x, (str(i),)) for i in range(1, stages + 1) for x in letters)
@@ -183,8 +176,8 @@ class SplittingFamily(WordFamily):
 def splitting_formula(word: Word) -> Formula:
     """Return the left-hand side of the condition of a word as an index sum.
 
-    The left-hand side is the product of two factors. One factor is the coefficient of the word in the series
-    of one step. The other factor is the result of :meth:`SplittingFamily.scale`.
+    The left-hand side is the coefficient of the word in the series of one step, times
+    :meth:`SplittingFamily.scale`.
 
     >>> from orderconds.formula import named
     >>> named(splitting_formula((0, 1, 0))).text()
@@ -197,9 +190,8 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # A block consists of equal letters ``one`` from stage i. The next block consists of equal letters
-            # ``two`` from stage j. In each stage, A acts before B, B acts before C, and so on. Hence i = j is
-            # possible only if the letter ``one`` comes before the letter ``two`` in the alphabet.
+            # A block of letters ``one`` in stage i is followed by a block of letters ``two`` in stage j. In
+            # each stage the parts act in alphabetical order, so i = j is possible only if ``one`` < ``two``.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -236,8 +228,8 @@ def two_part_formula(word: Word) -> Formula:
     terms = []
     for weight, split in _splits([length for _, length in runs]):
         factors, indices, before = [], [], None
-        # A pair (gap, n) denotes ``gap`` letters A, followed by n letters B. If a run of letters B is divided
-        # into several blocks, the letters A before the run belong to the first block.
+        # If a run of letters B is divided into several blocks, the letters A before the run belong to the
+        # first block.
         blocks = [
             (0 if k else gap, n)
             for (gap, _), parts in zip(runs, split, strict=True)
@@ -269,8 +261,8 @@ def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ..
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return a map from the names ``a``, ``b``, ... to the step sizes of the parts A, B, .... Each value is a
-    list with one step size for each stage.
+    """Return a map from the names ``a``, ``b``, ... to the lists of the step sizes of A, B, ... in all
+    stages.
 
     If a part does not act in a stage, its step size in this stage is zero. For two parts, the map also
     contains ``c``, the list of the sums c_i = a_1 + ... + a_i.
