@@ -3,13 +3,12 @@ is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 
 Each edge of a tree is an arrow from one of its two vertices to the other. If the arrow points away from the
 root, the edge gives a factor a_ij in the elementary weight. If the arrow points towards the root, the edge
-gives a factor ahat_ij. If another vertex becomes the root, the arrows stay the same.
+gives a factor ahat_ij.
 
 Let two trees differ only in the root, and let the two roots be neighbours. Because b_i ahat_ij + b_j a_ji =
 b_i b_j, the elementary weights of the two trees add up to a product of elementary weights of smaller trees.
-If the conditions of the smaller trees hold, the conditions of the two trees are equivalent. A free tree is a
-tree without a root. For each free tree, it is sufficient to choose one vertex as the root and to evaluate the
-condition of this rooted tree (Abia and Sanz-Serna 1993; HLW VI.7).
+Hence one condition for each free tree (a tree without a root) is sufficient (Abia and Sanz-Serna 1993; HLW
+VI.7).
 """
 
 from __future__ import annotations
@@ -79,8 +78,8 @@ class SymplecticPartitionedFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each rooted tree with directed edges.
 
-        The left-hand side of a dependent condition is a polynomial in the left-hand sides of independent
-        conditions. The attribute ``relation`` of a dependent condition contains this polynomial.
+        The attribute ``relation`` of a dependent condition expresses the left-hand side as a polynomial in
+        left-hand sides of independent conditions.
         """
         return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
@@ -88,7 +87,7 @@ class SymplecticPartitionedFamily(Family):
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
         """Return the elementary weights of a tableau (A, b), one for each element of ``conditions``. The ring
-        must support division, because the formulas divide by b_i.
+        must support division.
 
         Raises :class:`~orderconds.errors.ZeroWeight` if a weight b_i is zero, or is an interval that contains
         zero.
@@ -108,11 +107,7 @@ class SymplecticPartitionedFamily(Family):
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a Runge-Kutta tableau or a composition, if all weights are proved to be
-        non-zero. Otherwise return None.
-
-        If this family is returned, the tableau file should state up to which order the method satisfies the
-        conditions of this family.
-        """
+        non-zero. Otherwise return None."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -123,8 +118,8 @@ class SymplecticPartitionedFamily(Family):
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order of ``method`` in this family.
 
-        ``orders["rk"]`` is the order p of the method in the family ``rk``. For a symplectic tableau, ahat_ij
-        equals a_ij, and the bound is p.
+        ``orders["rk"]`` is the order p of the method in the family ``rk``. For a symplectic tableau, the
+        bound is p.
 
         For all other tableaux, let m <= p/2 be the largest integer for which Butcher's simplifying
         assumptions C(m) and D(m) hold. The bound is min(p, 2m + 1). The coefficients ahat_ij also satisfy

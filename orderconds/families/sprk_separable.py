@@ -1,14 +1,12 @@
 """Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q).
 
 The tableaux (a, b) and (ahat, bhat) form a symplectic pair if b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all
-i and j. The weights b and bhat may differ. For example, a splitting into the flows of T and V is equivalent
-to such a pair, and b and bhat usually differ.
+i and j.
 
 There is one condition for each rooted tree whose vertices have two colours, one for p and one for q.
 Neighbouring vertices differ in colour, because H is separable. If two trees differ only in the choice of the
-root, and if all conditions of lower order hold, the conditions of the two trees are equivalent. A free tree
-is a tree without a root. For each free tree, it is sufficient to choose one vertex as the root and to
-evaluate the condition of this rooted tree (Abia and Sanz-Serna 1993; HLW VI.7.2).
+root, and if all conditions of lower order hold, the conditions of the two trees are equivalent. Hence one
+condition for each free tree (a tree without a root) is sufficient (Abia and Sanz-Serna 1993; HLW VI.7.2).
 """
 
 from __future__ import annotations
@@ -36,8 +34,7 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. For each free tree (a tree without a root), one vertex is chosen as the root. The
-resulting rooted trees are the independent trees."""
+of independent trees. The independent trees are the free trees, each with one chosen root."""
 
 
 @register
@@ -66,8 +63,8 @@ class SeparableFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each rooted tree with alternating colours.
 
-        The left-hand side of a dependent condition is a polynomial in the left-hand sides of independent
-        conditions. The attribute ``relation`` of a dependent condition contains this polynomial.
+        The attribute ``relation`` of a dependent condition expresses the left-hand side as a polynomial in
+        left-hand sides of independent conditions.
         """
         trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
         return weight_conditions(self.name, trees, text, rooted_weight, SWITCHING)
@@ -95,11 +92,8 @@ class SeparableFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if ``tableau`` is a pair that is proved to be symplectic. Otherwise return None.
-
-        If this family is returned, the tableau file should state up to which order the method satisfies the
-        conditions of this family.
-        """
+        """Return this family if ``tableau`` is a pair that is proved to be symplectic. Otherwise return
+        None."""
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)
         return cls() if pair else None
@@ -114,11 +108,10 @@ class SeparableFamily(Family):
 
 
 def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Ring) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if the pair of tableaux (a, b) and (ahat, bhat) is not
-    symplectic.
+    """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all i
+    and j.
 
-    The pair is symplectic if b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all i and j. If the
-    coefficients are intervals, the error is raised only if one of the equations is proved to be false.
+    If the coefficients are intervals, the error is raised only if one of the equations is proved to be false.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

@@ -20,7 +20,7 @@ class StageForm(Struct, frozen=True):
     """The coefficients of a method with a fixed number of stages.
 
     ``names`` contains the names of the coefficients. The function ``method`` builds the method from the
-    values of the coefficients. The values are elements of a ring.
+    values of the coefficients.
 
     ``divides`` is true if the left-hand sides of the order conditions contain divisions by weights b_i.
     """
@@ -51,8 +51,8 @@ def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> 
 
 
 def refuse_explicit(label: str, explicit: bool) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true. A method is explicit if its
-    matrix A is strictly lower triangular. The methods of some families have no matrix A.
+    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true, for families whose methods have
+    no matrix A.
 
     >>> refuse_explicit("splitting", False)
     """

@@ -1,11 +1,11 @@
 """Symmetric compositions of a symmetric method of order two.
 
-One step of the basic method is the exponential of a power series in the step size h. The series contains
-only odd powers of h, because the basic method is symmetric. There is one condition for each word. The letters
-of a word are numbers. A letter k denotes the term with h^k in the series, so all letters are odd.
+One step of the basic method is the exponential of a power series in the step size h. The series contains only
+odd powers of h, because the basic method is symmetric. There is one condition for each word of odd numbers. A
+letter k denotes the term with h^k in the series.
 
-The composition is symmetric, because its step sizes form a palindrome. Hence its conditions of even order
-follow from conditions of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
+The step sizes form a palindrome, so the conditions of even order follow from conditions of lower order (HLW
+III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         return tuple(lyndon_words(range(1, order + 1, 2), order, int)) if order % 2 else ()
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return a polynomial in Lyndon words of odd weight. The weight of a word is the sum of its letters.
+        """Return a polynomial in Lyndon words of odd weight (sum of the letters).
 
         If each Lyndon word is replaced by its coefficient in the series of one step, the value of the
         polynomial is the coefficient of ``word`` in this series.
@@ -100,7 +100,7 @@ class SymmetricCompositionFamily(CompositionFamily):
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the unknowns of a method with ``stages`` stages: the first half of the step sizes.
 
-        For odd ``stages``, the middle step size is also an unknown. The second half follows by symmetry.
+        For odd ``stages``, the middle step size is also an unknown.
         """
         refuse_explicit(self.label(), explicit)
         names = tuple(("gamma", (str(i),)) for i in range(1, (stages + 1) // 2 + 1))
@@ -111,11 +111,7 @@ class SymmetricCompositionFamily(CompositionFamily):
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family if the method is a composition of a symmetric method and the step sizes are
-        proved to form a palindrome. Otherwise return None.
-
-        If this family is returned, the tableau file should state up to which order the method satisfies the
-        conditions of this family.
-        """
+        proved to form a palindrome. Otherwise return None."""
         method = tableau.method
         if not isinstance(method, Composition):
             return None
@@ -149,11 +145,9 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # Let S be the series of one step. The step is symmetric, so the coefficient of a word of even weight in
-    # log(S) is zero. The coefficient in log(S) is a sum over all ways to cut the word into m = 1, 2, ...
-    # pieces. Each summand is (-1)^(m+1)/m times the product of the coefficients of the m pieces in S. The
-    # summand with m = 1 is the coefficient of the word in S. Hence the coefficient in S is minus the sum of
-    # the summands with m > 1.
+    # The step is symmetric, so a word of even weight has the coefficient 0 in
+    # log(S) = sum_m (-1)^(m+1)/m (S - 1)^m, where S is the series of one step. Hence the coefficient in S is
+    # minus the sum of the terms with m > 1.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

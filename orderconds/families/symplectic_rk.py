@@ -1,8 +1,8 @@
 """Symplectic Runge-Kutta methods. The coefficients satisfy b_i a_ij + b_j a_ji = b_i b_j for all i and j.
 
-A free tree is a tree without a root. There is one condition for each free tree. If an edge divides a free
-tree into two equal halves, the condition of the tree follows from conditions of lower order (Sanz-Serna
-and Abia 1991; HLW VI.7.1, Theorem 7.3).
+There is one condition for each free tree (a tree without a root). If an edge divides a free tree into two
+equal halves, the condition of the tree follows from conditions of lower order (Sanz-Serna and Abia 1991; HLW
+VI.7.1, Theorem 7.3).
 """
 
 from __future__ import annotations
@@ -25,8 +25,7 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. The independent trees are the free trees that no edge divides into two equal halves. One
-vertex of each independent tree is chosen as the root."""
+of independent trees. The independent trees are the free trees that no edge divides into two equal halves."""
 
 
 @register

@@ -1,7 +1,7 @@
 """Taylor's method of degree P: each step evaluates the Taylor polynomial of the solution.
 
-Recurrences compute the coefficients of the polynomial (automatic differentiation). The method has no tableau.
-The order of the method is P for every vector field, so there are no order conditions.
+Recurrences compute the coefficients of the polynomial (automatic differentiation). The order of the method is
+P for every vector field, so there are no order conditions.
 
 Source: A. Jorba and M. Zou, *A software package for the numerical integration of ODEs by means of high-order
 Taylor methods*, Experimental Mathematics 14 (2005) 99.
@@ -55,7 +55,7 @@ class TaylorFamily(Family):
         return self.name if self.degree is None else f"{self.name}({self.degree})"
 
     def degree_of_step(self) -> int:
-        """Return the degree P. The order of the step is also P.
+        """Return the degree P.
 
         Raises :class:`~orderconds.errors.InputError` if the family was created without a degree.
         """

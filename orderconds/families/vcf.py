@@ -9,8 +9,8 @@ coefficients of a method are alpha_iJj and beta_Jj. The following formulas defin
 - The weight of stage i is ``b_i = sum_J beta_Ji``.
 - The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)``.
 
-The methods generalise the variational Crouch-Grossman methods (VCG). Section 3.5 of Bogfjellmo and Marthinsen
-suggests this generalisation. The family contains methods of order 3 with positive weights b_i.
+Section 3.5 of Bogfjellmo and Marthinsen suggests this generalisation of the variational Crouch-Grossman
+methods.
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ if TYPE_CHECKING:
 class VariationalCommutatorFree(ActionFamily):
     """Variational commutator-free methods on a Lie group.
 
-    To find independent conditions, all conditions are evaluated for random methods. A random method has
-    ``update`` exponentials in the update and ``stage`` exponentials in each stage. The default values grow
-    with the order and suffice to find one independent condition for each elementary Hamiltonian.
+    The independent conditions are found with random methods, which have ``update`` exponentials in the update
+    and ``stage`` exponentials in each stage. The default values suffice to find one independent condition for
+    each elementary Hamiltonian.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
@@ -97,11 +97,7 @@ class VariationalCommutatorFree(ActionFamily):
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family if the method is commutator-free and all weights b_i are proved to be non-zero.
-        Otherwise return None.
-
-        If this family is returned, the tableau file should state up to which order the method satisfies the
-        conditions of this family.
-        """
+        Otherwise return None."""
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):
             return None

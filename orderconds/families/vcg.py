@@ -2,8 +2,7 @@
 tableau defines the method; each non-zero coefficient a_ij or b_i gives one exponential.
 
 Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the methods. Proposition 3.5.7 of the same
-paper states the six conditions of order 3. The module computes the conditions of all orders from the action
-series, the expansion of the discrete action.
+paper states the six conditions of order 3.
 """
 
 from __future__ import annotations
@@ -65,10 +64,7 @@ class VariationalCrouchGrossman(ActionFamily):
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of a method with random coefficients in ``ring``.
-
-        The matrix A is full. The number of stages grows with ``order``.
-        """
+        """Return the action series of a method with a full matrix A and random coefficients in ``ring``."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))

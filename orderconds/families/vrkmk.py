@@ -5,9 +5,9 @@ Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncati
 Bernoulli number B_(r+1) is zero, so r and r + 1 define the same method. Let R = r + 1 for even r >= 2, and
 R = r for all other r.
 
-A tableau defines a method of ``vrkmk(r)`` and also a symplectic partitioned Runge-Kutta (SPRK) method. Let p
-be the order of the SPRK method. The order of the method of ``vrkmk(r)`` is min(p, R + 2). For some r, this
-number is larger than the bound in Theorem 3.5.3 of Bogfjellmo and Marthinsen.
+Let p be the order of the symplectic partitioned Runge-Kutta method with the same tableau. The order of the
+method of ``vrkmk(r)`` is min(p, R + 2). For some r, this number is larger than the bound in Theorem 3.5.3 of
+Bogfjellmo and Marthinsen.
 """
 
 from __future__ import annotations
@@ -67,13 +67,10 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return one condition of the given order.
+        """Return one condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
 
-        The module docstring defines R. Let ``order`` be R + 3. If a method with truncated dexpinv satisfies
-        all other conditions up to the order R + 3, the method violates the returned condition. The truncation
-        does not change the conditions of order R + 2 and below.
-
-        If dexpinv is not truncated or ``order`` < 3, return None.
+        Let ``order`` be R + 3 (the module docstring defines R). If a method satisfies all other conditions up
+        to this order, the method violates the returned condition.
         """
         if self.cutoff is None or order < 3:
             return None

@@ -3,9 +3,7 @@ invert the result.
 
 Let xi_i be the velocity of stage i, and let h be the step size. Let dexp^(r) be the series of dexp up to the
 power r of ad. The exponent of stage i is X_i = h sum_j a_ij v_j. The equation dexp^(r)(X_j) v_j = xi_j
-defines v_j. Section 3.4.1 of Marthinsen's thesis describes this approach. Each action tree gives
-one condition. The left-hand side of the condition is the coefficient of the tree in the action series of the
-method.
+defines v_j (section 3.4.1 of Marthinsen's thesis).
 """
 
 from __future__ import annotations
@@ -34,9 +32,9 @@ if TYPE_CHECKING:
 @register
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """The family ``vrkmk_pade(r)``. A tableau (A, b) in which no weight b_i is zero defines a method. The
-    option ``cutoff`` is the number r: the series of dexp is truncated after the term with ad^r.
+    option ``cutoff`` is the number r.
 
-    If ``cutoff`` is None, dexp is not truncated, and the methods are those of ``vrkmk`` without truncation.
+    If ``cutoff`` is None, the methods are those of ``vrkmk`` without truncation.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss = Tableau.load(find("gauss1"))
@@ -85,8 +83,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         """Return a lower bound of the order of a method in this family.
 
         ``orders`` maps the labels of other families to the orders of the method in these families. The
-        conditions of orders 1 and 2 are the same as in the family ``rk``. Hence the bound is the order in the
-        family ``rk``, but at most 2.
+        conditions of orders 1 and 2 are the same as in the family ``rk``.
         """
         return min(2, orders.get("rk", 0))
 

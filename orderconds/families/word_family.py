@@ -1,10 +1,9 @@
-"""Families with one order condition for each word over an alphabet. Each letter of the alphabet has a weight.
+"""Families with one order condition for each word over an alphabet.
 
 The step of a method is expanded in a series over words, and so is the exact flow. In a word, the letters
 appear in the order in which they act. The coefficients of both series satisfy the shuffle relations.
 Therefore the coefficients of Lyndon words are independent and determine the coefficients of all words
-(Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). The conditions of Lyndon words imply all other
-conditions.
+(Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -49,8 +48,8 @@ class WordFamily(Family):
 
     @abstractmethod
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition that ``word`` defines. The result is a formula with sums
-        over indices. Both sides of the condition contain the factor ``scale(word)``."""
+        """Return the left-hand side of the condition that ``word`` defines. Both sides of the condition
+        contain the factor ``scale(word)``."""
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -62,8 +61,7 @@ class WordFamily(Family):
         """Return a method whose coefficients are random elements of ``ring``. The number of coefficients is
         sufficient to distinguish the conditions up to ``order``.
 
-        An element of ``ring`` is a vector of residues. If the vectors have n entries, the result represents n
-        methods: entry k of each coefficient is a coefficient of method k.
+        An element of ``ring`` is a vector of n residues, so the result represents n methods.
         """
 
     def independent(self, order: int) -> tuple[Word, ...]:
@@ -96,8 +94,8 @@ class WordFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of all words of weight ``order``.
 
-        Only the conditions of Lyndon words are independent. The attribute ``relation`` of a dependent
-        condition expresses the left-hand side as a polynomial in left-hand sides of independent conditions.
+        The attribute ``relation`` of a dependent condition expresses the left-hand side as a polynomial in
+        left-hand sides of independent conditions.
         """
         return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
 
@@ -108,16 +106,13 @@ class WordFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand sides of ``conditions``, evaluated for ``method``. The key of a condition is a
-        word. The left-hand side is ``scale(word)`` times the coefficient of the word in the series of one
-        step."""
+        """Return the left-hand sides of ``conditions``, evaluated for ``method``. The left-hand side of a
+        condition is ``scale(word)`` times the coefficient of its key ``word`` in the series of one step."""
         series = self._memo(method, ring)
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return a polynomial with one variable for each Lyndon word. If the value of each variable is the
-        left-hand side of the condition of its Lyndon word, the value of the polynomial is the left-hand side
-        of the condition of ``word``."""
+        """Express the left-hand side for ``word`` as a polynomial in the left-hand sides for Lyndon words."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()

@@ -2,7 +2,6 @@ r"""Formulas with sums over indices. Order conditions are printed in this form.
 
 A formula is built from coefficients (``b_i``, ``a_ij``, ``c_i``, ``ahat_ij``, ``beta_Jj`` ...) by products,
 powers, linear combinations and sums over indices. A relation such as i < j can restrict a sum.
-Formulas are only used for printing. The command ``orderconds check`` evaluates conditions without formulas.
 
 >>> b, a, c = coefficient("b", "i"), coefficient("a", "i", "j"), coefficient("c", "j")
 >>> formula = index_sum(("i",), (), product(b, index_sum(("j",), (), product(a, c))))

@@ -62,8 +62,7 @@ def numbered(equations: Sequence[Equation]) -> str:
 
 def broken(latex: str, line: int = LINE) -> list[str]:
     r"""Break a formula into lines of about ``line`` characters. Each new line begins with a plus or minus
-    sign. Signs outside brackets are preferred. If the lines are still too long, the formula is also broken
-    inside brackets.
+    sign. Signs outside brackets are preferred.
 
     >>> broken("a_{1} + b_{2} - c_{3}", line=7)
     ['a_{1} + b_{2}', '- c_{3}']
@@ -85,9 +84,8 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split a LaTeX formula before plus and minus signs. The formula is never split at a sign inside
-    braces. At a sign inside brackets, the formula is split only if at most ``within`` nested pairs enclose
-    the sign."""
+    """Split a LaTeX formula before each plus or minus sign inside no braces and at most ``within`` bracket
+    pairs."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")
@@ -100,7 +98,7 @@ def _terms(latex: str, within: int) -> list[str]:
 
 def _width(latex: str) -> float:
     """Return an estimate of the printed width of a formula, in characters. A character in a subscript or
-    superscript has the width 0.6. A fraction is as wide as its longer part."""
+    superscript has the width 0.6."""
     scripts = sum(len(script) for script in re.findall(r"[_^]\{([^}]*)\}", latex))
     plain = re.sub(r"[_^]\{[^}]*\}|\\hat|\\Big[lr]", "", latex)
     plain = re.sub(r"\\tfrac\{(\d+)\}\{(\d+)\}", lambda m: max(m.groups(), key=len), plain)

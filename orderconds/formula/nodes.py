@@ -1,8 +1,7 @@
 """Syntax trees of formulas with sums over indices, and functions that build and simplify them.
 
-While a formula is being built, its bound indices have unique names from :func:`fresh`. When the formula is
-complete, :func:`named` replaces these names by readable names. Upper-case indices run over exponentials.
-Lower-case indices run over stages.
+Bound indices have unique names from :func:`fresh`, until :func:`named` replaces these names. Upper-case
+indices run over exponentials, and lower-case indices run over stages.
 """
 
 from __future__ import annotations
@@ -109,7 +108,7 @@ def product(*factors: Formula) -> Formula:
     """Return the product of formulas. Nested products are flattened, numbers are moved to the front, and
     equal factors are combined into powers.
 
-    The comparison of factors ignores the names of bound indices. If a factor is zero, the product is zero.
+    The comparison of factors ignores the names of bound indices.
 
     >>> c = coefficient("c", "i")
     >>> product(coefficient("b", "i"), c, c).text()
@@ -127,8 +126,7 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Equal factors have equal keys. Only the keys of coefficients are fast to compute. If all factors except
-    # one are coefficients, the exceptional factor differs from all others, and its key is None.
+    # Only the keys of coefficients are fast to compute, and a single factor of another kind needs no key.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -170,8 +168,7 @@ def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formu
     """Return the sum of the formula ``body`` over ``indices``. Only index values that satisfy ``relations``
     contribute.
 
-    A rational factor of ``body`` is written before the sum. If ``body`` contains sums as factors, the result
-    is a single sum over all indices.
+    If ``body`` contains sums as factors, the result is a single sum over all indices.
 
     >>> a, c = coefficient("a", "i", "j"), coefficient("c", "j")
     >>> index_sum(("j",), (("i", "<", "j"),), product(a, c)).text()
@@ -196,8 +193,7 @@ def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formu
 
 
 def fresh(kind: str = "i") -> str:
-    """Return an index name that no existing formula contains. The letter ``kind`` is the first letter of the
-    name. Lower-case letters denote stages, and upper-case letters denote exponentials.
+    """Return an index name that no existing formula contains. The name begins with the letter ``kind``.
 
     >>> fresh() != fresh()
     True
@@ -207,11 +203,7 @@ def fresh(kind: str = "i") -> str:
 
 def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its indices. ``names`` maps free indices to their new names. All
-    bound indices get names that no other formula contains.
-
-    Therefore two sums from different calls of this function never share a bound index, and :func:`index_sum`
-    can join a product of such sums into a single sum. :func:`named` replaces the unique names by short
-    names.
+    bound indices get names that no other formula contains, so :func:`index_sum` can join such sums.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()
@@ -321,10 +313,9 @@ def _powers(factors: Iterable[Formula]) -> list[tuple[Formula, int]]:
 
 
 def _shape(formula: Formula, depths: Mapping[str, int]) -> Hashable:
-    """Return a key that identifies a formula. The key does not depend on the names of bound indices.
+    """Return a key that identifies a formula up to the names of bound indices.
 
-    In the key, a number replaces each bound index. ``depths`` maps the indices of outer sums to their
-    numbers.
+    ``depths`` maps the indices of outer sums to the numbers that replace them in the key.
     """
     match formula:
         case Coefficient(name, indices):

@@ -21,8 +21,8 @@ class Notation(Struct, frozen=True):
     ``names`` maps names of coefficients to symbols, for example ``ahat`` to ``\\hat{a}``. ``total`` is the
     summation sign. ``signs`` maps ``<`` and ``<=`` to their symbols.
 
-    A relation can be written in reverse order: ``j > i`` instead of ``i < j``. For the reverse order,
-    ``reversed_signs`` maps ``<`` to the symbol for ``>``, and ``<=`` to the symbol for ``>=``.
+    For the reverse order (``j > i`` instead of ``i < j``), ``reversed_signs`` maps ``<`` to the symbol for
+    ``>``, and ``<=`` to the symbol for ``>=``.
     """
 
     names: Mapping[str, str]
@@ -73,10 +73,10 @@ def subscript(written: str, notation: Notation) -> str:
 
 
 def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Notation) -> str:
-    """Return the text below a summation sign. ``indices`` are the summation indices.
+    """Return the text below a summation sign with the summation indices ``indices``.
 
-    Relations are joined to chains: ``i<j`` and ``j<k`` give ``i<j<k``. If i is a free index, and j and k are
-    summation indices, the order is reversed to ``k>j>i``, because each chain begins with a summation index.
+    Relations are joined to chains: ``i<j`` and ``j<k`` give ``i<j<k``. Each chain begins with a summation
+    index, so a free index i gives ``k>j>i``.
 
     >>> chains(["i", "j"], [("i", "<", "j")], TEXT)
     'i<j'

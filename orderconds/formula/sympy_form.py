@@ -21,8 +21,8 @@ EXPONENTIALS = sympy.Symbol("m", integer=True, positive=True)
 
 
 def export(formula: Formula) -> sympy.Expr:
-    """Return the SymPy expression of a formula. Indices start at 1. Lower-case indices end at ``s``, the
-    number of stages. Upper-case indices end at ``m``, the number of exponentials.
+    """Return the SymPy expression of a formula. Indices start at 1 and end at the number ``s`` of stages
+    (lower case) or ``m`` of exponentials (upper case).
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> export(index_sum(("i",), (), coefficient("b", "i")))
@@ -49,14 +49,11 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Return the lower and upper limits of each summation index. Each relation gives one limit. For
-    example, let the relation be ``i < j``. If i is a summation index, the upper limit of i is j - 1. If i is
-    free, the lower limit of j is i + 1."""
+    """Return the lower and upper limits of each summation index. A relation ``i < j`` gives i the
+    upper limit j - 1 or, if i is free, gives j the lower limit i + 1."""
     limits, remaining = [], list(indices)
     while remaining:
-        # The result is an argument list of sympy.Sum. The limits of an index may contain only indices that
-        # come later in this list. The remaining indices come later than the index that is selected next.
-        # Therefore their limits must not contain the selected index.
+        # In sympy.Sum, the limits of an index may contain only indices that come later in the argument list.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )
