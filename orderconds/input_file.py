@@ -13,12 +13,10 @@ from pathlib import Path
 from orderconds.errors import InputError
 
 MAX_BYTES = 1_000_000
-"""Maximal size in bytes of a file that a person writes. Examples are a tableau, a list of modules, and the
-description of a problem."""
+"""Maximal size in bytes of a file that a person writes."""
 
 MAX_WRITTEN_BYTES = 100_000_000
-"""Maximal size in bytes of a file that a program of this project has written. Examples are
-an emitted module, a manifest, and a checkpoint."""
+"""Maximal size in bytes of a file that a program of this project has written."""
 
 
 def read_bytes(
@@ -30,8 +28,7 @@ def read_bytes(
 ) -> bytes:
     """Return the content of a regular file of at most ``limit`` bytes.
 
-    For any other file the function raises ``error``, a subclass of InputError. The message contains the path
-    and the text ``expected``.
+    Raises ``error``, a subclass of InputError, for any other file.
 
     >>> read_bytes(os.devnull)
     Traceback (most recent call last):
@@ -74,8 +71,8 @@ def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -
     """
     # The type is tested before the file is opened, because opening a device may have side effects.
     _require_regular(os.stat(path, follow_symlinks=not own), own)
-    # Another process may replace the file by a pipe after the test of the type. With O_NONBLOCK, opening
-    # a pipe does not block.
+    # If another process replaces the file by a pipe after the test of the type, O_NONBLOCK keeps ``open``
+    # from blocking.
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(path, flags | (getattr(os, "O_NOFOLLOW", 0) if own else 0))
     with open(descriptor, "rb") as stream:

@@ -19,8 +19,8 @@ class _LazyPackage(ModuleType):
         return value
 
     def __setattr__(self, name: str, value: object) -> None:
-        # The import system stores an imported module as an attribute of its package. If an exported object
-        # has the name of the module, the module must not replace the object.
+        # The import system stores an imported module here, but must not replace an exported object of that
+        # name.
         if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
             super().__setattr__(name, value)
 
@@ -29,8 +29,7 @@ class _LazyPackage(ModuleType):
 
 
 def lazy(package: str, **names: tuple[str, ...]) -> None:
-    """Delay the import of the modules of a package. A module is imported when one of its objects is
-    first used.
+    """Delay the import of each module of a package until one of its objects is used.
 
     ``names`` maps each module to the names of its exported objects. If a module and an exported object have
     the same name, the name denotes the object.
@@ -46,8 +45,7 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        # If a module of the package was imported earlier, the module is an attribute of the package. If an
-        # exported object has the same name, the attribute is deleted: the name must denote the object.
+        # A module that was imported earlier must not hide the exported object of the same name.
         if isinstance(module.__dict__.get(name), ModuleType):
             del module.__dict__[name]
     module.__class__ = _LazyPackage

@@ -1,5 +1,4 @@
-"""Atomic writing of files. A file is written under a temporary name, flushed to the disk, and renamed to its
-final name.
+"""Atomic writing of files: a file is written under a temporary name and then renamed.
 
 A process that is killed may leave temporary files; :func:`is_temporary` recognises their names.
 """
@@ -19,13 +18,11 @@ _TEMPORARY = re.compile(rf"\..*\.\w{{8}}{re.escape(SUFFIX)}", re.DOTALL)
 
 
 def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> None:
-    """Write files. ``contents`` maps the path of each file to its content. The files have temporary names
-    until all files are on the disk. Then the files are renamed in the order of ``contents``.
+    """Write files under temporary names, and rename the files when all are on the disk.
 
-    If ``private`` is true, only the user can read the files. If ``private`` is false and a file already
-    exists, the new file has the permissions of the old file. If a path is a symbolic link, the new file
-    replaces the link, and the target of the link is not changed. If an error occurs, the temporary files are
-    removed.
+    The files are renamed in the order of ``contents``. If ``private`` is true, only the user can read the
+    files. Otherwise, a new file has the permissions of the file that it replaces. If a path is a symbolic
+    link, the new file replaces the link, not its target.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -36,8 +33,7 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
     written: dict[Path, Path] = {}
     try:
         for path, content in contents.items():
-            # The temporary name contains only the first 40 characters of the final name. A name that contains
-            # the full final name could be longer than the file system allows.
+            # A name that contains the full final name could be longer than the file system allows.
             name = f".{path.name[:40]}.{secrets.token_hex(4)}{SUFFIX}"
             # The name is recorded before the file is created, because a signal may arrive between the
             # creation of the file and the next statement.

@@ -29,9 +29,8 @@ def in_processes(
 ) -> Iterator[Result]:
     """Yield ``work(job)`` for each job, in the order of the jobs.
 
-    ``processes`` is the maximal number of worker processes. The default is the number of processors. In three
-    cases, the calling process runs the jobs itself and starts no workers: there is only one job,
-    ``processes`` is 1, or the calling process is a worker.
+    The default of ``processes``, the maximal number of workers, is the number of processors. If there is only
+    one job, if ``processes`` is 1, or in a worker, the calling process runs the jobs itself.
 
     If a job raises an error, this function raises the error. Raises InputError if a worker was killed.
 
@@ -49,8 +48,7 @@ def in_processes(
             workers[connection] = worker
         yield from _distribute(list(workers), jobs)
         for connection in workers:
-            # A worker ends when it receives an empty tuple. If the worker has already ended, ``send`` raises
-            # ConnectionError.
+            # If the worker has already ended, ``send`` raises ConnectionError.
             with suppress(ConnectionError):
                 connection.send(())
     except BaseException:
@@ -105,12 +103,8 @@ def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]
 
 
 def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
-    """Receive jobs from the parent process, run the jobs, and send the results to the parent process. An
-    empty tuple instead of a job ends the function.
-
-    Each worker process runs this function. The worker ignores Ctrl-C. After Ctrl-C, the parent process
-    terminates its workers.
-    """
+    """Run jobs from the parent process in a worker process until an empty tuple arrives instead of a job. The
+    worker ignores Ctrl-C, because the parent process terminates its workers."""
     import threading
 
     global _is_worker
@@ -130,11 +124,8 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
 
 
 def _portable(error: Exception) -> Exception:
-    """Return an error that can be sent to the parent process. A note in the error contains the traceback.
-
-    If ``error`` can be pickled, the result is ``error``. Otherwise the result is a RuntimeError with the type
-    and the message of ``error``.
-    """
+    """Return ``error``, or a RuntimeError with its type and message if ``error`` cannot be pickled. A note in
+    the result contains the traceback."""
     import pickle
     import traceback
 

@@ -38,15 +38,13 @@ class Misrounded:
 
 @dataclass(frozen=True)
 class Certificate:
-    """A solution of the equations in the [proof] table of a tableau file. It is proved that the solution
-    exists near the decimals in the file.
+    """A solution of the equations in the [proof] table of a tableau file, proved to exist near the decimals.
 
     - ``tableau``: the coefficients of the solution, as balls.
     - ``facts``: the orders that the equations imply, as pairs (family, order).
     - ``equations``: the number of equations.
     - ``radius``: a bound of the largest error of a decimal in the file.
-    - ``printed``: a map from the names of published decimals to bounds of their errors. The table
-      ``[proof.printed]`` contains the published decimals.
+    - ``printed``: a map from the names of the decimals in ``[proof.printed]`` to bounds of their errors.
     - ``misrounded``: the decimals that differ from the correctly rounded solution.
     - ``lower_facts``: the orders of the embedded method, as pairs (family, order).
     """
@@ -60,9 +58,8 @@ class Certificate:
     lower_facts: tuple[Fact, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the proved statement as a dictionary for JSON. The entries include the conditions, the
-        unknowns and the error bounds. The entry ``pins`` lists the decimals that the proof treats
-        as exact numbers."""
+        """Return the proved statement as a dictionary for JSON. The entry ``pins`` lists the decimals that
+        the proof treats as exact numbers."""
         proof = self.tableau.proof
         assert proof is not None
         return {
@@ -80,9 +77,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
     """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near the
     decimals of ``tableau``.
 
-    The proof uses ball arithmetic with at least ``bits`` bits. The precision grows with the number of digits
-    of the decimals. If the proof fails, :class:`~orderconds.proof.krawczyk.NotProved` is raised with the
-    reason.
+    The proof uses ball arithmetic with at least ``bits`` bits. Raises
+    :class:`~orderconds.proof.krawczyk.NotProved` if the proof fails.
 
     >>> from orderconds.tableau import find
     >>> certificate = certify(Tableau.load(find("cg4a")))
@@ -94,8 +90,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 
 class _Key:
-    """A key in the cache of proofs. Two keys are equal if their tableaux are one object. Keys are also
-    equal if they contain equal tableaux from files with equal content."""
+    """A key in the cache of proofs. Two keys are equal if their tableaux are one object, or are equal and
+    come from files with equal content."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -194,7 +190,7 @@ def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
 
 
 def _decimal(value: fmpq, unit: fmpq) -> str:
-    """Return ``value``, a multiple of ``unit``, in decimal notation. ``unit`` is a power of ten."""
+    """Return ``value``, a multiple of the power of ten ``unit``, in decimal notation."""
     places = len(str(unit.q)) - 1
     return f"{Decimal(int((value / unit).p)).scaleb(-places):f}" if places else str(value)
 

@@ -1,12 +1,11 @@
-"""A search for dependent conditions of a sub-family. The sub-family contains the methods whose coefficients
-satisfy the formulas of a tableau file.
+"""A search for dependent conditions of a sub-family.
 
-The left-hand side of each dependent condition is a polynomial in left-hand sides of independent conditions.
-The coefficients of the polynomial are computed modulo primes and then converted to fractions.
+The sub-family contains the methods whose coefficients satisfy the formulas of a tableau file. The left-hand
+side of each dependent condition is a polynomial in left-hand sides of independent conditions. The
+coefficients of the polynomial are computed modulo primes and then converted to fractions.
 
-Conditions that are independent over Q can be dependent modulo the primes. In this case, the polynomial that
-was computed for such a condition is wrong. Therefore :class:`orderconds.proof.exact_member.ExactMember`
-verifies each polynomial in exact arithmetic.
+:class:`orderconds.proof.exact_member.ExactMember` verifies each polynomial in exact arithmetic, because
+conditions that are independent over Q can be dependent modulo the primes.
 """
 
 from __future__ import annotations
@@ -29,28 +28,24 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The number of random methods of the sub-family in the first computation. If this number is smaller than
-:data:`SPARE` requires, the computation is repeated with more random methods."""
+"""The number of random methods of the sub-family in the first computation. If :data:`SPARE` requires more
+random methods, the computation is repeated."""
 
 SPARE = 24
-"""Each random method gives one linear equation for the unknown coefficients of a polynomial. The number of
-random methods must be at least the number of unknown coefficients plus ``SPARE``. With fewer random methods,
-independent conditions could seem dependent by accident."""
+"""The number of random methods is at least the number of unknown coefficients of a polynomial plus ``SPARE``.
+With fewer random methods, independent conditions could seem dependent by accident."""
 
 PRIME_BITS = 61
 """The size, in bits, of the primes modulo which conditions are evaluated. A residue modulo such a prime fits
 in a machine word."""
 
 MAX_PRIMES = 24
-"""The maximal number of primes. A rational coefficient is reconstructed from its residues modulo several
-primes. Coefficients with larger numerators and denominators need more primes."""
+"""The maximal number of primes modulo which conditions are evaluated."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""The result of the computation modulo one prime: a map from each dependent condition to a polynomial. Modulo
-this prime, the left-hand side of the condition is equal to the polynomial. The polynomial is a map from
-monomials to coefficients. A monomial is a product of left-hand sides of independent conditions. A pair (x, y)
-of residues denotes the coefficient x + y sqrt(d), where sqrt(d) is the only square root in the tableau file.
-If there is no such square root, y is zero."""
+"""A map from each dependent condition to a polynomial that is equal to its left-hand side modulo one prime. A
+pair (x, y) of residues denotes the coefficient x + y sqrt(d), where sqrt(d) is the only square root in the
+tableau file. If there is no such square root, y is zero."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +54,7 @@ class Dependences:
 
     - ``pivots``: the independent conditions.
     - ``primes``: the primes of the computation.
-    - ``residues``: one map for each prime. The map expresses the left-hand sides of the dependent conditions
-      as polynomials modulo the prime.
+    - ``residues``: for each prime, the polynomials for the dependent conditions.
     """
 
     pivots: tuple[OrderCondition, ...]
@@ -69,9 +63,8 @@ class Dependences:
 
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
         """Yield a pair (condition, combination) for each dependent condition. The combination expresses the
-        left-hand side of the condition as a polynomial in left-hand sides of independent conditions. If the
-        residues modulo ``primes`` do not determine the coefficients of the polynomial, the combination is
-        None."""
+        left-hand side of the condition as a polynomial in left-hand sides of independent conditions. The
+        combination is None if the residues modulo ``primes`` do not determine the coefficients."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -96,12 +89,13 @@ def dependences(
     read: Reading | None = None,
 ) -> Iterator[Dependences]:
     """Yield the independent and the dependent conditions of a sub-family, once after each suitable prime.
-    Each yielded object contains the results for all suitable primes so far.
 
-    A prime is unsuitable if the formulas cannot be evaluated modulo this prime, or if a condition is
-    dependent modulo this prime but independent modulo another prime. At most :data:`MAX_PRIMES` primes are
-    tried. ``candidates`` contains the conditions of each order. ``draws`` selects the primes and the random
-    numbers. ``surd`` is the only radical in the formulas, or None.
+    Each yielded object contains the results for all suitable primes so far. A prime is unsuitable if the
+    formulas cannot be evaluated modulo this prime, or if a condition is dependent modulo this prime but not
+    modulo another prime.
+
+    ``candidates`` contains the conditions of each order. ``surd`` is the only radical in the formulas, or
+    None.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -139,13 +133,11 @@ def dependences(
 def _modulo(
     sampling: _Sampling, candidates: Sequence[Sequence[OrderCondition]], surd: Surd | None
 ) -> tuple[tuple[OrderCondition, ...], Residues] | None:
-    """Find the conditions that are independent modulo one prime. Return these conditions, and a map from each
-    dependent condition to a polynomial in the left-hand sides of independent conditions.
+    """Return the conditions that are independent modulo one prime, and a map from each dependent condition to
+    a polynomial in the left-hand sides of independent conditions.
 
-    If the formulas contain a square root sqrt(d), the polynomials have coefficients x + y sqrt(d). Let r
-    be a square root of d modulo the prime. Each polynomial is computed twice, with r and with -r in place of
-    sqrt(d). The numbers x and y follow from the two polynomials. If r and -r lead to different independent
-    conditions, return None.
+    If the formulas contain a square root sqrt(d), the polynomials have coefficients x + y sqrt(d). If the two
+    square roots of d modulo the prime lead to different independent conditions, return None.
     """
     prime = sampling.prime
     if surd is None:
@@ -192,8 +184,7 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """The product of the left-hand sides and the product of the right-hand sides of some conditions, modulo a
-    prime.
+    """Both sides of a product of conditions, modulo a prime.
 
     - ``factors``: the conditions.
     - ``members``: the product of the left-hand sides, with one residue for each random method.
@@ -214,8 +205,7 @@ class _Value:
 
 @dataclass(frozen=True)
 class _Sampling:
-    """The input of an evaluation of ``conditions`` modulo ``prime`` for random methods. The coefficients of
-    these methods satisfy the formulas in ``symbolic``."""
+    """The input of an evaluation of ``conditions`` modulo ``prime`` for random methods of a sub-family."""
 
     family: Family
     symbolic: SymbolicCoefficients
@@ -225,11 +215,11 @@ class _Sampling:
     read: Reading | None
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
-        """Return both sides of each condition. The left-hand sides are evaluated for ``count`` random
-        methods.
+        """Return both sides of each condition, with the left-hand sides for ``count`` random methods.
 
         If the only radical in the formulas is a square root, the residue ``root`` is its value. If ``root``
-        is None, the values of all radicals are random residues (:class:`_Members`)."""
+        is None, the values of all radicals are random residues.
+        """
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
@@ -243,12 +233,13 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """The ring of the coefficients of ``count`` random methods. An element contains one residue modulo a
-    prime for each random method.
+    """The ring of the coefficients of ``count`` random methods, with one residue modulo a prime for each
+    method.
 
-    Random residues are used instead of the values of roots: a polynomial identity that holds for all values
-    of the roots also holds for the true values. There is one exception: if ``square_root`` is not None, this
-    residue is the value of every square root."""
+    Random residues replace the values of roots: a polynomial identity that holds for all values of the roots
+    also holds for the true values. If ``square_root`` is not None, this residue is the value of every square
+    root.
+    """
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)
@@ -256,8 +247,8 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return the residues that are used as the ``index``-th root of x. The residues are random, unless
-        ``index`` is 2 and ``square_root`` is not None. Equal arguments give equal residues."""
+        """Return the residues that are used as the ``index``-th root of x. Equal arguments give equal
+        residues."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))

@@ -1,27 +1,25 @@
-"""The equations for the decimals in a tableau file, and the orders of the method. The decimals satisfy the
-equations approximately. The coefficients of the method are the exact solution near the decimals.
+"""The equations for the decimals in a tableau file, and the orders of the method.
 
 Without a reduction, the system contains one equation for every independent condition of one family. A
-reduction is a theorem that makes some equations unnecessary. The assumptions of a reduction are
-verified exactly, from the formulas in the file and not from the decimals:
+reduction is a theorem that makes some equations unnecessary. The assumptions of a reduction are verified
+exactly, from the formulas in the file and not from the decimals:
 
-- ``symmetric``: a palindromic composition of a symmetric method. The order of such a composition is even.
-  Therefore only conditions of odd order are needed. There is one condition for each Lyndon word in the
-  letters 1, 3, 5, ... (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). The order
-  of a composition of midpoint rules is the same in the families ``rk`` and ``cg`` (Bogfjellmo and Marthinsen,
+- ``symmetric``: a palindromic composition of a symmetric method. Only conditions of odd order are needed,
+  because the order of the composition is even. There is one condition for each Lyndon word in the letters 1,
+  3, 5, ... (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). The order of a
+  composition of midpoint rules is the same in the families ``rk`` and ``cg`` (Bogfjellmo and Marthinsen,
   Lemma 3.5.4).
-- ``symmetric``, for a Magnus method on s Gauss nodes: each condition is defined by a word. Up to order 2s,
-  words in the letters 1, ..., s are sufficient (Iserles and Norsett 1999).
+- ``symmetric``, for a Magnus method on s Gauss nodes: up to order 2s, the conditions for words in the letters
+  1, ..., s are sufficient (Iserles and Norsett 1999).
 - ``low-storage``: a scheme with two registers (2N scheme). The order on a group is equal to the order on a
   vector space (:mod:`orderconds.series.two_registers`).
 - ``simplifying``: Butcher's simplifying assumptions B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2)
   (Butcher 1964; Hairer, Norsett and Wanner, Theorem II.7.4).
-- ``spelling``: some coefficients are formulas in other coefficients. The formulas define a sub-family of
-  methods, in which some conditions follow from the others (:mod:`orderconds.proof.subfamily`).
+- ``spelling``: some conditions follow from the others in the sub-family of methods whose coefficients satisfy
+  the formulas in the file (:mod:`orderconds.proof.subfamily`).
 
-A 2N scheme may contain an embedded method. The update of the embedded method consists of the exponentials of
-the scheme and one additional exponential. The equations for the embedded method are the conditions of rooted
-trees (docs/explanation/two_registers.md).
+The equations for the embedded method of a 2N scheme are the conditions of rooted trees
+(docs/explanation/two_registers.md).
 """
 
 from __future__ import annotations
@@ -50,36 +48,34 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations for the unknowns of ``tableau``. Each unknown is the exact value of a rounded decimal in
-    the tableau. ``proof.pins`` lists the decimals that are exact and therefore not unknown.
+    """The equations for the unknowns of ``tableau``. The unknowns are the exact values of the rounded
+    decimals that are not in ``proof.pins``.
 
-    ``facts`` contains pairs (family, order). If a method satisfies the equations, then for each pair, the
-    method has at least the given order in the given family.
+    ``facts`` contains the orders that the equations imply, as pairs (family, order).
     """
 
     tableau: Tableau
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """If the method is a Magnus method on s Gauss nodes and ``proof.order`` is at most 2s, the value is s.
-    Then only conditions for words in the letters 1, ..., s are used. Otherwise, the value is None."""
+    """The number s if the method is a Magnus method on s Gauss nodes and ``proof.order`` is at most 2s, else
+    None. If the value is s, only conditions for words in the letters 1, ..., s are used."""
     kept: tuple[OrderCondition, ...] | None = None
-    """The conditions that remain after the reduction ``spelling`` or ``low-storage``. The value is None if
-    ``proof`` names neither of these reductions."""
+    """The conditions that remain after the reduction ``spelling`` or ``low-storage``, or None without these
+    reductions."""
     lower: tuple[OrderCondition, ...] = ()
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
     conditions follow the conditions of the scheme."""
     lower_facts: tuple[tuple[str, int], ...] = ()
-    """The orders of the embedded method, as pairs (family, order). If the embedded method satisfies the
-    conditions in ``lower``, it has at least these orders."""
+    """The orders of the embedded method that the conditions in ``lower`` imply, as pairs (family, order)."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
     ) -> list[Element]:
-        """Return the left-hand side minus the right-hand side of each equation. ``point`` contains the values
-        of the unknowns. The values are elements of ``ring``.
+        """Return the left-hand side minus the right-hand side of each equation.
 
-        If ``places`` is given, only the equations with the indices in ``places`` are evaluated.
+        ``point`` contains the values of the unknowns, as elements of ``ring``. If ``places`` is given, only
+        the equations with these indices are evaluated.
         """
         values = {u.name: x for u, x in zip(self.proof.unknowns, point, strict=True)}
         method, embedded = self.proof.over(ring, values)
@@ -124,9 +120,8 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
     orders = range(1, order + 1, step)
-    # Dependent conditions follow from other conditions, and ``family.conditions`` omits them. Dependence is
-    # tested modulo primes. The proof requires that the omitted conditions are also dependent over the
-    # rationals Q.
+    # ``family.conditions`` omits conditions that are dependent modulo primes. The proof requires that these
+    # conditions are also dependent over the rationals Q.
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
@@ -138,8 +133,7 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
 
 
 def equations(tableau: Tableau) -> Equations:
-    """Return the equations that the ``[proof]`` table of a tableau file specifies. If the table names a
-    reduction, the function tests the assumptions of the reduction.
+    """Return the equations that the ``[proof]`` table of a tableau file specifies.
 
     Raises :class:`NotProved` if the reduction does not apply, and :class:`InputError` for an unknown family.
 
@@ -198,12 +192,8 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions of the embedded method of a low-storage (2N) scheme.
-
-    The result is empty unless the embedded update consists of the exponentials of the method and one
-    additional exponential. The result is also empty if the order of the embedded method exceeds the order in
-    ``proof``.
-    """
+    """Return the conditions of the embedded method of a low-storage (2N) scheme. The result is empty unless
+    the embedded update consists of the exponentials of the method and one additional exponential."""
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
         return ()
@@ -213,9 +203,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the order conditions that are the equations of a proof with ``reduction = "spelling"``. Together
-    with the formulas in the tableau file, these order conditions imply all conditions up to the order in
-    ``proof``."""
+    """Return the conditions that, with the formulas in the tableau file, imply all conditions up to the order
+    in ``proof``."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -230,9 +219,8 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
-    """If the method is a Magnus method on s Gauss nodes and the order in ``proof`` is at most 2s, return s.
-    Otherwise, return None. If a node depends on a rounded decimal, return None, too.
-    """
+    """Return s if the method is a Magnus method on s exact Gauss nodes and the order in ``proof`` is at most
+    2s, else None."""
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:
         return None
@@ -247,10 +235,7 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
 
 
 def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
-    """Return True if the s numbers c_1, ..., c_s in ``nodes`` are proved to be the Gauss nodes on [0, 1].
-
-    The function tests that the polynomial (t - c_1) ... (t - c_s) is orthogonal to all polynomials of degree
-    less than s.
+    """Return True if the numbers in ``nodes`` are proved to be the Gauss nodes on [0, 1].
 
     >>> from orderconds.ring import QQ
     >>> gauss_nodes([QQ.rational(1, 2)], QQ), gauss_nodes([QQ.zero, QQ.one], QQ)
@@ -278,13 +263,11 @@ def _reached(proof: Proof, order: int) -> int:
 
 
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
-    """Return the indices of all equations except identities. An identity holds for all values of the
-    unknowns.
+    """Return the indices of all equations that do not hold for all values of the unknowns.
 
     ``values`` contains one jet for each equation. The jet consists of balls that enclose the function
-    "left-hand side minus right-hand side" and its partial derivatives for all unknowns in a box. If a ball of
-    the jet does not contain zero, the equation is not an identity. All other equations are evaluated exactly,
-    with random numbers for the unknowns (:mod:`orderconds.tableau.random_member`).
+    "left-hand side minus right-hand side" and its partial derivatives for all unknowns in a box. Equations
+    whose balls all contain zero are evaluated exactly, with random numbers for the unknowns.
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

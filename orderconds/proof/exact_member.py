@@ -1,10 +1,11 @@
 """Exact verification that the left-hand side of one order condition is a polynomial in the left-hand sides of
-other conditions. The left-hand sides are evaluated in exact arithmetic for one random method. If the
-polynomial is wrong, the verification fails, except with negligible probability.
+other conditions.
 
-The formulas in a tableau file define a sub-family of methods. A *member* is a method of the sub-family.
-Random members are constructed in :mod:`orderconds.tableau.random_member`. If the only radical in the file is
-sqrt(d), the coefficients of a random member are in Q(sqrt(d)). Otherwise the coefficients are rational.
+The left-hand sides are evaluated in exact arithmetic for one random method. A wrong polynomial passes the
+verification only with negligible probability.
+
+A *member* of a sub-family is a method whose coefficients satisfy the formulas in a tableau file. The
+coefficients of a random member are in Q(sqrt(d)) if sqrt(d) is the only radical in the file, else in Q.
 """
 
 from __future__ import annotations
@@ -30,24 +31,23 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 
 Reading = Callable[[Method, Ring], Method]
 """A function that converts a method from the format of the tableau file to the format in which a family
-evaluates its conditions. The arguments are the method and the ring of the coefficients."""
+evaluates its conditions."""
 
 Monomial = tuple[OrderCondition, ...]
 """A product of left-hand sides of conditions, represented by the tuple of the conditions."""
 
 Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
 """A polynomial in the left-hand sides of conditions, as a map from monomials to coefficients. A pair (x, y)
-is the coefficient x + y sqrt(d), where sqrt(d) is the only square root in the formulas of the tableau
-file."""
+is the coefficient x + y sqrt(d), where sqrt(d) is the only square root in the formulas."""
 
 
 @dataclass(frozen=True)
 class Surd:
     """A square root that is the only radical in the formulas of a tableau file.
 
-    - ``radicand``: the rational number under the root.
-    - ``ring``: the field Q(sqrt(d)), where d is the radicand.
-    - ``root``: the element sqrt(d) of the field ``ring``.
+    - ``radicand``: the rational number d under the root.
+    - ``ring``: the field Q(sqrt(d)).
+    - ``root``: the element sqrt(d) of ``ring``.
     """
 
     radicand: Fraction
@@ -100,12 +100,11 @@ class ExactMember:
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
         """Return True if ``condition`` follows from the other conditions that occur in the polynomial
-        ``combination``. Return False if ``combination`` is None.
+        ``combination``.
 
-        The left-hand sides of the other conditions are inserted into the polynomial. The value must be the
-        left-hand side of ``condition``. The same must hold for the right-hand sides. The left-hand sides are
-        evaluated only for this random member. If the result is True, the probability of an error is
-        negligible.
+        The polynomial must hold for the left-hand sides of this random member and for the right-hand sides.
+        If the result is True, the probability of an error is negligible. Return False if ``combination`` is
+        None.
         """
         if combination is None:
             return False
@@ -127,11 +126,10 @@ def exact_member(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> ExactMember | None:
-    """Evaluate the left-hand sides of ``conditions`` for a random member (method) of a sub-family, and return
-    them as an :class:`ExactMember`.
+    """Return the left-hand sides of ``conditions`` for a random member of the sub-family ``symbolic``.
 
-    ``symbolic`` describes the sub-family, and ``draws`` generates the random numbers. ``surd`` is the result
-    of :func:`lone_square_root`. Return None if the numbers become too large or if a divisor is zero.
+    ``surd`` is the result of :func:`lone_square_root`. Return None if the numbers become too large or a
+    divisor is zero.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -164,8 +162,8 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """The field Q(sqrt(d)), in which the formulas of a tableau file are evaluated. To construct a random
-    member, random numbers are used instead of the rounded decimals and the roots of polynomials."""
+    """The field Q(sqrt(d)), with random numbers in place of the rounded decimals and the roots of
+    polynomials."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd

@@ -1,8 +1,7 @@
 """Theorems that derive the order of a method in one family from its proved orders in other families.
 
 A fact is a pair (label of a family, order): the method has at least this order in the family. Order 4 in
-``cg`` implies order 4 in ``rk``, because a vector space is a Lie group under addition. Each family states its
-theorems: :attr:`~orderconds.families.Family.implies` and :meth:`~orderconds.families.Family.implied_order`.
+``cg`` implies order 4 in ``rk``, because a vector space is a Lie group under addition.
 """
 
 from __future__ import annotations
@@ -58,10 +57,8 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
     """Return the exact order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. Suppose that
-    every method of order n in ``family`` has order n in a second family. Then the exact order in the second
-    family is an upper bound of the order in ``family``. The order is determined if a lower bound is equal to
-    an upper bound.
+    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. If order n in
+    ``family`` implies order n in a second family, the exact order in the second family is an upper bound.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

@@ -1,15 +1,13 @@
 """Krawczyk's operator. With ball arithmetic, it proves that a square system has exactly one zero in a box.
 
-Let F: R^n -> R^n, let X be a box with midpoint x, and let Y be a matrix. In this module, Y is an approximate
-inverse of the Jacobian matrix at x. Krawczyk's operator K is
+Let F: R^n -> R^n, let X be a box with midpoint x, and let Y be an approximate inverse of the Jacobian matrix
+at x. Krawczyk's operator K is
 
     K(X) = x - Y F(x) + (I - Y F'(X)) (X - x).
 
 Here I is the identity matrix, and F'(X) is a ball matrix that contains the Jacobian matrix of F at every
-point of X. If K(X) lies in the interior of X, then F has exactly one zero in X. The zero lies in K(X). The
-Jacobian matrix of F is regular at every point of X (Krawczyk 1969; Neumaier, *Interval Methods for Systems of
-Equations*, Theorem 5.1.8). Repeated application of K shrinks the box to the working precision. The
-convergence is quadratic.
+point of X. If K(X) lies in the interior of X, then F has exactly one zero in X. The zero lies in K(X)
+(Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, Theorem 5.1.8).
 """
 
 from __future__ import annotations
@@ -22,9 +20,8 @@ from orderconds.ring.jets import Jet, Jets
 from orderconds.ring.precision import precision
 
 System = Callable[[Sequence[Jet], Jets], Sequence[Jet]]
-"""A system of n functions of n variables. A jet is a value with its gradient. The first argument contains
-one jet for each variable. The second argument is the ring of the jets. The result contains one jet for each
-function."""
+"""A system of n functions of n variables. The arguments are one jet (a value with its gradient) for each
+variable, and the ring of the jets."""
 
 MAX_SWEEPS = 40
 
@@ -34,11 +31,10 @@ class NotProved(Exception):
 
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
-    """Return balls that enclose the only zero of ``system`` in ``box``. An iteration with a precision of
-    ``bits`` bits reduces the radii of the balls. The iteration ends when a step halves none of the radii, or
-    after :data:`MAX_SWEEPS` steps.
+    """Return balls that enclose the only zero of ``system`` in ``box``.
 
-    Raises :class:`NotProved` if Krawczyk's operator does not map the box into the interior of the box.
+    An iteration with a precision of ``bits`` bits reduces the radii of the balls. Raises :class:`NotProved`
+    if Krawczyk's operator does not map the box into the interior of the box.
 
     >>> with precision(128):
     ...     (root,) = enclose(lambda x, ring: [x[0] * x[0] - 2], [arb(1.4142, 1e-3)], 128)
@@ -62,8 +58,8 @@ def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
 
 
 def _image(system: System, box: Sequence[arb]) -> list[arb]:
-    """Return the value of Krawczyk's operator for a box (see the module docstring). Raise :class:`NotProved`
-    if the system is not square, or if the Jacobian at the midpoint is singular."""
+    """Return the value of Krawczyk's operator for a box. Raise :class:`NotProved` if the system is not
+    square, or if the Jacobian at the midpoint is singular."""
     middle = [x.mid() for x in box]
     at_middle = jets(system, middle)
     over_box = jets(system, box)
@@ -90,8 +86,7 @@ def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
 
 
 def inverse(matrix: arb_mat) -> arb_mat:
-    """Return an approximate inverse of a square matrix of balls. The inverse is computed in
-    ball arithmetic, and each ball is replaced by its midpoint.
+    """Return an approximate inverse, with entries of radius zero, of a square matrix of balls.
 
     Raises :class:`NotProved` if the balls may contain a singular matrix.
 

@@ -1,8 +1,7 @@
 """Newton's method in high precision, starting from the digits in a tableau file.
 
 If there are more decimals than equations, Newton's method changes only some of the decimals. Gaussian
-elimination with complete pivoting, applied to the Jacobian matrix, selects the decimals that change. The
-digits of the remaining decimals, the pins, do not change.
+elimination with complete pivoting, applied to the Jacobian matrix, selects the decimals that change.
 """
 
 from __future__ import annotations
@@ -45,12 +44,10 @@ class Refined:
 
 
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
-    """Compute the unknowns of the ``[proof]`` table of a tableau file to ``digits`` decimal places. ``text``
-    is the text of the file.
+    """Compute the unknowns of the ``[proof]`` table of a tableau file to ``digits`` decimal places.
 
-    The result contains the text of a new file. If there are more unknowns than independent equations, some
-    unknowns keep their decimals. The list ``pins`` of the new file contains the names of the unknowns that
-    do not change. The table ``[proof.printed]`` contains the original digits.
+    If there are more unknowns than independent equations, some unknowns keep their decimals: the ``pins`` of
+    the new file. The table ``[proof.printed]`` contains the original digits.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
     decimals.
@@ -70,8 +67,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # ``independent`` omits equations that hold for all values of the unknowns. Its second argument
-        # encloses the values of the equations over a box around the decimals.
+        # The second argument of ``independent`` encloses the values of the equations over a box around the
+        # decimals.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -86,14 +83,11 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 
 
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
-    """Select one unknown for each equation. Return the indices of the selected unknowns in ascending
-    order.
+    """Select one unknown for each equation, and return their indices in ascending order.
 
-    Each row of ``jacobian`` contains the derivatives of one equation. The function divides each row by its
-    largest entry. Gaussian elimination with complete pivoting selects the unknowns.
-
-    If a pivot is smaller than 1e-8, the equations can be dependent. In this case, the function raises
-    :class:`~orderconds.proof.krawczyk.NotProved`.
+    Each row of ``jacobian`` contains the derivatives of one equation. Gaussian elimination with complete
+    pivoting selects the unknowns, after each row is divided by its largest entry. Raises
+    :class:`~orderconds.proof.krawczyk.NotProved` if a pivot is smaller than 1e-8.
 
     >>> determined([[arb(0), arb(2), arb(1)]])
     [1]
@@ -155,9 +149,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
-    """Return the text of the new tableau file. ``decimals`` maps names of decimals to their new digits. The
-    list ``pins`` of the new file contains the names in ``pinned``. The table ``[proof.printed]`` contains the
-    original digits."""
+    """Return the text of the new tableau file with the digits ``decimals``, the pins ``pinned``, and the
+    original digits in ``[proof.printed]``."""
     record = dict[str, str]()
     for unknown in proof.unknowns:
         if unknown.name not in decimals:
@@ -188,7 +181,7 @@ def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequen
 
 
 def _header(line: str) -> str:
-    """Return the name of the table in a TOML header line. Return an empty text for other lines.
+    """Return the name of the table in a TOML header line, or an empty text for other lines.
 
     >>> _header("[ proof . printed ]  # as the source has them"), _header('pins = ["a"]')
     ('proof.printed', '')

@@ -1,15 +1,12 @@
-"""The independent conditions of a sub-family of methods. If the table ``[proof]`` of a tableau file contains
-``reduction = "spelling"``, these conditions are the equations for the unknown coefficients in the file.
+"""The independent conditions of a sub-family of methods.
 
-Formulas such as ``b3 = "1 - b1 - b2"`` in the file restrict a family to a sub-family. In the sub-family,
-fewer conditions are independent. A condition is omitted if it follows from retained conditions. The
-left-hand side of an omitted condition is a polynomial in the left-hand sides of retained conditions. The same
-polynomial in the right-hand sides gives the right-hand side of the omitted condition.
+Formulas such as ``b3 = "1 - b1 - b2"`` in a tableau file restrict a family to a sub-family. In the
+sub-family, the left-hand side of an omitted condition is a polynomial in the left-hand sides of retained
+conditions. The same polynomial in the right-hand sides gives the right-hand side of the omitted condition.
 
-The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). A polynomial can be correct
-modulo the primes and wrong over Q. Therefore each polynomial is verified in exact arithmetic for one random
-method of the sub-family. A wrong polynomial passes this verification only with negligible probability
-(:mod:`orderconds.proof.exact_member`). A condition without a verified polynomial is retained.
+The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). Each polynomial is verified
+in exact arithmetic for one random method (:mod:`orderconds.proof.exact_member`). A wrong polynomial passes
+this verification only with negligible probability.
 """
 
 from __future__ import annotations
@@ -26,12 +23,11 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 def independent_conditions(
     family: Family, symbolic: SymbolicCoefficients, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
-    """Return the independent conditions of a sub-family. If a method of the sub-family satisfies these
-    conditions, it satisfies all conditions up to ``order``.
+    """Return conditions that imply all conditions up to ``order`` for the methods of the sub-family
+    ``symbolic``.
 
-    ``symbolic`` describes the sub-family. ``read(method, ring)`` converts a method with coefficients in
-    ``ring`` to the format in which ``family`` evaluates its conditions. If ``read`` is None, the method is
-    not converted.
+    ``read(method, ring)`` converts a method with coefficients in ``ring`` to the format in which ``family``
+    evaluates its conditions. If ``read`` is None, the method is not converted.
 
     >>> from orderconds import families
     >>> from orderconds.tableau import Tableau
