@@ -3,15 +3,12 @@ claims.
 
 The flags ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
 ``--orderconds-execute`` and ``--orderconds-tolerance`` correspond to options of ``orderconds check``. Each of
-these flags except ``--orderconds-tolerance`` activates the plugin, and so does ``--orderconds``. Without an
-activating flag, the plugin does nothing.
+these flags except ``--orderconds-tolerance`` activates the plugin, and so does ``--orderconds``.
 
-Files without a tableau are skipped. At the end, pytest prints the names of the skipped files and the reasons.
-If a tableau does not claim an order, its test is skipped. With ``--orderconds-require-claims``, the test
-fails instead.
+Files without a tableau are skipped. If a tableau does not claim an order, its test is skipped, or fails with
+``--orderconds-require-claims``.
 
-A Python file that contains a tableau is parsed and not imported. The file is executed only with
-``--orderconds-execute``.
+A Python file is executed only with ``--orderconds-execute``.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Scalars with a common interface: rationals, algebraic numbers, balls, power series, residues, polynomials.
 
-The algorithms of ``orderconds`` use only the interface :class:`Ring`. Therefore each algorithm can compute
-with all these scalars. The names in ``__all__`` are imported on first use (PEP 562). Outside
-``orderconds.ring``, only the modules under ``ignore_imports`` in pyproject.toml may import python-flint.
+The algorithms of ``orderconds`` use only the interface :class:`Ring`. Outside ``orderconds.ring``, only the
+modules under ``ignore_imports`` in pyproject.toml may import python-flint.
 """
 
 from __future__ import annotations

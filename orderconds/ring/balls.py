@@ -1,8 +1,6 @@
 """Rigorous enclosures of real numbers by balls of the library Arb, with a fixed working precision.
 
-A ball is an interval, given by a midpoint and a radius. The ball represents a real number x. It is only known
-that x is in the interval. If the midpoint and the radius are zero, x is zero. If the interval contains zero
-and other numbers, it is not known whether x is zero.
+A ball is an interval, given by a midpoint and a radius. The ball represents a real number in the interval.
 """
 
 from __future__ import annotations
@@ -108,8 +106,8 @@ class Balls:
     def text(self, x: Ball) -> str:
         """Return x as the text of a coefficient in a tableau file.
 
-        A ball with radius zero is written exactly. A ball with positive radius is written as a decimal that
-        ends with ``~``. The mark ``~`` means an error of at most one unit in the last digit.
+        A ball with radius zero is written exactly. Otherwise the decimal ends with ``~``, which means an
+        error of at most one unit in the last digit.
 
         >>> R = Balls(64)
         >>> R.text(R.rational(-3, 8)), R.text(R.around(fmpq(81772, 100000), fmpq(1, 100000)))
@@ -157,8 +155,7 @@ class Enclosures:
 
     The caller sets the working precision in a block ``with precision(bits)``. Arithmetic is faster than in
     :class:`Balls`. Every operation gives the same ball as in :class:`Balls`, with one exception: division by
-    a ball that contains zero returns a ball that is not finite. In :class:`Balls`, this division raises an
-    error.
+    a ball that contains zero returns a ball that is not finite.
 
     >>> with precision(128):
     ...     R = Enclosures(128)
@@ -198,7 +195,7 @@ class Enclosures:
 
 
 def _magnitude(x: arb) -> int:
-    # abs(x) would be rounded to the working precision. The mantissa and the exponent are exact integers.
+    # abs(x) would be rounded to the working precision.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
 
@@ -206,11 +203,10 @@ def _magnitude(x: arb) -> int:
 def _supported_places(radius: fmpq) -> int:
     """Return the largest integer d with 10^-d >= 2 ``radius``.
 
-    Let a ball have this radius, and round its midpoint to d decimal places. The rounded midpoint differs from
-    each number in the ball by at most 10^-d.
+    The midpoint of a ball, rounded to d decimal places, is then within 10^-d of each number in the ball.
     """
-    # ``radius.p`` and ``radius.q`` are flint integers. They are not converted to Python integers, because
-    # ``str`` of a Python integer is limited to 4300 digits.
+    # ``radius.p`` and ``radius.q`` stay flint integers, because ``str`` of a Python integer is limited to
+    # 4300 digits.
     places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:
         places -= 1

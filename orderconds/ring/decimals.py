@@ -13,8 +13,7 @@ from flint import arb, fmpq, fmpz
 
 Rounded = TypeVar("Rounded", str, float)
 Enclosure = Callable[[int], arb]
-"""A function that represents a real number. The argument is a precision in bits. The result is a ball
-(interval) that contains the real number."""
+"""A function from a precision in bits to a ball (interval) that contains a fixed real number."""
 
 
 def endpoints(ball: arb) -> tuple[fmpq, fmpq]:
@@ -45,8 +44,7 @@ def rational_decimal(x: fmpq, digits: int) -> str:
     p, q = abs(int(x.p)), int(x.q)
     if p == 0:
         return "0"
-    # The exponent e of p/q satisfies 10^e <= p/q < 10^(e+1). If p has m digits and q has n digits, then e is
-    # m - n or m - n - 1.
+    # If p has m digits and q has n digits, then 10^(m-n-1) < p/q < 10^(m-n+1).
     exponent = len(_figures(p)) - len(_figures(q))
     if p * 10 ** max(-exponent, 0) < q * 10 ** max(exponent, 0):
         exponent -= 1
@@ -63,14 +61,13 @@ def rational_decimal(x: fmpq, digits: int) -> str:
 
 
 def _figures(n: int) -> str:
-    """Return the decimal digits of n. The conversion uses flint, because ``str`` of a Python integer is
-    limited to 4300 digits."""
+    """Return the decimal digits of n, without the limit of 4300 digits of ``str`` for a Python integer."""
     return str(fmpz(n))
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Return a decimal number as text. ``figures`` contains its digits without the point. The first
-    digit is multiplied by 10^exponent."""
+    """Return the decimal number with the digits ``figures`` as text. The first digit is multiplied by
+    10^exponent."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures
     if 0 <= exponent < 25:

@@ -1,8 +1,8 @@
 """Pseudorandom numbers, computed with the hash function SHA-256.
 
-Some randomised proofs test identities at random points or modulo a random prime. The random numbers are
-computed from a description of the coefficients in the tableau file. Fixed numbers would be unsafe: somebody
-who knows the numbers could choose coefficients for which a false identity passes the test.
+The random numbers for randomised proofs are computed from a description of the coefficients in the tableau
+file. Fixed numbers would be unsafe: somebody who knows the numbers could choose coefficients for which a
+false identity passes the test.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ class Draws:
     def primes(self, bits: int, avoided: Iterable[int] = ()) -> Iterator[int]:
         """Yield different primes p that have ``bits`` binary digits and are congruent to 3 modulo 4.
 
-        Square roots modulo p are easy to compute: if x is a square modulo p, then x^((p + 1)/4) is a square
-        root of x. Primes that divide a non-zero number in ``avoided`` are skipped.
+        If x is a square modulo p, then x^((p + 1)/4) is a square root of x. Primes that divide a non-zero
+        number in ``avoided`` are skipped.
 
         >>> next(Draws("one file").primes(61)).bit_length()
         61

@@ -2,10 +2,10 @@
 
 A field Q(a) is defined by the minimal polynomial of a real number a and by a function that computes balls
 around a. An element of the field is represented by a polynomial in a, of smaller degree than the minimal
-polynomial. An element is zero if and only if the polynomial that represents it is zero.
+polynomial.
 
-The class :class:`orderconds.ring.tower.Tower` constructs a sequence of fields by adjoining one root after
-another. If an operation combines elements of two fields of a tower, the result lies in the larger field.
+If an operation combines elements of two fields of a tower (:class:`orderconds.ring.tower.Tower`), the result
+lies in the larger field.
 """
 
 from __future__ import annotations
@@ -23,17 +23,14 @@ from orderconds.ring.protocol import Element, Key
 from orderconds.ring.roots import isolating
 
 LARGE = 8
-"""In fields of at least this degree, 1/x is computed from a linear system. In fields of lower degree, 1/x is
-computed by Euclid's algorithm."""
+"""In fields of at least this degree, 1/x is computed from a linear system, not by Euclid's algorithm."""
 
 REMEMBERED = 1000
-"""The maximal number of elements in the cache of a field. The cache stores elements that were converted from
-smaller fields."""
+"""The maximal size of a field's cache of elements that were converted from smaller fields."""
 
 
 class Generator(Struct, frozen=True):
-    """A root that is adjoined to a field. The root is a radical or a named root. A tableau file defines a
-    named root by a polynomial.
+    """A root that is adjoined to a field. The root is a radical or a named root of a polynomial.
 
     - ``index``: n for an n-th root, and 0 for a named root.
     - ``symbol``: the radicand of a radical as text, or the name of a named root.
@@ -58,8 +55,8 @@ class Generator(Struct, frozen=True):
 
 
 class NumberField:
-    """The real field Q(a) for a real root a of the irreducible polynomial ``modulus``. The root a is called
-    the primitive element. The function ``enclosure(bits)`` returns a ball around a.
+    """The real field Q(a), where the primitive element a is a real root of the irreducible polynomial
+    ``modulus``. The function ``enclosure(bits)`` returns a ball around a.
 
     - ``generators``: the roots that were adjoined to Q, in the order in which they were adjoined.
     - ``images``: the generators as polynomials in a.
@@ -94,8 +91,7 @@ class NumberField:
 
     @cached_property
     def _identity(self) -> Key:
-        """A triple: the name of the field, the polynomial ``modulus`` and the named roots. Two fields are
-        equal if and only if the triples of the two fields are equal."""
+        """Two fields are equal if and only if these triples of the fields are equal."""
         return self.name, str(self.modulus), self.named_roots
 
     def __eq__(self, other: object) -> bool:
@@ -121,8 +117,8 @@ class NumberField:
         return bool(x.polynomial.is_zero())
 
     def lift(self, x: Algebraic) -> Algebraic:
-        """Return x as an element of this field. The number x may be an element of this field, or of a
-        smaller field in the tower of this field. TypeError is raised for elements of other fields."""
+        """Return x as an element of this field. TypeError is raised unless x is an element of this field or
+        of a smaller field in its tower."""
         if x.field == self:
             return x
         if self.parent is None or self.parent_image is None or x.field.height >= self.height:
@@ -145,8 +141,8 @@ class NumberField:
 
     @cached_property
     def _parent_powers(self) -> tuple[fmpq_poly, ...]:
-        """A basis of the parent field over Q: the powers of the parent's primitive element. Each power is
-        given as a polynomial in the primitive element of this field."""
+        """The powers of the parent's primitive element, as polynomials in the primitive element of this
+        field."""
         assert self.parent is not None
         powers = [fmpq_poly([1])]
         for _ in range(self.parent.degree - 1):
@@ -165,8 +161,8 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """A basis of the field over Q. The basis elements are products of powers of the generators. A product
-        is represented by the tuple of its exponents."""
+        """The exponent tuples of a basis of the field over Q. The basis elements are products of powers of
+        the generators."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 
@@ -274,8 +270,8 @@ class Algebraic:
         >>> x.minimal_polynomial
         x^4 + (-10)*x^2 + 1
         """
-        # Multiplication by this number is a linear map of the field. The characteristic polynomial of the
-        # map is a power of the minimal polynomial of the number.
+        # The characteristic polynomial of the multiplication by a number is a power of the number's minimal
+        # polynomial.
         factor = _columns(self._multiples(), self.field.degree).charpoly().factor()[1][0][0]
         return factor / factor.leading_coefficient()
 
@@ -340,9 +336,7 @@ class Algebraic:
         return self.polynomial.xgcd(self.field.modulus)[1]
 
     def _solved(self) -> fmpq_poly:
-        """Return the polynomial that represents the inverse of this number. The coefficients are the
-        solution of a linear system. In fields of high degree, this method is faster than Euclid's
-        algorithm."""
+        """Return the polynomial that represents the inverse of this number, by solving a linear system."""
         degree = self.field.degree
         unit = fmpq_mat(degree, 1, [1] + [0] * (degree - 1))
         return fmpq_poly(_columns(self._multiples(), degree).solve(unit).entries())
@@ -373,7 +367,7 @@ class Algebraic:
     def __eq__(self, other: object) -> bool:
         try:
             pair = self._pair(other)
-        except TypeError:  # The fields are in different towers. Then the numbers count as unequal.
+        except TypeError:  # The fields are in different towers.
             return False
         return pair is not None and bool(pair[0].polynomial == pair[1].polynomial)
 
@@ -411,6 +405,6 @@ def substituted(polynomial: fmpq_poly, at: fmpq_poly, modulus: fmpq_poly) -> fmp
 
 
 def _columns(polynomials: list[fmpq_poly], degree: int) -> fmpq_mat:
-    """Return a matrix with ``degree`` rows. Each column contains the coefficients of one polynomial."""
+    """Return the matrix with ``degree`` rows whose columns contain the coefficients of the polynomials."""
     rows = [[p[i] for p in polynomials] for i in range(degree)]
     return fmpq_mat(degree, len(polynomials), [x for row in rows for x in row])

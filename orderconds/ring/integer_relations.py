@@ -1,10 +1,10 @@
 """Lattice reduction that finds integer relations between approximate numbers.
 
 An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Let N be a large
-number, and let e_k be the unit vectors. Append the number N x_k, rounded to an integer, to each vector e_k.
-The extended vectors span a lattice. A relation with small integers c_k gives a short vector of the lattice.
-The algorithm of Lenstra, Lenstra and Lovasz (1982) finds short vectors. The result is only a candidate,
-because the numbers are approximate. The caller must prove the relation for the exact numbers.
+number, and let e_k be the unit vectors. The vectors (e_k, N x_k), with N x_k rounded to an integer, span a
+lattice. A relation with small integers c_k gives a short vector of the lattice. The algorithm of Lenstra,
+Lenstra and Lovasz (1982) finds short vectors. The result is only a candidate, because the numbers are
+approximate.
 """
 
 from __future__ import annotations
@@ -16,17 +16,14 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""A safety margin in bits. Random numbers can have an approximate integer relation by chance. Suppose that
-:func:`relation` has found a relation. Let P be the probability that random numbers have a relation with
-equally small integers and an equally small error. If P is larger than about 2^-GUARD, :func:`relation`
-returns None."""
+"""A safety margin in bits. :func:`relation` rejects a relation if random numbers have an equally small
+relation with a probability above about 2^-GUARD."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
-    """Return an approximate integer relation of the numbers in ``values``. Return None if none is found.
+    """Return small integers c_k such that the absolute value of sum_k c_k x_k is a small multiple of 2^-bits.
 
-    Let x_k be the numbers in ``values``. The result contains small integers c_k. The absolute value of
-    sum_k c_k x_k is a small multiple of 2^-bits.
+    The x_k are the numbers in ``values``. Return None if no such integers are found.
 
     >>> root = Fraction(2**0.5)
     >>> relation([root / 2 - 1, Fraction(1), root], 50)
@@ -64,9 +61,8 @@ def root_of(d: int, bits: int) -> Fraction:
 def quadratic_field(x: Fraction, bits: int) -> int | None:
     """Return a square-free integer d > 1 such that x is close to an irrational element of Q(sqrt(d)).
 
-    The function finds a quadratic polynomial with small integer coefficients. The element of Q(sqrt(d)) is a
-    root of the polynomial. The value of the polynomial at x is a small multiple of 2^-bits. Return None if no
-    such element is found.
+    The element is a root of a quadratic polynomial with small integer coefficients. The value of the
+    polynomial at x is a small multiple of 2^-bits. Return None if no such element is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

@@ -18,7 +18,7 @@ from orderconds.ring.protocol import Element
 
 class Jets:
     """The ring whose elements enclose the value and the gradient of a function of ``width`` variables. The
-    balls of the variables (:meth:`variable`) form a box. The enclosures hold at all points of this box.
+    enclosures hold at all points of the box formed by the balls of the variables (:meth:`variable`).
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(64):
@@ -39,8 +39,7 @@ class Jets:
         return self.name
 
     def variable(self, place: int, value: arb) -> Jet:
-        """Return the variable with index ``place``. The ball ``value`` encloses the variable. The partial
-        derivative with index ``place`` is 1, and all other partial derivatives are 0."""
+        """Return the variable with index ``place``, enclosed by the ball ``value``."""
         return Jet(value, self.width, arb_mat(1, self.width, [int(k == place) for k in range(self.width)]))
 
     def constant(self, value: arb) -> Jet:
@@ -54,8 +53,7 @@ class Jets:
     def root(self, x: Jet, index: int) -> Jet:
         """Return the real ``index``-th root of x.
 
-        If the index is even, all numbers in the ball ``x.value`` must be positive. If the index is odd, the
-        ball must not contain zero. Otherwise ValueError is raised.
+        Raises ValueError if the ball ``x.value`` contains zero, or a negative number for an even ``index``.
         """
         negative = x.value < 0
         if not (x.value > 0 or (negative and index % 2)):
@@ -69,8 +67,7 @@ class Jets:
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Jet:
         """Return the only real root of ``minpoly`` (ascending coefficients) in [near - unit, near + unit].
 
-        The root is a constant, so the gradient of the result is zero. Raises ValueError if the interval does
-        not contain exactly one root.
+        Raises ValueError if the interval does not contain exactly one root.
         """
         return self.constant(Balls(working_bits()).named_root(minpoly, near, unit, name).value)
 

@@ -1,9 +1,7 @@
 """Laurent polynomials over Q: polynomials in which negative powers of the variables are allowed.
 
-Conditions for a fixed number of stages are expanded in the ring of Laurent polynomials. The formulas of some
-families (``sprk``, ``vcg``) contain divisions by the weights b_i. The weights are variables of the ring. An
-element is a flint polynomial divided by a monomial, in lowest terms. Hence equal elements have equal
-numerators and equal denominators.
+The formulas of some families (``sprk``, ``vcg``) contain divisions by the weights b_i. An element is a flint
+polynomial divided by a monomial, in lowest terms.
 """
 
 from __future__ import annotations
@@ -43,8 +41,7 @@ class LaurentPolynomials:
         return Laurent(self, self._context.constant(fmpq(p, q)), self.unit)
 
     def monomial(self, exponents: Exponents, scale: Element = 1) -> fmpq_mpoly:
-        """Return ``scale`` times a monomial. ``exponents`` contains the exponents of the variables. The
-        exponents must not be negative."""
+        """Return ``scale`` times the monomial with the given nonnegative exponents."""
         return self._context.from_dict({exponents: scale})
 
     def is_zero(self, x: Laurent) -> bool:

@@ -1,23 +1,21 @@
 """Vectors with one entry for each stage, represented by rational polynomials in the nodes.
 
 Suppose that the nodes c_1, ..., c_s of a method are different, and that they are the roots of a polynomial M
-of degree s over Q. The nodes of Gauss, Radau and Lobatto methods have this property. Each vector with s
-entries then has the form (p(c_1), ..., p(c_s)) for exactly one polynomial p of degree below s. The
-componentwise product of two vectors corresponds to the product of their polynomials modulo M. Let A be
-the matrix of the method. The polynomial of the vector A v depends linearly on the polynomial of the vector v.
+of degree s over Q. Each vector with s entries then has the form (p(c_1), ..., p(c_s)) for exactly one
+polynomial p of degree below s. The componentwise product of two vectors corresponds to the product of their
+polynomials modulo M.
 
-Let b be the vector of the weights, and let c^k be the vector of the powers c_i^k. The module requires two
-more properties of the method:
+Let A be the matrix of the method, b the vector of the weights, and c^k the vector of the powers c_i^k. The
+module requires two more properties of the method:
 
 - The polynomial of each vector A c^k has rational coefficients.
 - Each number sum_i b_i c_i^k is rational.
 
 Order conditions of such a method can be computed with rational polynomials. Rational arithmetic is faster
-than arithmetic in a large number field: five Radau nodes generate a field of degree 24.
+than arithmetic in a large number field.
 
 Candidates for the rational coefficients are computed with balls (intervals) and then verified exactly in the
-number field. For a collocation method, multiplication by A maps a polynomial p in the variable z to its
-integral from 0 to z, modulo M. For other methods, :class:`NodalAlgebra` adds corrections to the integral.
+number field.
 """
 
 from __future__ import annotations
@@ -33,9 +31,7 @@ from orderconds.ring.precision import precision
 from orderconds.ring.protocol import Element, Ring
 
 BITS = 512
-"""The precision, in bits, of the polynomial interpolation at the nodes. The interpolation returns a ball
-around each coefficient. Among the rational numbers in the ball, one with the smallest denominator is the
-candidate for the coefficient."""
+"""The precision, in bits, of the polynomial interpolation at the nodes."""
 
 Matrix = Sequence[Sequence[Element]]
 
@@ -43,8 +39,7 @@ Matrix = Sequence[Sequence[Element]]
 class NodalAlgebra:
     """The algebra Q[z]/M of a method, where M is the monic polynomial whose roots are the nodes c_i.
 
-    A polynomial p represents the vector with the entries p(c_i). Multiplication by a matrix of the method is
-    a linear map from Q[z]/M to itself. The scalar product with the weights is a linear map from Q[z]/M to Q.
+    A polynomial p represents the vector with the entries p(c_i).
 
     For a collocation method, multiplication by the matrix gives the integral of p from 0 to z, modulo M. The
     scalar product with the weights is the integral of p from 0 to 1. For other methods, two attributes store
@@ -108,9 +103,8 @@ class NodalAlgebra:
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
         """Return the matrices of two linear maps in the basis 1, z, z^2, ... of the algebra.
 
-        Let p represent the vector v. The first map gives the polynomial that represents (A - e b^T) v, and
-        the second map gives the polynomial that represents A v. Here A is the first matrix of the method, b
-        is the vector of the weights, and e is the vector of ones.
+        The maps represent the multiplication of vectors by A - e b^T and by A. Here A is the first matrix of
+        the method, b is the vector of the weights, and e is the vector of ones.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))
@@ -147,8 +141,7 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 
 class _Key:
-    """A cache key for a method. Two keys are equal if the coefficients of both methods are identical Python
-    objects."""
+    """A cache key that compares the coefficients of methods by the identity of the Python objects."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b
@@ -196,8 +189,7 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """A function that interpolates at the nodes with balls. The argument contains the values of a polynomial
-    at the nodes. The result contains a rational candidate for each coefficient of the polynomial."""
+    """A function from the values of a polynomial at the nodes to rational candidates for the coefficients."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)
@@ -236,8 +228,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return the polynomial whose values at the nodes are ``values``. ``guess(values)`` contains a rational
-    candidate for each coefficient. If a candidate differs from the coefficient, return None."""
+    """Return the polynomial with the given values at the nodes, or None if its coefficients are not
+    ``guess(values)``."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

@@ -44,8 +44,8 @@ class PowerSeries:
         return Series(self, (x, *self.zero.coefficients[1:]))
 
     def from_coefficients(self, coefficients: tuple[Element, ...]) -> Series:
-        """Return the series whose first coefficients are ``coefficients``. All later coefficients are zero.
-        Coefficients of powers above h^order are ignored."""
+        """Return the series with the given coefficients of 1, h, h^2, ..., followed by zeros. Coefficients of
+        powers above h^order are ignored."""
         kept = coefficients[: self.order + 1]
         return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
 
@@ -108,7 +108,7 @@ class Series:
         return f"Series({self.ring.text(self)})"
 
     def _constant(self, other: Element) -> Element:
-        """Convert an integer to an element of the base ring. Return an element of the base ring unchanged."""
+        """Return ``other``, converted to the base ring if ``other`` is an integer."""
         return self.ring.base.rational(other) if isinstance(other, int) else other
 
     def _same(self, other: Series) -> tuple[Element, ...]:

@@ -1,7 +1,6 @@
-"""Control of flint's working precision. The working precision is a global variable of the process.
+"""Control of flint's working precision, a global variable of the process.
 
-The project changes the working precision only in blocks ``with precision(bits)``. At the end of a block, the
-previous precision is restored.
+The project changes the working precision only in blocks ``with precision(bits)``.
 """
 
 from __future__ import annotations
@@ -12,8 +11,7 @@ from flint import ctx
 
 
 class precision:  # noqa: N801 - a lower-case name, because the class is used as ``with precision(200):``
-    """A context manager that sets flint's working precision to ``bits`` bits in a ``with`` block. At the end
-    of the block, the previous precision is restored.
+    """A context manager that sets flint's working precision to ``bits`` bits in a ``with`` block.
 
     >>> from flint import arb
     >>> with precision(200):

@@ -1,9 +1,7 @@
-"""The interface of scalar rings. An algorithm that uses only this interface accepts exact, symbolic and
-floating-point scalars, and balls (numbers with error bounds).
+"""The interface of scalar rings.
 
 Elements define the operators ``+ - *`` and unary ``-``. Elements of a field also define ``/``. In an
-operation with two operands, one operand may be a Python ``int``. All other operations are methods of the
-ring object.
+operation with two operands, one operand may be a Python ``int``.
 """
 
 from __future__ import annotations
@@ -17,7 +15,7 @@ Element = Any
 """An element of a ring, or a Python ``int``. Some rings use flint, mpmath or NumPy objects as elements."""
 
 Key = tuple[Any, ...]
-"""A hashable sort key of an element. Keys can be compared if their elements belong to one ring."""
+"""A hashable sort key of an element, comparable with the keys of elements of the same ring."""
 
 
 class Ring(Protocol):

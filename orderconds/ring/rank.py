@@ -12,11 +12,11 @@ from orderconds.ring.residues import Residue
 
 def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
     """Return the indices of the pivot columns of a matrix. A pivot column is not a linear combination of the
-    columns to its left. The number of pivot columns is the rank of the matrix.
+    columns to its left.
 
-    Each column contains the values of one function at random points, one point for each row. The rank of the
-    matrix is at most the number of linearly independent functions. The rank is smaller than this number with
-    a probability of about (number of columns) / prime.
+    Each column contains the values of one function at random points, one point for each row. The number of
+    pivot columns is smaller than the number of linearly independent functions with a probability of about
+    (number of columns) / prime.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)
@@ -28,11 +28,11 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
 
 
 def combinations(columns: Sequence[Residue]) -> dict[int, dict[int, int]]:
-    """Return the columns that are not pivot columns as linear combinations of the pivot columns.
+    """Return the columns that are not pivot columns as linear combinations of the pivot columns
+    (:func:`pivot_columns`).
 
-    A pivot column is not a linear combination of the columns to its left. The result has the form {column:
-    {pivot column: coefficient}}, where columns are denoted by their indices. The coefficients are non-zero
-    residues modulo the prime.
+    The result has the form {column: {pivot column: coefficient}}, where columns are denoted by their indices.
+    The coefficients are non-zero residues modulo the prime.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)

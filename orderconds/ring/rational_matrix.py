@@ -24,8 +24,7 @@ def kernel(rows: Sequence[Row], width: int) -> Iterator[list[tuple[int, Fraction
     is given as a list with a pair (index, entry) for each non-zero entry.
 
     A column of the matrix is a pivot column if it is not a linear combination of the columns to its left. For
-    each column k that is not a pivot column, the basis contains one vector. The first pair of this vector is
-    (k, 1). The indices in its other pairs are indices of pivot columns.
+    each other column k, one vector consists of (k, 1), followed by pairs with indices of pivot columns.
 
     >>> [[(place, str(x)) for place, x in vector] for vector in kernel([[1, 2, 0]], 3)]
     [[(1, '1'), (0, '-2')], [(2, '1')]]

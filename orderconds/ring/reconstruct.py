@@ -10,9 +10,8 @@ from math import isqrt, prod
 def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
     """Return the fraction p/q with the given residues modulo the primes, one residue for each prime.
 
-    Let M be the product of the primes. The bounds are |p| <= sqrt(M/2) and 0 < q <= sqrt(M/2). At most one
-    fraction within the bounds has the given residues. If there is no such fraction, ArithmeticError is
-    raised.
+    The result is the only such fraction with |p| <= sqrt(M/2) and 0 < q <= sqrt(M/2), where M is the product
+    of the primes. Raises ArithmeticError if there is no such fraction.
 
     The fraction is computed by Euclid's algorithm (von zur Gathen and Gerhard, *Modern Computer Algebra*,
     Section 5.10).

@@ -1,8 +1,7 @@
 """Vectors of residues modulo a prime, used to count independent order conditions.
 
-A vector contains the values of one quantity in many random tableaux. The quantity is, for example, a
-coefficient of the tableau or the left-hand side of an order condition. The value in one tableau is a sample.
-The product of two residues must fit in 64 bits. Therefore the prime must be below 2^31.
+A vector contains the values of one quantity in many random tableaux. The prime must be below 2^31, because
+the product of two residues must fit in 64 bits.
 """
 
 from __future__ import annotations

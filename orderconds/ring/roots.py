@@ -14,12 +14,11 @@ from orderconds.ring.precision import precision
 
 
 def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, Enclosure]:
-    """Return a monic irreducible factor of a polynomial, and a function that computes a real root of the
-    factor. The argument of the function is a precision in bits, and the result is a ball around the root.
+    """Return a monic irreducible factor of a polynomial, and the real root of the factor in [near - unit,
+    near + unit].
 
-    The root is the only real root of the polynomial in [near - unit, near + unit]. Raises ValueError if the
-    interval does not contain exactly one root. The ``coefficients`` of the polynomial are listed by
-    ascending powers.
+    Raises ValueError if the interval does not contain exactly one real root of the polynomial. The
+    ``coefficients`` of the polynomial are listed by ascending powers.
 
     >>> factor, root = isolate([fmpq(-2), fmpq(0), fmpq(0), fmpq(1)], fmpq(126, 100), fmpq(1, 100))
     >>> factor, root(64).overlaps(arb(2).root(3))
@@ -30,12 +29,12 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
 
 
 def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -> tuple[list[Fraction], int]:
-    """Return a monic irreducible factor of the polynomial ``minpoly``, and the index of a real root of the
-    factor. The factor and ``minpoly`` are lists of coefficients, by ascending powers.
+    """Return a monic irreducible factor of the polynomial ``minpoly``, and the index of the real root of the
+    factor in [near - unit, near + unit]. The factor and ``minpoly`` are lists of coefficients, by ascending
+    powers.
 
-    The root is the only real root of ``minpoly`` in [near - unit, near + unit]. Raises ValueError if the
-    interval does not contain exactly one root. The real roots of the factor are numbered from 0, in
-    ascending order.
+    Raises ValueError if the interval does not contain exactly one real root of ``minpoly``. The real roots of
+    the factor are numbered from 0, in ascending order.
 
     >>> minpoly = [Fraction(-2), Fraction(0), Fraction(1)]
     >>> coefficients, place = place_of_root(minpoly, Fraction(7, 5), Fraction(1, 10))
@@ -51,11 +50,11 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, int]:
-    """Return a monic irreducible factor of a polynomial, and the index of a real root of the factor.
+    """Return a monic irreducible factor of a polynomial, and the index of the real root of the factor in
+    [near - unit, near + unit].
 
-    The root is the only real root of the polynomial in [near - unit, near + unit]. Raises ValueError if the
-    interval does not contain exactly one root. The real roots of the factor are numbered from 0, in
-    ascending order. The ``coefficients`` of the polynomial are listed by ascending powers.
+    Raises ValueError if the interval does not contain exactly one real root of the polynomial. The real roots
+    of the factor are numbered from 0, in ascending order.
     """
     polynomial = fmpq_poly(list(coefficients))
     if polynomial.degree() < 1:
@@ -104,9 +103,8 @@ def _meets(x: arb, near: fmpq, unit: fmpq) -> bool:
 
 
 def real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
-    """Return balls around the real roots of the polynomial ``monic``, in ascending order. The index of a root
-    in the result does not depend on the precision ``bits``. Despite the name of the parameter, the leading
-    coefficient need not be 1.
+    """Return balls around the real roots of the polynomial ``monic``, in ascending order. Despite the name of
+    the parameter, the leading coefficient need not be 1.
 
     >>> [float(x) for x in real_roots(fmpq_poly([-1, 0, 4]), 64)]
     [-0.5, 0.5]
