@@ -1,9 +1,8 @@
-"""Vectors of residues modulo a prime, without NumPy, because the import of NumPy is slow.
+"""Vectors of residues modulo a prime p, without NumPy, because the import of NumPy is slow.
 
-Let p be the prime. The residues in a vector are called samples. A polynomial over Z/p of degree below n
-represents a vector of n samples: sample k is the value of the polynomial at the point k. The map from vectors
-to polynomials is linear and invertible. Therefore linear dependences between vectors can be computed from the
-coefficients of the polynomials.
+The residues in a vector are called samples. A polynomial over Z/p of degree below n represents a vector of n
+samples: sample k is the value of the polynomial at the point k. The map from vectors to polynomials is linear
+and invertible.
 """
 
 from __future__ import annotations
@@ -66,8 +65,7 @@ class Samples:
 
     def coordinates(self, x: Sample) -> list[int]:
         """Return the coefficients of the polynomial that represents the vector x (module docstring), by
-        ascending powers. The length of the list is the number of entries of x. A linear dependence of vectors
-        of samples is also a linear dependence of their coefficient lists, and conversely."""
+        ascending powers. The length of the list is the number of entries of x."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 
@@ -152,8 +150,7 @@ def echelon(
     combinations of the pivot columns.
 
     A pivot column is not a linear combination of the columns to its left. The second result has the form
-    {column: {pivot column: coefficient}}, where columns are denoted by their indices. The coefficients are
-    non-zero residues modulo ``prime``.
+    {column: {pivot column: coefficient}}, where columns are denoted by their indices.
 
     >>> echelon([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
     ((0, 2), {1: {0: 2}, 3: {0: 3, 2: 1}})

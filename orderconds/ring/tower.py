@@ -7,12 +7,10 @@ steps:
 1. In the algebra K[x]/(p), find an element c whose powers span the algebra over Q. The element is c = x + m a
    with an integer m, or c = a x.
 2. Factor the characteristic polynomial of c over Q.
-3. Insert x = b into c. The result is a real number r. Choose the irreducible factor with the root r. The
-   value of each other factor on a sufficiently small ball around r does not contain zero.
+3. Insert x = b into c. The result is a real number r. Choose the irreducible factor with the root r.
 
 The number r generates K(b). Therefore the degree of the chosen factor is the degree of K(b) over Q. If K(b)
-and K have equal degrees, then K contains b, and K is not extended. For example, if K contains sqrt(2), then
-sqrt(8) is represented as 2 sqrt(2).
+and K have equal degrees, then K contains b, and K is not extended.
 """
 
 from __future__ import annotations
@@ -61,10 +59,9 @@ class Tower:
         return self.field.rational(p, q)
 
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
-        """Return the rational number ``value``, if ``unit`` is 0.
+        """Return the rational number ``value``.
 
-        A positive ``unit`` is the error bound of a rounded decimal. An element of a number field cannot
-        represent a rounded decimal. Therefore a positive ``unit`` raises TypeError.
+        Raises TypeError if ``unit``, the error bound of a rounded decimal, is positive.
         """
         if unit:
             raise TypeError("a number field cannot represent a rounded decimal")
@@ -84,8 +81,7 @@ class Tower:
         return max(int(polynomial.numer().height_bits()), int(polynomial.denom().bit_length()))
 
     def root(self, x: Algebraic, index: int) -> Algebraic:
-        """Return the real ``index``-th root of x. If the field does not contain the root, the root is
-        adjoined to the field.
+        """Return the real ``index``-th root of x, and adjoin the root to the field if necessary.
 
         Raises ValueError if x is negative and ``index`` is even. Raises :class:`DegreeError` if the field
         would become too large.
@@ -102,8 +98,7 @@ class Tower:
         return self._radical(x, index)
 
     def _rational_root(self, x: fmpq, index: int) -> Algebraic:
-        """Return x^(1/index) as a rational number times a root of an integer. For example, the square root of
-        8 becomes 2 sqrt(2)."""
+        """Return x^(1/index) as a rational number times a root of an integer."""
         inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
         outside, rest = fmpz(1), []
         for prime, exponent in _factors(inside):
@@ -137,11 +132,11 @@ class Tower:
         return root
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
-        """Return the real root of a polynomial that lies in the interval [near - unit, near + unit].
-        ``minpoly`` contains the coefficients of the polynomial by ascending powers.
+        """Return the real root of the polynomial ``minpoly`` in the interval [near - unit, near + unit].
+        ``minpoly`` lists the coefficients by ascending powers.
 
-        Raises ValueError if the interval does not contain exactly one root. Raises :class:`DegreeError` if
-        the field would become too large.
+        Raises ValueError if the interval does not contain exactly one root, and :class:`DegreeError` if the
+        field would become too large.
         """
         coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
         centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
@@ -153,8 +148,7 @@ class Tower:
         self, powers: list[Algebraic], enclosure: Enclosure, generator: Callable[[int], Generator]
     ) -> Algebraic:
         """Return a real root b of the equation x^k = sum_j powers[j] x^j, where k = len(powers). The function
-        ``enclosure`` computes balls around b. If the field does not contain b, the field is extended.
-        """
+        ``enclosure`` computes balls around b."""
         field = self.field
         if len(powers) == 1:
             return powers[0]
@@ -200,11 +194,8 @@ class _Relation:
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
     """Find an element c that generates the algebra K[x]/(p) over Q. Here K = Q(a) is ``field``, and p is the
-    polynomial x^k - sum_j powers[j] x^j with k = len(powers).
-
-    Let b be the residue class of x. Return m and the :class:`_Relation` of c. If m is an integer, then
-    c = b + m a. If m is None, then c = a b.
-    """
+    polynomial x^k - sum_j powers[j] x^j with k = len(powers). Return m and the :class:`_Relation` of c, where
+    c = x + m a for an integer m, and c = a x if m is None."""
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)
@@ -232,12 +223,8 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Multiply an element of the algebra Q(a)[x]/(p) by an element c. Let b be the residue class of x. If
-    ``multiplier`` is an integer m, then c = b + m a. If ``multiplier`` is None, then c = a b. The arguments
-    ``powers`` define p, see :func:`_primitive`.
-
-    In ``vector`` and in the result, an element v_0 + v_1 b + v_2 b^2 + ... is the list [v_0, v_1, v_2, ...].
-    """
+    """Multiply an element of the algebra K[x]/(p) by c (:func:`_primitive`, with m = ``multiplier``). An
+    element v_0 + v_1 x + v_2 x^2 + ... is the list [v_0, v_1, v_2, ...]."""
     field = powers[0].field
     top = vector[-1]
     shifted = [x + top * p for x, p in zip([field.zero, *vector[:-1]], powers, strict=True)]
@@ -250,8 +237,8 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
 
 
 def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
-    """Return a matrix over Q. Each list in ``columns`` gives one column: the rational coefficients of its
-    elements, ``degree`` coefficients for each element."""
+    """Return the matrix over Q with one column for each list in ``columns``: the ``degree`` rational
+    coefficients of each element of the list."""
     rows = [
         [column[j].polynomial[i] for column in columns] for j in range(len(columns[0])) for i in range(degree)
     ]
@@ -259,8 +246,8 @@ def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
 
 
 def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
-    """The function ``enclosure`` computes balls around a real root of ``characteristic``. Return the monic
-    irreducible factor of ``characteristic`` that has this root."""
+    """Return the monic irreducible factor of ``characteristic`` with the real root that lies in the
+    balls of ``enclosure``."""
     factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
     bits = 64
     while len(factors) > 1:
@@ -272,8 +259,8 @@ def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
 
 
 def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    """Return the polynomial in ``a`` that is equal to ``b`` in the field Q[x]/(modulus). The element ``a``
-    must generate this field."""
+    """Return the polynomial in ``a`` that is equal to ``b`` in the field Q[x]/(modulus), where ``a``
+    generates this field."""
     degree, power, powers = int(modulus.degree()), fmpq_poly([1]) % modulus, []
     for _ in range(degree):
         powers.append(power)
@@ -284,7 +271,7 @@ def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
     """Return a factorization of a positive integer n, as pairs (factor, exponent). If n has more than 128
-    bits, the last factor may be composite. All other factors are primes."""
+    bits, the last factor may be composite."""
     factors = []
     if n.bit_length() > 128:
         for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):

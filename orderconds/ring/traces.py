@@ -1,8 +1,7 @@
 """A ring that records arithmetic operations as a straight-line program, a program without branches and loops.
 
-If an algorithm runs over this ring, its operations are recorded. The program can be evaluated later for any
-values of the inputs. Equal operations are recorded once. Sums, products and quotients of two constants are
-computed immediately and not recorded. Sums with 0 and products with 0 or 1 are not recorded, either.
+The program can be evaluated later for any values of the inputs. Equal operations are recorded once. Sums,
+products and quotients of two constants are not recorded.
 """
 
 from __future__ import annotations
@@ -15,8 +14,7 @@ from orderconds.ring.power import power
 from orderconds.ring.protocol import Element, RingWithRoots
 
 ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
-"""The kinds of operations. The result of CONSTANT is a rational number. The result of INPUT is one of the
-inputs of the program."""
+"""The kinds of operations."""
 
 
 @dataclass(frozen=True)
@@ -24,8 +22,7 @@ class Operation:
     """One operation of a recorded program.
 
     ``left`` and ``right`` are the indices of the operations that compute the operands. A constant or an input
-    has no operands, and its ``left`` and ``right`` are not used. The meaning of ``value`` depends on
-    ``kind``:
+    does not use ``left`` and ``right``. The meaning of ``value`` depends on ``kind``:
 
     - CONSTANT: the rational number.
     - INPUT: the position of the input among all inputs.
@@ -40,10 +37,10 @@ class Operation:
 
 class Traces:
     """A ring whose arithmetic is recorded as a program with ``width`` inputs. An element is a constant or the
-    result of an operation. The list ``operations`` contains all recorded operations.
+    result of an operation.
 
     In the example, the program has two inputs (kind INPUT = 5), a sum (ADD = 0) and a product (MULTIPLY = 1).
-    The sum x + y is recorded once. The product 0 * x is the constant 0 and is not recorded.
+    The product 0 * x is the constant 0 and is not recorded.
 
     >>> R = Traces(2)
     >>> x, y = R.inputs
@@ -70,8 +67,8 @@ class Traces:
         return Trace(self, place)
 
     def rational(self, p: int, q: int = 1) -> Trace:
-        """Return the constant p/q. The constant itself is not recorded yet. The first recorded operation that
-        has it as an operand also records it, as a CONSTANT."""
+        """Return the constant p/q. The constant is recorded together with the first operation that uses
+        it."""
         return Trace(self, -1, Fraction(p, q))
 
     def is_zero(self, x: Trace) -> bool:

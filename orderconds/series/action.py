@@ -10,17 +10,12 @@ Let b_i be the weight of stage i. The coefficients of the trees in the expansion
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [(u, x, v) at stage j]``,
 - ``psi_{L(w)}(i) = (1/b_i) [(x, reverse(w)) at the update]``.
 
-Here Phi_w(i) is the coefficient of the word w in the group element of stage i. The word reverse(w) has the
-letters of w in reverse order. The formulas for psi contain an additional letter x. It is added to the
-velocity xi_i of stage i: the sum xi_i + x replaces xi_i in all group elements. Square brackets denote the
-coefficient of a word in the group element of stage j or of the update, after this replacement. The word (u,
-x, v) consists of the letters of u, the letter x, and the letters of v.
+Here Phi_w(i) is the coefficient of the word w in the group element of stage i. The formulas for psi contain
+an additional letter x: xi_i + x replaces the velocity xi_i of stage i in all group elements. Square brackets
+denote the coefficient of a word in the group element of stage j or of the update, after this replacement.
 
 The order condition of a tree t is: ``sum_i b_i tau_t(i)`` is equal to the coefficient of t in the exact flow.
 A method has order n if and only if the conditions of all trees t = (w, M) with at most n vertices hold.
-
-In this module the group elements are products of exponentials (the families ``vcg`` and ``vcf``). In
-:mod:`orderconds.series.action_lie` the group elements are exponentials of Lie series.
 """
 
 from __future__ import annotations
@@ -45,11 +40,10 @@ Row = tuple[Exponential, ...]
 
 
 class ActionSeries(ABC):
-    """The action series of one method, with coefficients in ``ring``. Computed coefficients are cached.
+    """The action series of one method, with coefficients in ``ring``.
 
-    The weights b_i must be invertible in ``ring``. The methods have an argument ``row``, the index of a group
-    element. Let s be the number of stages. The indices 0, ..., s - 1 denote the group elements of the stages,
-    and the index s denotes the group element of the update.
+    The weights b_i must be invertible in ``ring``. The argument ``row`` of a method is the index of a group
+    element: 0, ..., s - 1 for the s stages, and s for the update.
 
     The example computes coefficients of the implicit midpoint rule.
 
@@ -151,11 +145,9 @@ class ActionSeries(ABC):
         return total
 
     def condition(self, tree: Velocity) -> Element:
-        """Return the left-hand side of the order condition of a tree t: the number sum_i b_i tau_t(i). Here
-        b_i is the weight of stage i, and :meth:`tau` returns tau_t(i).
+        """Return the left-hand side sum_i b_i tau_t(i) of the order condition of a tree t (module docstring).
 
-        The left-hand side is the coefficient of t in the update, and also the coefficient of the elementary
-        Hamiltonian of t in the generating function of the step. To save memory, this method does not cache
+        The left-hand side is the coefficient of t in the update. To save memory, this method does not cache
         the coefficients tau_t(i).
         """
         known = self._tau.get(tree)
@@ -163,14 +155,14 @@ class ActionSeries(ABC):
         return self._sum(b * v for b, v in zip(self.weights, values, strict=True))
 
     def update_words(self, vertices: int) -> dict[Word, Element]:
-        """Return the coefficients of words in the group element of the update, as a map {word: coefficient}.
-        The map contains all words of trees with at most ``vertices`` vertices in total.
+        """Return the coefficients, in the group element of the update, of all words of trees with at most
+        ``vertices`` vertices in total.
 
         Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Each tree t
-        denotes an element of g, which depends on a position and a momentum. Take this element for the
-        position q0 and the momentum mu1. Let ``F(t)`` be the right-invariant vector field of this element,
-        divided by the order of the symmetry group of t. For every smooth function f on the group, ``f(q1)``
-        is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words ``w = t_1 ... t_k``.
+        denotes an element of g at the position q0 and the momentum mu1. Let ``F(t)`` be the right-invariant
+        vector field of this element, divided by the order of the symmetry group of t. For every smooth
+        function f on the group, ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all
+        words ``w = t_1 ... t_k``.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -178,11 +170,9 @@ class ActionSeries(ABC):
 class CommutatorFreeSeries(ActionSeries):
     """The action series of a method whose stages and update are products of exponentials.
 
-    ``rows`` contains the exponentials of each stage, followed by the exponentials of the update. The velocity
-    of stage i has a coefficient in each exponent of the update. The weight b_i is the sum of these
-    coefficients (Bogfjellmo and Marthinsen, equation (3.18)).
-
-    The example computes the left-hand sides of the order conditions of the three trees with two vertices.
+    ``rows`` contains the exponentials of each stage, followed by the exponentials of the update. The weight
+    b_i is the sum of the coefficients of the velocity of stage i in the exponents of the update (Bogfjellmo
+    and Marthinsen, equation (3.18)).
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -207,9 +197,8 @@ class CommutatorFreeSeries(ActionSeries):
         """Return the coefficient of the word t_1 ... t_k in the group element with index ``row``.
 
         Let phi_J(t) be the coefficient of the letter t in the exponent of exponential J. The coefficient of
-        the word is a sum over all sequences J_1 <= ... <= J_k of indices of exponentials. To obtain the term
-        of a sequence, multiply the numbers phi_{J_l}(t_l) for l = 1, ..., k, and divide the product by n! for
-        every index that occurs n times in the sequence.
+        the word is the sum of ``prod_l phi_{J_l}(t_l) / prod_J n_J!`` over all sequences J_1 <= ... <= J_k of
+        indices. Here n_J is the number of times that J occurs in the sequence.
         """
         return self._before(row, word)[-1]
 
@@ -255,8 +244,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._inverse_factorial[n]
 
     def _before(self, row: int, word: Word) -> Stages:
-        """Return a list for the group element with index ``row``, which is a product of exponentials. Entry k
-        is the coefficient of ``word`` in the product of the first k exponentials."""
+        """Return a list: entry k is the coefficient of ``word`` in the product of the first k exponentials of
+        the group element ``row``."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known
@@ -277,8 +266,8 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return a list for the group element with index ``row``, which is a product of exponentials. Entry k
-        is the coefficient of ``word`` in the product that remains without the first k exponentials."""
+        """Return a list: entry k is the coefficient of ``word`` in the group element ``row`` without its
+        first k exponentials."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known

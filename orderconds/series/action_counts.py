@@ -6,8 +6,7 @@ from __future__ import annotations
 def tree_counts(order: int) -> tuple[int, ...]:
     """Return the numbers of independent elementary Hamiltonians with 1, 2, ..., ``order`` vertices.
 
-    The numbers are computed from generating functions in x. In these functions, the coefficient of x^n is the
-    number of objects with n vertices:
+    In the following generating functions, the coefficient of x^n is the number of objects with n vertices:
 
     - T: trees with values in the Lie algebra g.
     - P: trees with values in the dual g*.
@@ -38,18 +37,14 @@ def velocity_count(vertices: int) -> int:
 
 
 def class_count(vertices: int) -> int:
-    """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in one
-    class if they differ only in the choice of the root.
+    """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in one class
+    if they differ only in the choice of the root.
 
-    Vertices in a subtree of the form ``L(w)`` cannot be the root. All other vertices are possible roots. Take
-    one tree of each class. Let R be the number of possible roots in these trees, and let E be the number of
-    edges between possible roots. If a symmetry of a tree maps one root or edge to another, both count as one.
-    Then each of the trees has exactly one more possible root than edges between possible roots. Therefore R -
-    E is the number of classes.
-
-    Each possible root gives one g-valued tree. Therefore R is the number of g-valued trees. Each edge divides
-    the tree into a force (:class:`~orderconds.series.action_trees.Force`) and a g-valued tree. Therefore E is
-    the number of pairs (force, g-valued tree) with ``vertices`` vertices in total.
+    Vertices in a subtree of the form ``L(w)`` cannot be the root. Up to symmetry, a tree has exactly one more
+    possible root than edges between possible roots. Therefore the number of classes is R - E. R is the number
+    of g-valued trees, one for each possible root. E is the number of pairs
+    (:class:`~orderconds.series.action_trees.Force`, g-valued tree) with ``vertices`` vertices in total, one
+    for each edge.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
@@ -62,9 +57,7 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Return two lists: the numbers of trees with values in the Lie algebra g, and the numbers of trees with
-    values in the dual g*. Entry n of a list is the number of trees with n vertices, for n = 0, 1, ...,
-    ``order``."""
+    """Return the numbers of g-valued trees and of g*-valued trees with 0, 1, ..., ``order`` vertices."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:
@@ -75,9 +68,8 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
         w = [1] + [0] * order
         for n in range(1, size):
             w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
-        # Let p_d be the number of trees with d vertices and with values in g*. Let s_k be the sum of d p_d
-        # over the divisors d of k. Let e_n be the number of multisets of such trees with n vertices in total.
-        # By Euler's transform, n e_n = sum_{k=1}^n s_k e_{n-k} for n >= 1.
+        # Euler's transform: n e[n] = sum_{k=1}^n s_k e[n-k], where s_k is the sum of d p[d] over the divisors
+        # d of k.
         e = [1] + [0] * order
         for n in range(1, size):
             e[n] = (
@@ -93,8 +85,7 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
 def _lie_counts(t: list[int], order: int) -> list[int]:
     """Return the dimensions of the subspaces of weight 0, ..., ``order`` of a free Lie algebra, by Witt's
     formula. The algebra has ``t[n]`` letters of weight n."""
-    # Witt's formula needs the coefficients of log(1/(1 - T)), where T = sum_n t[n] x^n. Entry n of ``power``
-    # is n times the coefficient of x^n in this logarithm.
+    # Entry n of ``power`` is n times the coefficient of x^n in log(1/(1 - T)), where T = sum_n t[n] x^n.
     power = [0] * (order + 1)
     for n in range(1, order + 1):
         power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))

@@ -5,8 +5,7 @@ Each vertex of a tree represents a derivative of the Hamiltonian H.
 
 The cost of a tree measures how difficult its order condition is to read. The cost of a subtree is at most the
 cost of the whole tree. The trees are enumerated in several passes with increasing limits on the cost. Later
-passes are rarely necessary. For example, there are 6331 g-valued trees with six vertices. For most methods,
-the conditions of a few hundred trees imply the conditions of all 6331 trees.
+passes are rarely necessary.
 """
 
 from __future__ import annotations
@@ -87,8 +86,7 @@ def multisets(vertices: int) -> tuple[Momenta, ...]:
 
 @cache
 def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
-    """Return the g-valued trees with ``vertices`` vertices and cost at most ``limit``. The trees are not
-    sorted."""
+    """Return the g-valued trees with ``vertices`` vertices and cost at most ``limit``, not sorted."""
     trees = []
     for k in range(vertices):
         for cost, word in _words(k, limit):
@@ -119,9 +117,9 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return pairs (added cost, tree) for g-valued trees with ``vertices`` vertices, sorted by added cost.
-    The added cost is the amount that the tree adds to the cost of a word. Only trees with an added cost of at
-    most ``limit`` are returned."""
+    """Return pairs (added cost, tree), sorted by added cost, for the g-valued trees with ``vertices``
+    vertices and an added cost of at most ``limit``. The added cost is the amount that the tree adds to the
+    cost of a word."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()
@@ -151,22 +149,19 @@ def _momenta(vertices: int, limit: float) -> Momenta:
 
 @cache
 def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
-    """Return a pair (cost, multiset) for each multiset of g*-valued trees with ``vertices`` vertices in
-    total. The cost of a multiset is the sum of the costs of its trees. Only multisets with a cost of at most
-    ``limit`` are returned, sorted by cost."""
+    """Return pairs (cost, multiset), sorted by cost, for the multisets of g*-valued trees with ``vertices``
+    vertices in total and a cost of at most ``limit``. The cost of a multiset is the sum of the costs of its
+    trees."""
     return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
 
 
 def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
-    """Yield pairs (cost, multiset) for multisets of g*-valued trees with ``vertices`` vertices in total. The
-    cost of a multiset is the sum of the costs of its trees, and it is at most ``rest``.
-
-    The trees are entries of the lists ``_momenta(n, limit)`` with n <= ``largest``. In the list for n =
-    ``largest``, only the entries with an index up to ``bound`` are used. With these two restrictions, the
-    recursion yields each multiset once. If ``bound`` is None, all entries are used.
-    """
+    """Yield pairs (cost, multiset) for the multisets of g*-valued trees with ``vertices`` vertices in total
+    and a cost of at most ``rest``. The trees are entries of the lists ``_momenta(n, limit)`` with
+    n <= ``largest``. To yield each multiset once, the recursion uses only the entries up to the index
+    ``bound`` in the list for n = ``largest`` (all entries if ``bound`` is None)."""
     if vertices == 0:
         yield 0, ()
         return

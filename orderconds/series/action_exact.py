@@ -1,8 +1,7 @@
 """The action series of the exact flow: iterated integrals over [0, 1] of univariate polynomials over Q.
 
-The module :mod:`orderconds.series.action_trees` defines the trees. In the formulas of
-:mod:`orderconds.series.action`, a time s replaces the index i of a stage, and integrals over times replace
-sums over stages:
+In the formulas of :mod:`orderconds.series.action`, a time s replaces the index i of a stage, and integrals
+over times replace sums over stages:
 
 - ``Phi_w(s)``, for a word w with the letters t_1, ..., t_k, is the integral of the product ``tau_{t_1}(s_1)
   ... tau_{t_k}(s_k)`` over all times with 0 <= s_1 <= ... <= s_k <= s. The integral of the same product over
@@ -35,8 +34,8 @@ from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, W
 
 @cache
 def tau(tree: Velocity) -> UnivariatePolynomial:
-    """Return the polynomial tau_t(s) for a g-valued tree t. It is the coefficient of t in the expansion of
-    the velocity of the exact flow at time s. The output of the example shows s as x.
+    """Return the polynomial tau_t(s): the coefficient of a g-valued tree t in the velocity of the exact flow
+    at time s. The example shows s as x.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(tau(t)) for t in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
@@ -59,8 +58,8 @@ def phi(word: Word) -> UnivariatePolynomial:
 
 @cache
 def psi(tree: Momentum) -> UnivariatePolynomial:
-    """Return the polynomial psi_p(s) for a g*-valued tree p. It is the coefficient of p in the expansion of
-    the momentum of the exact flow at time s. The output of the example shows s as x.
+    """Return the polynomial psi_p(s): the coefficient of a g*-valued tree p in the momentum of the exact flow
+    at time s. The example shows s as x.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> psi(force()), psi(force((velocity(),)))

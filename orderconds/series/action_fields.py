@@ -1,10 +1,10 @@
 """The vectors and covectors that action trees denote, and the local error of a method, for one Hamiltonian
-H(q, mu). The module :mod:`orderconds.series.action_trees` defines the trees.
+H(q, mu).
 
 A derivative of H along k directions is computed exactly, by automatic differentiation. The point (q, mu) is
-moved along each direction i by a variable distance eps_i, where eps_i^2 = 0. The value of H at the new point
-is a polynomial in eps_1, ..., eps_k. The derivative is the coefficient of the product eps_1 ... eps_k. H must
-be a polynomial in the entries of the matrix q and the coordinates of mu.
+moved along each direction i by a variable distance eps_i, where eps_i^2 = 0. The derivative is the
+coefficient of eps_1 ... eps_k in the value of H at the new point. H must be a polynomial in the entries of
+the matrix q and the coordinates of mu.
 """
 
 from __future__ import annotations
@@ -162,9 +162,8 @@ class ActionFields:
         return components
 
     def transported(self, word: Word) -> Coordinates:
-        """Return the coordinates of the covector that maps x to ``<mu, ad xi_1 ... ad xi_k x>``, where mu is
-        the momentum ``self.mu``. The vector xi_i is the elementary velocity of letter i of the word, and k is
-        the number of letters."""
+        """Return the coordinates of the covector that maps x to ``<mu, ad xi_1 ... ad xi_k x>``. The vector
+        xi_i is the elementary velocity of letter i of the word."""
         values = []
         for unit in self.units:
             x = unit
@@ -177,10 +176,9 @@ class ActionFields:
         """Return the coefficients of h^(p+1) in the local errors of position and momentum, for a method of
         order p with the step size h.
 
-        The first value is a matrix for the position. The second value contains the coordinates of a covector
-        for the momentum. ``defects`` maps each word whose letters have p + 1 vertices in total to a
-        difference: the coefficient of the word in the update minus its coefficient in the exact flow. The
-        differences of words with at most p vertices must be zero.
+        The results are a matrix and the coordinates of a covector. ``defects`` maps each word whose letters
+        have p + 1 vertices in total to its coefficient in the update minus its coefficient in the exact flow.
+        The value of every word with at most p vertices must be zero.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
@@ -197,17 +195,15 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # The action series expands the initial momentum for a given final momentum. Its differences
-            # ``defects`` give the error of the initial momentum, and ``weight * change`` is a term of this
-            # error. For a given initial momentum, the error of the final momentum has the opposite sign.
+            # ``defects`` give the error of the initial momentum for a given final momentum. The error of the
+            # final momentum for a given initial momentum has the opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of a covector. The covector maps a vector x to the mixed derivative of H(q,
-        mu) with the following directions. The directions in q are x and the elementary velocities xi_t of the
-        trees t in ``tree.word``. The directions in mu are the covectors m_p of the trees p in
-        ``tree.momenta``."""
+        """Return the coordinates of the covector that maps x to a mixed derivative of H(q, mu). The
+        directions are x and the velocities of the trees ``tree.word`` in q, and the covectors of
+        ``tree.momenta`` in mu."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

@@ -5,11 +5,9 @@ The exponent of stage i is ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``. In the
 b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
-The coefficient of a g*-valued tree (:mod:`orderconds.series.action`) depends on the group elements after the
-following replacement: for one stage j, the sum xi_j + x replaces the velocity xi_j, where x is a new letter.
-This module computes the coefficients of words (u, x, v) after the replacement. The word (u, x, v) consists of
-the letters of a word u, the letter x, and the letters of a word v. The arguments ``before`` and ``after`` of
-the functions are the words u and v.
+The coefficient of a g*-valued tree (:mod:`orderconds.series.action`) depends on coefficients of words (u, x,
+v). Here x is a new letter, and xi_j + x replaces the velocity xi_j of one stage j in all group elements. The
+arguments ``before`` and ``after`` of the functions are the words u and v.
 """
 
 from __future__ import annotations
@@ -26,13 +24,11 @@ from orderconds.series.b_series import Sums, sparse
 from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
-"""The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m. The factors act from right
-to left: X^m, then xi, then X^n."""
+"""The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m."""
 
 Varied = dict[int, Element]
-"""The coefficients of one word with the letter x in one series. The key of the map is the index j of a stage.
-The value is the coefficient of the word after the replacement of xi_j by xi_j + x. If a key is missing, the
-coefficient is zero."""
+"""The coefficients of one word with the letter x in one series, as a map {j: coefficient after the
+replacement of xi_j by xi_j + x}. If a key is missing, the coefficient is zero."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -75,12 +71,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of a word in the group element of stage ``row``. If ``row`` is the number of
-        stages, return the coefficient in the group element of the update.
-
-        The word consists of the word ``before``, the letter x, and the word ``after``. The letter x is added
-        to the velocity of the stage with index ``stage``.
-        """
+        """Return the coefficient of the word (``before``, x, ``after``) in the group element of stage
+        ``row``, or of the update if ``row`` is the number of stages. The letter x is added to the velocity of
+        stage ``stage``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -100,9 +93,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word (``before``, x, ``after``), as a list of maps :data:`Varied`.
-        If ``update`` is 0, the list has one map for the group element of each stage. If ``update`` is 1, the
-        list has one map for the group element of the update."""
+        """Return the coefficients of the word (``before``, x, ``after``) in the group elements of the stages
+        (``update`` = 0) or of the update (``update`` = 1)."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -115,9 +107,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return a list of coefficients of ``word``. If ``update`` is 0, entry i is the coefficient in X_i^n,
-        the n-th power of the exponent of stage i. If ``update`` is 1, the only entry is the coefficient in
-        Y^n, the n-th power of the exponent of the update."""
+        """Return the coefficients of ``word`` in X_i^n for all stages i (``update`` = 0), or in Y^n
+        (``update`` = 1)."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -131,10 +122,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word (``before``, x, ``after``), as a list of maps :data:`Varied`.
-        If ``update`` is 0, map i contains the coefficients in X_i^n, the n-th power of the exponent of stage
-        i. If ``update`` is 1, the only map contains the coefficients in Y^n, the n-th power of the exponent
-        of the update."""
+        """Return the coefficients of the word (``before``, x, ``after``) in X_i^n for all stages i
+        (``update`` = 0), or in Y^n (``update`` = 1)."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -150,13 +139,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Compute the result of :meth:`_varied_power` for the same arguments, and add it to ``totals``. The
-        argument n must be at least 2, because the n-th power of an exponent X is computed as the product of X
-        and X^(n-1)."""
+        """Add the result of :meth:`_varied_power` for n >= 2 to ``totals``."""
         for cut in range(1, len(before) + len(after) + 3 - n):
             # The word (before, x, after) is divided after ``cut`` letters. If ``rest`` is negative, the
-            # second part contains x. Otherwise the first part consists of ``before``, x, and the first
-            # ``rest`` letters of ``after``.
+            # second part contains x.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -168,8 +154,7 @@ class MuntheKaasActionSeries(ActionSeries):
                 _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
-        """Return a vector. Entry j is the coefficient of ``word`` in the summand dexpinv_{(r),X_j} xi_j of
-        the exponents. The module docstring defines this summand."""
+        """Return the coefficient of ``word`` in dexpinv_{(r),X_j} xi_j for each stage j."""
         values = self._summands.get(word)
         if values is None:
             values = [self.ring.zero] * self.stages
@@ -183,9 +168,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """Return a list of maps :data:`Varied`. Map j contains the coefficients of the word (``before``, x,
-        ``after``) in the summand dexpinv_{(r),X_j} xi_j of the exponents. The module docstring defines this
-        summand and the letter x."""
+        """Return the coefficients of the word (``before``, x, ``after``) in dexpinv_{(r),X_j} xi_j for each
+        stage j."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -205,11 +189,8 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return a vector. Entry j is the coefficient of the word (``before``, xi_j, ``behind``) in the
-        summand dexpinv_{(r),X_j} xi_j of the exponents. The module docstring defines this summand.
-
-        Return None if the summand contains no such word.
-        """
+        """Return the coefficient of the word (``before``, xi_j, ``behind``) in dexpinv_{(r),X_j} xi_j for
+        each stage j, or None if no term contains such words."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -224,9 +205,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return a list of maps :data:`Varied`. Map j contains the coefficients of the word (``before``, x,
-        ``after``, xi_j, ``behind``) in the summand dexpinv_{(r),X_j} xi_j of the exponents. The module
-        docstring defines this summand and the letter x."""
+        """Return the coefficients of the word (``before``, x, ``after``, xi_j, ``behind``) in
+        dexpinv_{(r),X_j} xi_j for each stage j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -236,9 +216,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return a list of maps :data:`Varied`. Map j contains the coefficients of the word (``first``, xi_j,
-        ``before``, x, ``after``) in the summand dexpinv_{(r),X_j} xi_j of the exponents. The module docstring
-        defines this summand and the letter x."""
+        """Return the coefficients of the word (``first``, xi_j, ``before``, x, ``after``) in
+        dexpinv_{(r),X_j} xi_j for each stage j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -247,13 +226,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Consider the words with ``before`` letters, then the letter xi, then ``behind`` letters. Return a
-        triple (q, m, n) for each term q X^n xi X^m of dexpinv_X xi that contributes to the coefficients of
-        these words.
-
-        The first letter of a word acts first. In a term, X^m acts before xi, and X^n acts after xi. Hence the
-        letters before xi come from X^m, and the letters behind xi come from X^n.
-        """
+        """Return the terms (q, m, n) of dexpinv_X xi that contain words with ``before`` letters before xi and
+        ``behind`` letters behind xi. The first letter of a word acts first, hence X^m in q X^n xi X^m gives
+        the letters before xi."""
         known = self._in_sight.get((before, behind))
         if known is None:
             known = self._in_sight[before, behind] = [
@@ -269,8 +244,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return the terms of the truncated series dexpinv_X xi with at most ``most`` factors X. A triple
-        (q, m, n) represents the term q X^n xi X^m."""
+        """Return the terms of the truncated series dexpinv_X xi with at most ``most`` factors X."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 
@@ -280,12 +254,11 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 
 
 class PadeActionSeries(MuntheKaasActionSeries):
-    """The action series of variational Runge-Kutta-Munthe-Kaas methods with a truncated series dexp. The
-    inverse of the truncated dexp replaces dexpinv.
+    """The action series of variational Runge-Kutta-Munthe-Kaas methods with a truncated series dexp.
 
-    The exponent of stage i is X_i = h sum_j a_ij v_j. The vector v_j solves the equation
-    dexp_{(r),X_j} v_j = xi_j, where xi_j is the velocity of stage j. The map dexp_{(r),X} is the series
-    dexp_X, truncated after the r-th power of X. The number r is ``cutoff``.
+    The exponent of stage i is X_i = h sum_j a_ij v_j. The vector v_j solves the equation dexp_{(r),X_j} v_j =
+    xi_j, where xi_j is the velocity of stage j. The map dexp_{(r),X} is the series dexp_X, truncated after
+    the power r = ``cutoff`` of X.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -301,8 +274,8 @@ class PadeActionSeries(MuntheKaasActionSeries):
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
     """Return the terms with at most ``most`` factors X in the solution v of the equation dexp_{(r),X} v = xi.
-    The map dexp_{(r),X} is the series dexp_X, truncated after the r-th power of X. The number r is
-    ``cutoff``. A triple (q, m, n) represents the term q X^n xi X^m.
+    The map dexp_{(r),X} is the series dexp_X, truncated after the power r = ``cutoff`` of X. A triple (q, m,
+    n) represents the term q X^n xi X^m.
 
     Let S(z) be the sum of z^j/(j+1)! for j = 0, ..., r, and let q_k be the coefficient of z^k in the power
     series of 1/S(z). Then q = (-1)^m comb(k, m) q_k for k = m + n. Terms with q = 0 are omitted.
