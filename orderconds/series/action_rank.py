@@ -1,13 +1,10 @@
 """Selection of independent action conditions. The left-hand sides of the conditions are evaluated modulo a
-prime, for many random methods and for the exact flow. These values and their products form the columns
-of a matrix. The pivot columns show which conditions are independent.
+prime, for many random methods and for the exact flow.
 
 A condition of order n is dependent if its left-hand side is a polynomial in the left-hand sides of other
-conditions up to order n. This polynomial must be the same for every method **and for the exact flow**. Then
-every method that satisfies the other conditions also satisfies the dependent condition.
+conditions up to order n. This polynomial must be the same for every method **and for the exact flow**.
 
-The trees are considered one after another, simplest first. A tree is selected if its condition does not
-depend on the conditions of the earlier trees.
+A tree is selected if its condition does not depend on the conditions of simpler trees.
 """
 
 from __future__ import annotations
@@ -28,9 +25,8 @@ from orderconds.series.action_trees import Velocity
 from orderconds.series.monomials import products
 
 RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
-"""A function that creates many random methods of a family and returns one action series for all these
-methods. Each value of the series is a vector with one residue for each method. A random method is also
-called a sample."""
+"""A function that creates many random methods (samples) of a family and returns one action series for all
+these methods. Each value of the series is a vector with one residue for each method."""
 
 SPARE_SAMPLES = 24
 """The number of samples minus the largest possible rank (:func:`_largest_rank`). With fewer samples,
@@ -43,11 +39,9 @@ BLOCK = 256
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
     """Return the trees with independent conditions, as one tuple for each of the orders 1, ..., ``order``.
 
-    The independence of the conditions is tested modulo a prime. Conditions that are independent modulo a
-    prime are also independent over Q. The function makes one selection of trees for each of two primes, and
-    returns the larger selection. This selection is very probably complete. If, for each order, the number of
-    selected trees is equal to the upper bound of :func:`~orderconds.series.action_counts.tree_counts`, the
-    selection is certainly complete.
+    The conditions of the selected trees are independent over Q. The selection is very probably complete. If,
+    for each order, the number of selected trees is equal to the upper bound of
+    :func:`~orderconds.series.action_counts.tree_counts`, the selection is certainly complete.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -108,10 +102,6 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 def _largest_rank(order: int) -> int:
     """Return an upper bound for the number of independent monomials of order ``order``. A monomial is a
     product of conditions whose trees have ``order`` vertices in total.
-
-    The number of independent conditions with n vertices is at most the number of independent elementary
-    Hamiltonians with n vertices (:func:`~orderconds.series.action_counts.tree_counts`). The result is the
-    number of products of such Hamiltonians in which the factors have ``order`` vertices in total.
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

@@ -1,14 +1,13 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
 The polynomial is the same for all methods of a family and for the exact flow. The values of the conditions
-for random methods and for the exact flow give linear equations for the coefficients of the polynomial. The
-equations are solved modulo two primes. The two solutions determine the rational coefficients.
+for random methods and for the exact flow determine the coefficients.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
 commutator-free methods. Let psi_p be the coefficient of a g*-valued tree p in the momentum of a stage
 (:mod:`orderconds.series.action`). The module :mod:`orderconds.series.action_trees` defines the notation of
-trees. Let t be the tree ``o(|L(o))``, which has an empty word and the multiset {L(o)}. The three relations
-follow from the equation ``psi_{L(t)} = 3 psi_{L(o o)} - psi_{L(o)}^2``.
+trees. Let t be the tree ``o(|L(o))``. The three relations follow from the equation
+``psi_{L(t)} = 3 psi_{L(o o)} - psi_{L(o)}^2``.
 """
 
 from __future__ import annotations
@@ -33,18 +32,17 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial. Each tree denotes the left-hand side of its condition. A pair (coefficient,
-trees) represents the product of the coefficient and these left-hand sides."""
+"""The terms of a polynomial. A pair (coefficient, trees) represents the product of the coefficient and the
+left-hand sides of the conditions of the trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a map. Its keys are the trees with n vertices that are not in ``independent``, where n is the
-    length of ``independent``. The value for a tree is a polynomial that expresses the condition of the tree
-    by the conditions of trees in ``independent``.
+    """Return a polynomial for each tree with n vertices that is not in ``independent``, where n is the length
+    of ``independent``. The polynomial expresses the condition of the tree by the conditions of trees in
+    ``independent``.
 
     ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
-    ..., n. The polynomials are wrong with a probability of about 10^-8. The function
-    :func:`hold_over_rationals` verifies the polynomials over Q.
+    ..., n. The polynomials are wrong with a probability of about 10^-8.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -81,8 +79,7 @@ SEED = 61
 
 
 class _Drawn(Rationals):
-    """The ring Q with random elements. The numerators and denominators of random elements have at most 61
-    bits."""
+    """The ring Q with random elements whose numerators and denominators have at most 61 bits."""
 
     def random(self, generator: np.random.Generator) -> Element:
         """Return a random non-zero fraction."""
@@ -95,14 +92,11 @@ def hold_over_rationals(
     polynomials: Mapping[Velocity, Polynomial],
 ) -> bool:
     """Return True if ``polynomials`` are correct for the exact flow and for one method with random rational
-    coefficients. ``polynomials`` is a map like the result of :func:`relations`.
+    coefficients.
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
-    ``ring``. Assume that a relation is false for some method of the family. The relation is an equation for
-    the coefficients of the method. Let d be the degree of this equation. The random method satisfies the
-    equation with a probability below d/2^60.
-
-    In the example, ``right`` contains the relations of order 2. The coefficients in ``wrong`` are different.
+    ``ring``. Let a relation be false for some method of the family, and let d be its degree in the
+    coefficients of the method. The random method satisfies this relation with a probability below d/2^60.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -138,8 +132,7 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Express the left-hand side of the condition of each tree as a linear combination of ``monomials``. A
-    monomial is a tuple of trees, and represents the product of the left-hand sides of their conditions.
+    """Express the left-hand side of the condition of each tree as a linear combination of ``monomials``.
     Return, for each tree, a map from indices of monomials to coefficients modulo ``prime``."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
@@ -153,8 +146,7 @@ def _coefficients(
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
-    """Yield multisets of trees from ``trees[start:]``. The trees of a multiset have ``vertices`` vertices in
-    total."""
+    """Yield the multisets of trees from ``trees[start:]`` with ``vertices`` vertices in total."""
     if vertices == 0:
         yield ()
     for place in range(start, len(trees)):

@@ -2,12 +2,9 @@
 
 The module :mod:`orderconds.series.action_trees` defines the notation of trees. Let u, v and w be words of
 trees, and let M and N be multisets of trees. In the tree ``o(w | M, H(u*v | N))``, the vertex H is a
-neighbour of the root o. If H becomes the root, the old root with w and M takes the position of the star. The
-result is the tree ``o(u o(w | M) v | N)``. Hence the two trees differ only in the choice of the root. The
-left-hand sides of the two conditions are double sums over the stages of a method. The two sums differ only in
-the order of summation, and are therefore equal. The right-hand sides of the two conditions are equal, too.
-All trees that differ only in the choice of the root form a class. The condition of one tree of each class is
-sufficient.
+neighbour of the root o. If H becomes the root, the result is the tree ``o(u o(w | M) v | N)``. The left-hand
+sides of the two conditions are double sums over the stages of a method, which differ only in the order of
+summation. The right-hand sides of the two conditions are equal, too.
 """
 
 from __future__ import annotations
@@ -40,8 +37,6 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
     """Return all classes of trees with ``vertices`` vertices. The trees of one class differ only in the
     choice of the root. The first tree of each class is the simplest.
 
-    In the example, ``o(|f(*))`` is the tree ``o(o)`` with the other vertex as the root.
-
     >>> classes(2)
     ((o(o), o(|f(*))), (o(|L(o)),))
     """
@@ -50,7 +45,7 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
     """Yield all classes of trees with ``vertices`` vertices. The trees of one class differ only in the choice
-    of the root. The class with the simplest tree is the first. A class is computed only when it is needed.
+    of the root. The class with the simplest tree is the first.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)
@@ -69,8 +64,8 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return an empty list and an iterator over the classes of trees with ``vertices`` vertices. The two
-    objects are cached. The function :func:`classes_in_turn` moves classes from the iterator to the list."""
+    """Return an empty list and an iterator over the classes of trees with ``vertices`` vertices. The function
+    :func:`classes_in_turn` moves classes from the iterator to the list."""
     return [], _classes(vertices)
 
 

@@ -1,10 +1,9 @@
 """The trees that index the action series of variational Lie group methods on T*G.
 
-Here g is the Lie algebra of G, g* its dual, and H(q, mu) the Hamiltonian. The vertices of a tree represent
-derivatives of H. A g-valued tree denotes an element of g, and a g*-valued tree denotes an element of g*. A
-word is a sequence of g-valued trees, called letters. The elements of a multiset are always g*-valued trees.
-Each element of g, and therefore each letter, defines a right-invariant vector field on G. There are three
-kinds of trees:
+Here g is the Lie algebra of G, g* its dual, and H(q, mu) the Hamiltonian. A g-valued tree denotes an element
+of g, and a g*-valued tree denotes an element of g*. A word is a sequence of g-valued trees, called letters.
+The elements of a multiset are always g*-valued trees. Each element of g, and therefore each letter, defines a
+right-invariant vector field on G. There are three kinds of trees:
 
 - A :class:`Velocity` is a g-valued tree with a word w and a multiset M, written (w, M) or ``o(w | M)``. The
   tree denotes a mixed derivative of the vector dH/dmu. To differentiate in q, move q along the field of the
@@ -13,7 +12,7 @@ kinds of trees:
 - A :class:`Force` is a g*-valued tree with two words u and v and a multiset M, written ``H(u * v | M)`` or
   ``f(u * v | M)``. The tree denotes a covector, which maps an element x of g to a mixed derivative of H. To
   differentiate in q, move q along the fields of the letters of u, then of x, and then of the letters of v.
-  The star marks the position of x. The directions in mu are the covectors of M.
+  The directions in mu are the covectors of M.
 - A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. The tree denotes the covector that
   maps an element x of g to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here
   ``<mu, y>`` is the pairing of mu with y.
@@ -29,8 +28,7 @@ from math import factorial, prod
 
 
 class _Node:
-    """The base class of the three kinds of trees. A tree stores its number of vertices, its cost and its
-    canonical text.
+    """The base class of the three kinds of trees.
 
     The cost of a tree measures how difficult the order condition of the tree is to read.
     """
@@ -92,8 +90,7 @@ class Velocity(_Node):
             vertices += p.vertices
             cost += p.cost
         self._describe(vertices, cost)
-        # If this tree is a letter of a larger tree, it adds ``nesting`` to the cost of the larger tree. Deep
-        # trees are harder to read than wide trees. Therefore the factor 2 gives deep trees a higher cost.
+        # The factor 2 gives deep trees a higher cost, because deep trees are harder to read than wide trees.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:
@@ -102,8 +99,8 @@ class Velocity(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. The tree and its subtrees contain multisets of
-        g*-valued trees. The group consists of the permutations of equal trees in these multisets."""
+        """The order of the symmetry group of the tree. The group permutes equal trees in the multisets of the
+        tree and its subtrees."""
         return _symmetry(self.word, self.momenta)
 
 
@@ -129,8 +126,8 @@ class Force(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. The tree and its subtrees contain multisets of
-        g*-valued trees. The group consists of the permutations of equal trees in these multisets."""
+        """The order of the symmetry group of the tree. The group permutes equal trees in the multisets of the
+        tree and its subtrees."""
         return _symmetry(self.before + self.after, self.momenta)
 
 
@@ -172,9 +169,7 @@ def mixing(word: Word) -> int:
     """Return the cost that a word adds to a tree because the letters of the word differ. If all letters are
     equal, this cost is zero.
 
-    The cost measures how difficult an order condition is to read. Let c be the coefficient of a one-letter
-    word t in a group element. Then the word t t ... t with k letters has the simple coefficient c^k/k!. Words
-    with different letters do not have such a simple coefficient.
+    The cost measures how difficult an order condition is to read.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -233,8 +228,7 @@ def canonical_force(before: Word, after: Word, momenta: Momenta) -> Force:
 @cache
 def transport(word: Word) -> Transport:
     """Return the tree L(w), where w is the word with the letters t_1, ..., t_k. The tree denotes the covector
-    that maps x to the number ``<mu, ad t_1 ... ad t_k x>``. Here mu is the momentum at the end of the step,
-    and ``<mu, y>`` is the pairing of a covector mu with y.
+    that maps x to the number ``<mu, ad t_1 ... ad t_k x>``. Here mu is the momentum at the end of the step.
 
     >>> transport((velocity(),))
     L(o)
@@ -277,10 +271,9 @@ def hamiltonian(tree: Velocity) -> str:
     """Return the elementary Hamiltonian of a tree as text. In the text, ``m`` denotes mu, and ``ad(x) y`` is
     [x, y].
 
-    The letters after ``H_`` are the variables in which H is differentiated. The directions of the derivatives
-    follow in parentheses. A semicolon separates the directions in q from the directions in mu. A direction in
-    q is an element of g: the derivative is taken along the right-invariant field of this element. A direction
-    in mu is a covector. In the text of a covector, a dot represents the argument.
+    The letters after ``H_`` are the variables in which H is differentiated. In the parentheses, a semicolon
+    separates the directions in q from the directions in mu. In the text of a covector, a dot represents the
+    argument.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

@@ -41,8 +41,7 @@ class StageAlgebra(Protocol):
 class ElementaryWeights(Generic[TreeT]):
     """The elementary weights ``sum_i b_i tau_t(i)`` of a method, for trees t in an arbitrary encoding.
 
-    The number tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the branches u of t. The matrix (a_ij)
-    depends on the kind of the edge between the root of t and u.
+    The number tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the branches u of t.
 
     ``matrices`` contains one s x s matrix (a_ij) over ``ring`` for each kind of edge. The function
     ``branches`` returns the branches of a tree as pairs (kind of the edge, subtree).
@@ -75,8 +74,8 @@ class ElementaryWeights(Generic[TreeT]):
         return self._ring.rational(weight.p, weight.q) if self._rational else weight
 
     def _vector(self, tree: TreeT) -> Element:
-        """Return the vector with the entry tau_t(i) for each stage i, where t is ``tree``. The class
-        docstring defines tau_t(i)."""
+        """Return the vector with the entry tau_t(i) of :class:`ElementaryWeights` for each stage i, where t
+        is ``tree``."""
         if tree not in self._vectors:
             vector = self._stages.one
             for branch in self._branches(tree):
@@ -125,8 +124,7 @@ class Sums:
     """The sums ``sum_j weight_j x_j`` of several sparse rows, for a vector x. A row contains pairs
     (j, weight_j).
 
-    If several rows begin with the same pairs, the partial sum of these pairs is computed only once. For a
-    composition of s midpoint rules, this reduces the number of products from about s^2/2 to about 2 s.
+    If several rows begin with the same pairs, the partial sum of these pairs is computed only once.
 
     >>> a, b = 2, 3
     >>> sums = Sums([((0, a),), ((0, a), (1, b)), ((0, a), (1, b), (2, 5))], 0)
@@ -137,8 +135,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """The definitions of the partial sums s_1, s_2, .... The triple (k, j, weight_j) at index n - 1
-        defines s_n = s_k + weight_j x_j, where x_j is entry j of the vector x. The sum s_0 is zero."""
+        """The triple (k, j, weight_j) at index n - 1 defines the partial sum s_n = s_k + weight_j x_j, where
+        x_j is entry j of the vector x. The sum s_0 is zero."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

@@ -1,11 +1,11 @@
 """A lower bound for the number of brackets (commutators), computed by linear algebra. A program
 (:class:`orderconds.series.brackets.BracketProgram`) computes the arguments u_1, ..., u_s of the exponentials
-of the stages and the argument u of the exponential of the step. The bound holds for every program.
+of the stages and the argument u of the exponential of the step.
 
 The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i contains only
 the letters q_1, ..., q_(i-1), because it is computed before k_i. Choose a number m < i. The letters q_m, ...,
-q_(i-1) are called new, and the letters q_1, ..., q_(m-1) are called old. A program for u_1, ..., u_i computes
-brackets with new letters and brackets without new letters. Let N be the number of brackets with new letters.
+q_(i-1) are called new, and the letters q_1, ..., q_(m-1) are called old. Let N be the number of brackets with
+new letters in a program for u_1, ..., u_i.
 
 First bound: for each of the arguments u_1, ..., u_i, form the sum of the terms that have at least two letters
 and contain a new letter. Only the N brackets with new letters contribute to these sums. Therefore N is at
@@ -17,15 +17,14 @@ where q_n are the new letters, and P_n are polynomials in the old letters. The o
 polynomial P with the operator ad_q in place of each letter q, where ad_q x = [q, x]. Let S be the space that
 the linear parts of u_1, ..., u_i span, and let d be the dimension of S.
 
-Each of the N brackets has a linear part, too. The linear parts of the N brackets span a space that contains
-S. Hence N is at least d. Each element of S has the form sum_n ad_(P_n) q_n. Now assume that, for every
-non-zero element of S, at least one of the polynomials P_n is not a Lie element. Then N is greater than d, for
-the following reason. Of the N brackets, let B be the one that the program computes first, and let x be the
+The linear parts of the N brackets span a space that contains S. Hence N is at least d. Now assume that, for
+every non-zero element sum_n ad_(P_n) q_n of S, at least one of the polynomials P_n is not a Lie element. Then
+N is greater than d. Of the N brackets, let B be the one that the program computes first, and let x be the
 linear part of B. The two factors of B contain no brackets with new letters. Hence each factor is the sum of a
 Lie element in the old letters and a linear combination of new letters. Therefore x has the form sum_n
 ad_(P_n) q_n with Lie elements P_n. By the assumption, x is zero or not in S. If x is zero, the linear parts
 of the other N - 1 brackets span a space that contains S. If x is not in S, the N linear parts span a space
-that is larger than S. In both cases, N is greater than d.
+that is larger than S.
 
 The number of brackets without new letters has a similar lower bound. The sum of the lower bounds for the two
 numbers is a lower bound for the number of all brackets.
@@ -43,8 +42,8 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
     """Write the linear part of x as ``sum_n ad_(P_n) q_n``, and return a map from n to P_n. The module
     docstring defines the linear part and the polynomials P_n.
 
-    The polynomial x must be a sum of letters and brackets. The letter q_n has index n. The letters with
-    n >= ``first`` are the new letters.
+    The polynomial x must be a sum of letters and brackets. The new letters are the letters q_n with n >=
+    ``first``.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -57,11 +56,11 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
-    """Return x - D(x). The result is zero if and only if the polynomial x is a Lie element.
+    """Return x - D(x). The result is zero if and only if the polynomial x is a Lie element (theorem of
+    Dynkin, Specht and Wever).
 
     The polynomial x must have no constant term. The linear map D replaces a word of n letters by its
-    right-normed bracket divided by n. For example, D maps the word a b c to [a, [b, c]]/3. By the theorem of
-    Dynkin, Specht and Wever, x is a Lie element if and only if D(x) = x.
+    right-normed bracket divided by n.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)
@@ -82,9 +81,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     ``arguments`` contains the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u
     of the exponential of the step.
 
-    The terms of the largest grade of ``algebra`` in the arguments u_1, ..., u_s do not affect the order of
-    the method. Therefore the function ignores these terms. It does not ignore the terms of the largest grade
-    in u.
+    The function ignores the terms of the largest grade of ``algebra`` in u_1, ..., u_s, because they do not
+    affect the order of the method.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
@@ -94,8 +92,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # If i is ``last``, ``arguments[i]`` is u, the argument of the step. Its terms of the largest grade
-        # affect the order of the method. Therefore the last entry of ``spans`` contains u with these terms.
+        # The last entry keeps the terms of the largest grade in u, because they affect the order.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))
@@ -103,8 +100,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
-    """Return a lower bound for the number of brackets that contain a letter with index ``first`` or higher.
-    The bound holds for every program that computes the elements of ``span``."""
+    """Return a lower bound for the number of brackets that contain a letter with index ``first`` or higher,
+    in every program that computes the elements of ``span``."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)

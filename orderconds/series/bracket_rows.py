@@ -1,5 +1,5 @@
-"""Simplification of a :class:`orderconds.series.brackets.BracketProgram`. The simplified program has the same
-number of brackets, but its linear combinations have fewer terms.
+"""Reduction of the number of terms, but not of brackets, in a
+:class:`orderconds.series.brackets.BracketProgram`.
 
 Let t be a number, and let B = [x, y] and C = [x, z] be two brackets with a common left factor x. The sum C +
 t B = [x, z + t y] is a single bracket D. The program can compute D in place of C, because C = D - t B. The
@@ -20,9 +20,7 @@ def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
     """Return a program that computes the same arguments u_1, ..., u_s and u of the exponentials as
     ``program``. If possible, the returned program has fewer terms.
 
-    In each step, the function adds a multiple of one bracket to a later bracket with the same left factor.
-    The function stops when no step reduces the number of terms. The ring must have division and a test for
-    zero. In the example, the function adds -2 B1 to B2. The new B2 does not contain k2.
+    The ring must have division and a test for zero.
 
     >>> from orderconds.ring import QQ
     >>> half, k1, k2, k4 = QQ.rational(1, 2), ("k", 0), ("k", 1), ("k", 3)
@@ -52,7 +50,7 @@ def _terms(program: BracketProgram) -> int:
 
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
     """Yield programs in which a multiple of one bracket is added to a later bracket with the same left
-    factor. The multiple is chosen to cancel a term."""
+    factor, to cancel a term."""
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]
         same = x.keys() == other.keys() and all(ring.is_zero(x[n] - other[n]) is True for n in x)
@@ -70,7 +68,7 @@ def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
     """Return a program in which the bracket B_r + t B_q replaces the bracket B_r. ``names`` contains the
-    names of B_q and B_r. These two brackets must have the same left factor."""
+    names of B_q and B_r, which must have the same left factor."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:

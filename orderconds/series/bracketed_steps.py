@@ -1,7 +1,6 @@
 """The Lie-Butcher series of a step in which the arguments of exponentials contain brackets.
 
-The first letter of a word acts first. In the product x y of two series, the factor y acts first. Hence each
-word of the product begins with a word of y and ends with a word of x.
+The first letter of a word acts first. In the product x y of two series, the factor y acts first.
 """
 
 from __future__ import annotations

@@ -3,14 +3,11 @@ simplified in a graded free Lie algebra.
 
 A linear combination x of the stage values k_1, ..., k_s has grade g if h x is of order h^g, where h is the
 step size. The combination q_j is the sum of k_j and multiples of k_1, ..., k_(j-1). The multiples maximise
-the grade of q_j. A method of order p does not need all terms: terms above grade p - 1 can be omitted from the
-arguments of the stages, and terms above grade p can be omitted from the argument of the step (Munthe-Kaas and
-Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
+the grade of q_j. For a method of order p, terms above grade p - 1 can be omitted from the arguments of the
+stages, and terms above grade p can be omitted from the argument of the step (Munthe-Kaas and Owren, Phil.
+Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
 
-A search expresses the arguments one after another by stage values, earlier brackets and few new brackets. A
-test finds linear combinations of two arguments that may need fewer brackets than each of the two arguments. A
-search with these combinations expresses each combination before the two arguments. A search without these
-combinations is also tried.
+A search expresses the arguments one after another by stage values, earlier brackets and few new brackets.
 """
 
 from __future__ import annotations
@@ -40,16 +37,14 @@ class BracketProgram:
     """A program that computes the arguments of the exponentials in one step of a method.
 
     The stage values are k_i = f(exp(u_i) y0) with the arguments u_1, ..., u_s. The result of a step of size h
-    is exp(u) y0 with the argument u. Several arguments may use the same bracket. A row represents a linear
-    combination of elements h k_j and brackets. The row maps the name of each element and each bracket to its
-    coefficient.
+    is exp(u) y0 with the argument u. A row represents a linear combination of elements h k_j and brackets, as
+    a map from names to coefficients.
 
     - ``brackets[r]``: the rows of x and y in B_r = [x, y].
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program that computes the arguments.
-    - ``grades``: the grades of the combinations q_1, q_2, ... of stage values. The module docstring defines
-      grades and the combinations q_j.
+    - ``grades``: the grades of the combinations q_1, q_2, ... of stage values (module docstring).
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -81,12 +76,9 @@ def fewest_brackets(
     (A, b). The program has the same order as the RKMK method.
 
     The order of the Runge-Kutta method (A, b) must be ``order``. The ring must have division and decide
-    whether an element is zero. The first searches allow as many brackets as a lower bound for the number of
-    brackets. If these searches fail, one more bracket is allowed, and the searches are repeated.
+    whether an element is zero.
 
-    The coefficients of the program are solutions of equations. A solution may contain free parameters. For
-    each allowed number of brackets, the first search sets all parameters to zero. If this search fails,
-    pseudorandom parameters are tried, at most ``attempts`` times. Raises
+    For each number of brackets, pseudorandom free parameters are tried at most ``attempts`` times. Raises
     :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
@@ -128,9 +120,8 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return a pair (grade, coefficients) for each stage j. The module docstring defines the combination q_j
-    = c_1 k_1 + ... + c_j k_j of stage values. The list ``coefficients`` contains the numbers c_1, ..., c_j.
-    ``grade`` is the grade of q_j, but at most ``order``."""
+    """Return a pair (grade, [c_1, ..., c_j]) for each combination q_j = c_1 k_1 + ... + c_j k_j of stage
+    values (module docstring). The grade is at most ``order``."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -153,7 +144,7 @@ def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
     """Return the arguments u_1, ..., u_s of the stages and the argument u of the step, as polynomials in the
-    elements h q_j. Here h is the step size, and the module docstring defines q_j."""
+    elements h q_j (module docstring)."""
     ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
@@ -170,12 +161,10 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return combinations u_j - c u_i of two stage arguments, as a map from stages i to lists. The program
-    computes the combinations in the list of stage i, and then u_i.
+    """Return combinations u_j - c u_i of two stage arguments with j > i, as a map from stages i to lists.
 
-    Here j is a later stage than i. The number c is chosen such that the combination may need fewer brackets
-    than u_i, and fewer than u_j. A term of u_j is omitted if it is a single letter that is not known before
-    u_i.
+    The number c is chosen such that the combination may need fewer brackets than u_i, and fewer than u_j. A
+    term of u_j is omitted if it is a single letter that is not known before u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -194,7 +183,7 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
 @dataclass(frozen=True)
 class _Shape:
     """The number and the form of the brackets that the search adds to a program in order to express one
-    element, for example an argument u_i.
+    element.
 
     The pool is the list of elements that are known before the brackets are added. The first element of the
     pool is q_1. The symbols x, y, z_n and w_n denote unknown linear combinations of elements of the pool.
@@ -220,8 +209,8 @@ class _Shape:
 
 
 def _shapes(pool: int) -> Iterator[_Shape]:
-    """Yield an infinite sequence of shapes (:class:`_Shape`), sorted by the number of brackets. ``pool`` is
-    the number of known elements from which the brackets are formed."""
+    """Yield infinitely many shapes (:class:`_Shape`) for ``pool`` known elements, sorted by the number of
+    brackets."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -231,12 +220,9 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """A search for a :class:`BracketProgram`. Each argument of an exponential is expressed by known elements
-    and new brackets.
+    """A search for a :class:`BracketProgram` with at most ``most`` brackets.
 
-    ``pool`` contains a pair (element, row) for each known element. The row of an element contains its
-    coefficients with respect to stage values and brackets (:class:`BracketProgram`). ``most`` is the largest
-    allowed number of brackets in the program.
+    ``pool`` contains a pair (element, row) for each known element.
     """
 
     def __init__(
@@ -252,8 +238,7 @@ class _Search:
     ) -> BracketProgram | None:
         """Return a program that computes ``arguments[0]``, ``arguments[1]``, ... in this order. Before
         ``arguments[i]``, the program computes the elements ``before[i]``. Return None if the search finds no
-        program with the allowed number of brackets. ``least`` is a lower bound for the number of brackets,
-        and is stored in the program."""
+        program with the allowed number of brackets."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:
@@ -282,8 +267,7 @@ class _Search:
         Return the row of the argument, or None if no suitable brackets are found.
 
         The equations contain products of the unknowns x and y of :class:`_Shape`, and are solved by
-        iteration. In each iteration, one of the two factors of each product is set to a known value. Then the
-        equations are linear."""
+        iteration."""
         if shape.leading and len(self.pool) < 3:
             return None
         for fixed_left in (False, True) if shape.leading else (False,):
@@ -332,9 +316,8 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. If the
-        search uses random numbers and there are several solutions, a random one is chosen with probability
-        0.6."""
+        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. A
+        search with random numbers may return a random solution."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -402,8 +385,7 @@ class _Search:
         return self._row(terms), value, right
 
     def _bracket(self, left: Sequence[tuple[Element, int]], right: Sequence[tuple[Element, int]]) -> int:
-        """Compute the bracket of two linear combinations of pool elements. Add the bracket to the pool, and
-        return its index in the pool."""
+        """Add the bracket of two linear combinations of pool elements to the pool, and return its index."""
         x, y = (self.algebra.combine(*((c, self.pool[n][0]) for c, n in side)) for side in (left, right))
         rows = self._row(left), self._row(right)
         if len(rows[0]) == 1:

@@ -1,9 +1,8 @@
 """Composition, inverse and adjoint of steps, given as B-series or Lie-Butcher series.
 
-The series of a step represents the step. The series has one coefficient for each tree or forest. The function
-that maps a tree or forest to its coefficient is called a character. The coefficient of the empty forest is 1.
-In the composition of two steps, a coefficient is a sum over cuts (:mod:`orderconds.series.cuts`). A cut may
-remove several components. The summand of the cut contains the product of the coefficients of all components.
+The function that maps a tree or forest to its coefficient in the series of a step is called a character. The
+coefficient of the empty forest is 1. In the composition of two steps, a coefficient is a sum over cuts
+(:mod:`orderconds.series.cuts`).
 
 A B-series has a coefficient a(t) for each canonical rooted tree t. The series is y1 = y0 + sum_t h^|t|
 a(t)/sigma(t) F(t), where y0 and y1 are the values before and after a step of size h. Here |t| is the number
@@ -44,8 +43,8 @@ ROOTED = TreeAlgebra(tree_cuts, lambda tree: Fraction(1, density(tree)))
 coefficient 1/gamma (HLW III.1, Theorem 1.5)."""
 
 ORDERED = TreeAlgebra(left_cuts, exact_value)
-"""The algebra of ordered forests, for Lie-Butcher series. A forest denotes a product of operators. The
-operator of its first tree acts first."""
+"""The algebra of ordered forests, for Lie-Butcher series. The operator of the first tree of a forest acts
+first."""
 
 
 class Character:
@@ -94,8 +93,7 @@ class Character:
         return undone
 
     def adjoint(self) -> Character:
-        """Return the adjoint of the step: the inverse of the step of size -h (HLW II.3, Def. 3.1). A
-        symmetric method is equal to its adjoint.
+        """Return the adjoint of the step: the inverse of the step of size -h (HLW II.3, Def. 3.1).
 
         >>> from orderconds.ring import QQ
         >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -116,10 +114,9 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Return a sum over the admissible cuts of a tree or forest. A cut removes parts, called components,
-        and leaves a part, called the rest. The summand is the coefficient of the rest in the series of
-        ``other``, multiplied by the coefficients of all components in the series of ``self``. If ``whole`` is
-        false, omit the cut that removes nothing."""
+        """Return a sum over the admissible cuts of a tree or forest (:mod:`orderconds.series.cuts`). The
+        summand is the coefficient of the rest in the series of ``other``, multiplied by the coefficients of
+        all components in the series of ``self``. If ``whole`` is false, omit the cut that removes nothing."""
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):
             if components or whole:

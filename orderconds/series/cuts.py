@@ -1,5 +1,4 @@
-"""Admissible cuts of trees and forests. In the composition of two steps, the coefficient of a tree or forest
-is a sum over its admissible cuts.
+"""Admissible cuts of trees and forests.
 
 A cut removes parts, called components, from a tree or forest. The part that remains is called the rest.
 
@@ -21,9 +20,8 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""A cut, as a pair (components, rest). If a cut removes a whole tree, this tree is the only component. If a
-cut removes a whole forest, all trees of the forest together are one component. In both cases, the rest is
-empty."""
+"""A cut, as a pair (components, rest). If a cut removes a whole tree or forest, this tree or forest is the
+only component."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 
