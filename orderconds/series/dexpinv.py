@@ -1,14 +1,12 @@
 """The series of a Runge-Kutta-Munthe-Kaas method (RKMK), computed from the definition of the method.
 
 The stage arguments are ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j`` with ``k_j = f(exp(u_j) y0)``. The step
-is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x, where
-ad_u x = [u, x]. The numbers B_k are the Bernoulli numbers with B_1 = -1/2 (HLW IV.8.3).
+is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x, where ad_u
+x = [u, x]. The numbers B_k are the Bernoulli numbers with B_1 = -1/2 (Hairer, Lubich and Wanner, *Geometric
+Numerical Integration*, IV.8.3).
 
-The truncation index r is the highest power of ad_u. If dexpinv is not truncated, r is infinite.
-
-The computation uses words of ordered trees. The first letter of a word acts first. In the product x y of two
-series x and y, the factor y acts first. Hence each word of the product consists of letters of y, followed by
-letters of x. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+The first letter of a word of ordered trees acts first. In the product x y of two series, the factor y acts
+first.
 """
 
 from __future__ import annotations
@@ -25,12 +23,11 @@ from orderconds.trees.levels import Forest, Tree, branches
 
 
 class DexpinvSeries:
-    """The Lie-Butcher series of a Runge-Kutta-Munthe-Kaas method (RKMK). The method has the tableau (A, b),
-    whose entries are elements of ``ring``. The series dexpinv is truncated after the power ``cutoff``. If
-    ``cutoff`` is None, the series is not truncated.
+    """The Lie-Butcher series of a Runge-Kutta-Munthe-Kaas method (RKMK) with the tableau (A, b) over
+    ``ring``.
 
-    The tableau may be implicit. The coefficients are computed recursively, because the coefficient of a
-    forest depends only on the coefficients of smaller forests.
+    The series dexpinv is truncated after the power ``cutoff``. If ``cutoff`` is None, the series is not
+    truncated. The tableau may be implicit.
 
     >>> from orderconds.ring import QQ
     >>> midpoint = DexpinvSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one])
@@ -42,8 +39,7 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        # ``_rows[0]`` contains the rows of A, which give the arguments u_1, ..., u_s of the stages.
-        # ``_rows[1]`` contains the row b, which gives the argument of the step.
+        # ``_rows[0]`` gives the arguments of the stages, and ``_rows[1]`` gives the argument of the step.
         self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
@@ -69,9 +65,8 @@ class DexpinvSeries:
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in the exponentials of arguments. If ``step`` is 0, the list
-        has one entry for each stage i: the coefficient in exp(u_i), where u_i is the argument of the stage.
-        If ``step`` is 1, the only entry is the coefficient in exp(u), where u is the argument of the step."""
+        """Return the coefficients of ``word`` in exp(u) for the argument u of each stage, or of the step if
+        ``step`` is 1."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -84,9 +79,8 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in the n-th powers of arguments. If ``step`` is 0, the list has
-        one entry for each stage i: the coefficient in u_i^n, where u_i is the argument of the stage. If
-        ``step`` is 1, the only entry is the coefficient in u^n, where u is the argument of the step."""
+        """Return the coefficients of ``word`` in u^n for the argument u of each stage, or of the step if
+        ``step`` is 1."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -101,8 +95,7 @@ class DexpinvSeries:
         return values
 
     def _dexpinv(self, word: Forest) -> list[Element]:
-        """Return a list with one entry for each stage j: the coefficient of ``word`` in the truncated series
-        dexpinv_{u_j} k_j. Stage j has the argument u_j and the stage value k_j."""
+        """Return the coefficient of ``word`` in the truncated series dexpinv_{u_j} k_j for each stage j."""
         sums = self._summands.get(word)
         if sums is None:
             sums = [self._ring.zero] * self._stages
@@ -116,12 +109,9 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return a list with one entry for each stage j: the coefficient of the word v k_j w in the truncated
-        series dexpinv_{u_j} k_j. If no term of the series can contain a word v k_j w, return None.
-
-        Stage j has the argument u_j and the stage value k_j. The stage value is treated as one letter. The
-        word v is ``start`` and has ``before`` letters. The word w is ``end`` and has ``behind`` letters.
-        """
+        """Return the coefficient of the word v k_j w in the truncated series dexpinv_{u_j} k_j for each stage
+        j. The word v is ``start`` with ``before`` letters, and w is ``end`` with ``behind`` letters. If no
+        term of the series can contain a word v k_j w, return None."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:
@@ -135,13 +125,8 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms of the series dexpinv_u x that may contribute to the coefficient of a word v x w.
-        The word v has ``before`` letters, and w has ``behind`` letters.
-
-        A term q u^n x u^m with a number q is returned as the triple (q, m, n). In a product, the rightmost
-        factor acts first. In a word, the first letter acts first. Hence the letters of v come from the factor
-        u^m, and the letters of w come from the factor u^n.
-        """
+        """Return the terms q u^n x u^m of dexpinv_u x that may contribute to a word v x w, as triples (q, m,
+        n). The ``before`` letters of v come from u^m, and the ``behind`` letters of w come from u^n."""
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
             longest = before + behind
@@ -163,8 +148,8 @@ class DexpinvSeries:
 def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     """Return the terms q u^n x u^m of dexpinv_u x with m + n <= ``longest``, as triples (q, m, n).
 
-    Let k = m + n. The coefficient is q = (-1)^m B_k / (m! n!), where B_k is a Bernoulli number. Terms with
-    B_k = 0 are omitted.
+    The coefficient is q = (-1)^m B_{m+n} / (m! n!) with the Bernoulli numbers B_k. Terms with q = 0 are
+    omitted.
 
     >>> [(str(q), m, n) for q, m, n in dexpinv_terms(1)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0)]
@@ -197,7 +182,6 @@ def _cuts(word: Forest) -> list[int]:
 
 
 def _pointed(word: Forest) -> list[tuple[int, Tree, int]]:
-    """Return a triple (start, letter, end) for each letter of a word. The letter is the ordered tree
-    ``word[start:end]``."""
+    """Return a triple (start, letter, end) for each letter ``word[start:end]`` of a word."""
     cuts = [0, *_cuts(word), len(word)]
     return [(start, word[start:end], end) for start, end in pairwise(cuts)]

@@ -1,15 +1,14 @@
 """Coefficients of words in a product of exponentials, over any ring.
 
 Let the exponents X_1, ..., X_m be linear combinations of letters, where x_J(k) is the coefficient of the
-letter k in X_J. In the product exp(X_m) ... exp(X_1), the factor exp(X_1) acts first. In a word k_1 ... k_n,
-the letter k_1 acts first. In the product, the coefficient of k_1 ... k_n is the sum, over all indices J_1 <=
-... <= J_n, of
+letter k in X_J. The factor exp(X_1) and the letter k_1 act first. In the product exp(X_m) ... exp(X_1), the
+coefficient of the word k_1 ... k_n is the sum, over all indices J_1 <= ... <= J_n, of
 
 x_{J_1}(k_1) ... x_{J_n}(k_n) / (r_1! r_2! ...).
 
 A run is a maximal sequence of equal indices, and r_1, r_2, ... are the lengths of the runs of J_1, ..., J_n
-(HLW, Section III.5; Reutenauer, Free Lie Algebras, Chapter 3). HLW denotes Hairer, Lubich and Wanner,
-*Geometric Numerical Integration*.
+(Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.5; Reutenauer, Free Lie Algebras, Chapter
+3).
 """
 
 from __future__ import annotations
@@ -44,8 +43,7 @@ class ProductOfExponentials:
         return self._sweep(word)[-1]
 
     def _sweep(self, word: Word) -> list[Element]:
-        """Return a list. Entry n is the coefficient of ``word`` in the product of the first n
-        exponentials."""
+        """Return the coefficients of ``word`` in the products of the first 0, 1, 2, ... exponentials."""
         values = self._partial.get(word)
         if values is None:
             whole = len(word)
@@ -55,8 +53,7 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The coefficient is a sum over the number r of letters that come from exp(X_J). These letters
-                # are the last r letters of the word. The other letters come from exp(X_0), ..., exp(X_(J-1)).
+                # The coefficient is a sum over r, where the last r letters of the word come from exp(X_J).
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

@@ -1,8 +1,7 @@
 """Products and brackets of polynomials in non-commuting letters.
 
-A polynomial is a map from words of letters to coefficients. The letters are 0, 1, 2, ..., and each letter has
-a grade. The grade of a word is the sum of the grades of its letters. The product of two words is their
-concatenation. Words above a given grade are omitted.
+A polynomial is a map from words in the letters 0, 1, 2, ... to coefficients. The grade of a word is the sum
+of the grades of its letters. Words above a given grade are omitted.
 """
 
 from __future__ import annotations
@@ -61,8 +60,8 @@ class GradedAlgebra:
         return self.combine((one, self.multiply(x, y)), (self.ring.zero - one, self.multiply(y, x)))
 
     def dexpinv(self, u: Mapping[Word, Element], x: Mapping[Word, Element]) -> Polynomial:
-        """Return dexpinv_u x = sum_k B_k/k! ad_u^k x, where ad_u x = [u, x]. The numbers B_k are the
-        Bernoulli numbers (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.4, (4.3))."""
+        """Return dexpinv_u x = sum_k B_k/k! ad_u^k x with ad_u x = [u, x] and the Bernoulli numbers B_k
+        (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.4, (4.3))."""
         result, term = dict(x), dict(x)
         for k in range(1, self.largest):
             term = self.bracket(u, term)

@@ -1,10 +1,9 @@
 """Lie-Butcher series of products of exponentials, and of the exact flow.
 
-A series has one coefficient for each ordered forest. A forest is a word of ordered trees and denotes a
-product of operators, one for each tree. The operator of the first tree acts first. Let the exponents X_1,
-..., X_m be linear combinations of trees, where x_J(t) is the coefficient of the tree t in X_J. In the product
-exp(X_m) ... exp(X_1), the factor exp(X_1) acts first. The coefficient of a word t_1 ... t_n in this product
-is the sum, over all indices J_1 <= ... <= J_n, of
+A series has one coefficient for each ordered forest, which is a word of ordered trees. Let the exponents X_1,
+..., X_m be linear combinations of trees, where x_J(t) is the coefficient of the tree t in X_J. The factor
+exp(X_1) and the tree t_1 act first. In the product exp(X_m) ... exp(X_1), the coefficient of the forest t_1
+... t_n is the sum, over all indices J_1 <= ... <= J_n, of
 
 x_{J_1}(t_1) ... x_{J_n}(t_n) / (r_1! r_2! ...).
 
@@ -25,8 +24,7 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 from orderconds.trees.ordered import ordered_forests
 
 SparseRow = Sequence[tuple[int, Element]]
-"""The exponent of one exponential, as pairs (index of a stage, coefficient of the stage value). Zero
-coefficients are omitted."""
+"""The exponent of one exponential, as pairs (index of a stage, non-zero coefficient of the stage value)."""
 
 
 class ForestSeries(Protocol):
@@ -37,12 +35,11 @@ class ForestSeries(Protocol):
 
 
 class ExponentialsSeries:
-    """The series of a commutator-free method. The exponents are linear combinations of stage values.
+    """The series of a commutator-free method, which may be implicit.
 
-    The product of the exponentials in ``stages[i]`` maps y0 to the point at which stage i evaluates the
-    vector field. The product of the exponentials in ``update`` maps y0 to the result of the step. Each
-    exponential is represented by its exponent. An exponent is a list of pairs (index of a stage, coefficient
-    of the stage value). In each product, the exponential with index 0 acts first. The method may be implicit.
+    The exponentials in ``stages[i]`` map y0 to the point of stage i, and the exponentials in ``update`` map
+    y0 to the result of the step. Each exponential is given by its exponent, as pairs (index of a stage,
+    coefficient of the stage value). In each product, the exponential with index 0 acts first.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -57,9 +54,9 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """Triples (product, shorter, last) of indices, one triple for each non-empty partial product of
-        exponentials. The partial product number ``product`` consists of the partial product number
-        ``shorter``, followed by the exponential of ``_rows[last]``. The empty product has the number 0."""
+        """Triples (product, shorter, last) of indices, one for each non-empty partial product of
+        exponentials. The partial product ``product`` is the partial product ``shorter`` (0 if empty),
+        followed by the exponential of ``_rows[last]``."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -95,8 +92,8 @@ class ExponentialsSeries:
         return self._updates[forest]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the coefficient of a forest in the product of the exponentials of stage i. The product maps
-        y0 to the point at which stage i evaluates the vector field. Stages are counted from 0."""
+        """Return the coefficient of a forest in the product of the exponentials of stage i. Stages are
+        counted from 0."""
         return self._word(forest)[self._ends[i]]
 
     def stage_values(self, tree: Tree) -> list[Element]:
@@ -115,22 +112,19 @@ class ExponentialsSeries:
         return way[::-1]
 
     def _word(self, word: Forest) -> list[Element]:
-        """Return the coefficients of a word in the series of all partial products of exponentials. The
-        partial products are numbered as in ``self._places``."""
+        """Return the coefficients of a word in all partial products, numbered as in ``self._places``."""
         values = self._words.get(word)
         if values is None:
             values = self._words[word] = self._along(word, self._places)
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of a non-empty word in the series of partial products of exponentials. The
-        list has one entry for each partial product of the method. ``places`` contains some of the triples in
-        ``self._places``. The entries for all other partial products are zero."""
+        """Return the coefficients of a non-empty word in all partial products, with zeros for those not in
+        ``places``."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # In each partial product, the coefficient of the word is a sum over r = 0, 1, .... In the summand r,
-        # the last r letters of the word come from the last exponential, and the other letters come from
-        # earlier exponentials.
+        # The coefficient of the word is a sum over r, where the last r letters come from the last
+        # exponential.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
@@ -148,8 +142,8 @@ class ExponentialsSeries:
         return values
 
     def _letter(self, tree: Tree) -> list[Element | None]:
-        """Return the coefficients of a tree in the exponents ``self._rows``. An entry is None if the ring can
-        prove that the coefficient is zero."""
+        """Return the coefficients of a tree in the exponents ``self._rows``, with None for each coefficient
+        that is proved to be zero."""
         coefficients = self._letters.get(tree)
         if coefficients is None:
             values, zero = self.stage_values(tree), self._ring.zero
@@ -168,9 +162,9 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the coefficient of a forest in the Lie-Butcher series of the exact flow.
 
-    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. The branches of a tree t_l form a forest. Let
-    c_l(s) be the coefficient of this forest in the series of g(s). Then the coefficient of the forest t_1 ...
-    t_n in g(1) is the integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
+    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. Let c_l(s) be the coefficient of the branches
+    of the tree t_l in the series of g(s). Then the coefficient of the forest t_1 ... t_n in g(1) is the
+    integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')
@@ -184,11 +178,10 @@ def exact_value(forest: Forest) -> Fraction:
 def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     """Return a map from each ordered forest w with ``order`` vertices to its coefficient a(w) in a series.
 
-    For matrices, the step is y1 = g1 y0. The matrix g1 is the sum of h^|w| a(w) F(t_k) ... F(t_1) over all
-    forests w = t_1 ... t_k, where |w| is the number of vertices. The elements F(t) of the Lie algebra are
-    defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). The differential equation is y' = f(y) y, where the
-    values of f are elements of the Lie algebra. The operator X_l is the derivative along the vector field y'
-    = F(t_l) y, where the element F(t_l) does not depend on y.
+    For matrices, the step is y1 = g1 y0, where g1 is the sum of h^|w| a(w) F(t_k) ... F(t_1) over all forests
+    w = t_1 ... t_k with |w| vertices. For the differential equation y' = f(y) y, the matrices F(t) are
+    defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). The operator X_l is the derivative along the vector
+    field y' = F(t_l) y with constant F(t_l).
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

@@ -1,11 +1,10 @@
-"""Selection of independent order conditions for a family of methods. Each ordered forest has one condition.
-The left-hand sides are evaluated for random methods of the family. The left-hand sides form a matrix with one
-row for each method and one column for each condition. Linear algebra shows which columns are independent.
+"""Selection of independent order conditions for a family of methods, with one condition for each ordered
+forest.
 
-A condition is omitted if it follows from earlier conditions. In this case, its left-hand side is a linear
-combination of earlier left-hand sides and of products of left-hand sides of lower order. The right-hand sides
-are the coefficients of the forests in the exact flow. The linear relation must also hold for the right-hand
-sides. For this reason, one row of the matrix contains the right-hand sides.
+The left-hand sides for random methods form a matrix with one row for each method and one column for each
+condition. A condition is omitted if its left-hand side is a linear combination of earlier left-hand sides and
+of products of left-hand sides of lower order. The linear relation must also hold for the right-hand sides,
+which are the coefficients of the forests in the exact flow.
 """
 
 from __future__ import annotations
@@ -22,9 +21,8 @@ from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 
 RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
-"""A function that returns the common series of many random methods of a family. The methods are called
-samples. Each coefficient of the series is a vector of residues modulo one prime, with one residue for each
-sample."""
+"""A function that returns the common series of many random methods of a family, called samples. Each
+coefficient of the series is a vector of residues modulo one prime, with one residue for each sample."""
 
 SPARE_SAMPLES = 20
 """The number of samples is the largest possible rank of the matrix of left-hand sides, plus this number. The
@@ -34,15 +32,14 @@ additional samples make accidental linear dependences improbable."""
 def independent_forests(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], *, with_exact_flow: bool = True
 ) -> tuple[tuple[Forest, ...], ...]:
-    """Return the forests whose order conditions are independent, as one tuple for each order. ``candidates``
-    contains a sequence of forests for each order 1, 2, .... A forest is omitted if its condition follows from
-    the conditions of earlier forests.
+    """Return the forests whose order conditions are independent, as one tuple for each order.
 
-    The order condition of a forest requires equal coefficients in the method and in the exact flow. If
-    ``with_exact_flow`` is false, only the coefficients in the method are tested for independence.
+    ``candidates`` contains a sequence of forests for each order 1, 2, .... A forest is omitted if its
+    condition follows from the conditions of earlier forests. If ``with_exact_flow`` is false, only the
+    coefficients in the method are tested for independence.
 
-    The forests are selected modulo two primes, and the larger selection is returned. Modulo a prime, the rank
-    of the matrix of left-hand sides can be less than over Q. In this case, the selection lacks a forest.
+    The forests are selected modulo two primes, and the larger selection is returned, because the rank modulo
+    a prime can be too small.
 
     >>> from orderconds.trees.ordered import ordered_forests
     >>> from orderconds.series.dexpinv import DexpinvSeries
@@ -59,10 +56,7 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # For each order, the left-hand sides and the products of left-hand sides of lower order are the columns
-    # of a matrix with one row for each sample. The rank of the matrix is at most the number of ordered
-    # forests of the order, and this number grows with the order. Hence the number for the highest order, with
-    # the spare samples added, suffices for all orders.
+    # The rank is at most the number of ordered forests of the order, which is largest for the highest order.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

@@ -1,8 +1,8 @@
 """Products of exponentials or of Cayley transforms for the equation Y' = A(t) Y.
 
-An exponent is a linear combination of words. The exponent is represented by a function that maps a word to
-its coefficient. The letter k denotes the matrix A_k in A(t) = sum_k t^(k-1) A_k, and has the weight k. The
-first letter of a word acts first: the word (k, l) denotes the matrix product A_l A_k.
+An exponent is a linear combination of words, given by a function that maps a word to its coefficient. The
+letter k denotes the matrix A_k in A(t) = sum_k t^(k-1) A_k, and has the weight k. The first letter of a word
+acts first: the word (k, l) denotes the matrix product A_l A_k.
 """
 
 from __future__ import annotations
@@ -28,15 +28,13 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""The exponential (``exp``) and the Cayley transform (``cay``). Each transform has a pair of functions. The
-first function returns the coefficients of the power series of the transform, without the constant term 1. The
-second function returns the coefficients of the power series of the inverse function."""
+"""A pair of functions for the exponential (``exp``) and for the Cayley transform (``cay``). The functions
+return the power series coefficients of the transform, without the constant term 1, and of its inverse."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:
-    """Return the logarithm Omega of a product of exponentials, as a function that maps a word to its
-    coefficient in Omega. The factors of the product are the exponentials of ``exponents``. The exponential of
-    ``exponents[0]`` acts first.
+    """Return the logarithm of the product of the exponentials of ``exponents``, as a function that maps a
+    word to its coefficient. The exponential of ``exponents[0]`` acts first.
 
     If ``transform`` is ``cay``, the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2) replaces the
     exponential, and its inverse replaces the logarithm.

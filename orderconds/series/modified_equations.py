@@ -2,10 +2,10 @@
 
 One step of size h of a method equals the flow of a modified vector field f~ = f + h f_2 + ... over time h.
 Let a(t) and b(t) be the coefficients of the tree t in the step and in f~. If an edge of t is removed, t falls
-into a subtree u and a part r that contains the root. A linear map L is defined on functions c of trees: the
-value (L c)(t) is the sum of b(u) c(r) over all edges of t. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (HLW
-IX.9.1). For series over ordered forests, see Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295. HLW
-denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+into a subtree u and a part r that contains the root. For a function c of trees, (L c)(t) is the sum of b(u)
+c(r) over all edges of t. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (Hairer, Lubich and Wanner (HLW), *Geometric
+Numerical Integration*, IX.9.1). For series over ordered forests, see Lundervold and Munthe-Kaas, Contemp.
+Math. 539 (2011) 295.
 """
 
 from __future__ import annotations
@@ -22,12 +22,11 @@ from orderconds.trees.rooted import rooted_trees
 
 
 class VectorField:
-    """A vector field f~, given by a series. A B-series has one coefficient for each tree, and a Lie-Butcher
-    series has one coefficient for each ordered forest.
+    """A vector field f~, given by a B-series over trees or by a Lie-Butcher series over ordered forests.
 
-    The field of a B-series is f~ = sum_t h^(|t|-1) b(t)/sigma(t) F(t), where t runs through all trees. Here
-    |t| is the number of vertices of t, b(t) is the coefficient of t, sigma(t) is the order of the symmetry
-    group of t, and F(t) is the elementary differential of t.
+    The field of a B-series is f~ = sum_t h^(|t|-1) b(t)/sigma(t) F(t). Here |t| is the number of vertices of
+    the tree t, b(t) is the coefficient of t, sigma(t) is the order of the symmetry group of t, and F(t) is
+    the elementary differential of t.
 
     The field of a Lie-Butcher series for matrices is f~ = sum_w h^(|w|-1) b(w) F(t_k) ... F(t_1), where w =
     t_1 ... t_k runs through all words of ordered trees.
@@ -74,10 +73,9 @@ class VectorField:
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value of the function L^(n-1) b for a tree or forest. Here b maps a tree or forest to
-        its coefficient in this vector field. The linear map L is defined on functions c of trees or forests:
-        the value (L c)(forest) is the sum of b(component) c(rest) over all cuts of ``forest`` that remove one
-        component and leave a non-empty rest."""
+        """Return the value of L^(n-1) b for a tree or forest, where b is the series of this field. The value
+        (L c)(forest) is the sum of b(component) c(rest) over all cuts of ``forest`` that remove one component
+        and leave a non-empty rest."""
         if n == 1:
             return self(forest)
         if n > len(forest):
@@ -108,19 +106,18 @@ def modified_field(step: Character) -> VectorField:
 def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, Element], ...]:
     """Return the trees t and coefficients b(t)/sigma(t) of the modified Hamiltonian.
 
-    A free tree has no root. It is represented by a rooted tree t: one of its vertices is chosen as the root.
     The modified Hamiltonian is the sum of h^(|t|-1) b(t)/sigma(t) H(t) over free trees with at most ``order``
-    vertices. Here |t| is the number of vertices of t, b(t) is the coefficient of t in the field, and sigma(t)
-    is the order of the symmetry group of t.
+    vertices. Each free tree is represented by a rooted tree t. Here |t| is the number of vertices of t, b(t)
+    is the coefficient of t in the field, and sigma(t) is the order of the symmetry group of t.
 
     For a tree t with the branches t_1, ..., t_m, the elementary Hamiltonian is H(t) = H^(m)(F(t_1), ...,
     F(t_m)). Here H^(m) is the m-th derivative of the Hamiltonian, and F denotes elementary differentials. If
     t consists of two equal trees and an edge between their roots, then H(t) is zero, and t is omitted (HLW
     IX.9.2).
 
-    Let u o v be the tree u with the additional branch v at its root. The field is Hamiltonian if b(u o v) +
-    b(v o u) = 0 for all trees u and v. Raises :class:`~orderconds.errors.InputError` if the field is a
-    Lie-Butcher series, or if one of the equations b(u o v) + b(v o u) = 0 cannot be proved.
+    Let u o v be the tree u with the additional branch v at its root. Raises
+    :class:`~orderconds.errors.InputError` if the field is a Lie-Butcher series, or if one of the equations
+    b(u o v) + b(v o u) = 0 cannot be proved.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

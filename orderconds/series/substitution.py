@@ -1,16 +1,15 @@
-"""Substitution: the series of a step is given as a series in the vector field f. Then f is replaced by
-another vector field, which is itself a series in f.
+"""Substitution: another vector field, given as a series in f, replaces the vector field f in the series of a
+step.
 
 For B-series, the coefficient of a tree is a sum over all partitions of the tree into connected components.
 Each partition has a quotient tree, in which each component becomes one vertex. The summand is the coefficient
 of the quotient tree in the step, multiplied by the coefficients of the components in the field (Chartier,
 Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
 
-For Lie-Butcher series, each vertex of an ordered forest denotes the vector field f. If f is replaced by the
-other field, a forest becomes a linear combination of forests, called its image. Images are computed
-recursively. The branches of a tree form a forest. To obtain the image of the tree, the image of this forest
-is grafted onto the series of the other field. The image of a forest is the concatenation of the images of its
-trees (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+For Lie-Butcher series, a forest becomes a linear combination of forests, called its image. For the image of a
+tree, the image of the forest of its branches is grafted onto the series of the other field. The image of a
+forest is the concatenation of the images of its trees (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011)
+295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -59,11 +58,10 @@ def substituted(field: VectorField, step: Character) -> Character:
 
 
 def modifying_field(step: Character) -> VectorField:
-    """Return the modifying field of a method. If ``step`` is applied to this field, the result is the exact
-    flow of the original vector field f.
+    """Return the modifying field of a method: ``step`` applied to this field is the exact flow of f.
 
-    Truncate the modifying field after the power h^(p-1) and apply ``step`` to the truncated field. The result
-    is a method of order at least p (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941). Raises
+    If ``step`` is applied to the field truncated after the power h^(p-1), the result is a method of order at
+    least p (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941). Raises
     :class:`~orderconds.errors.InputError` if ``step`` is a Lie-Butcher series, or if the sum of the weights
     of the method is proved to differ from 1.
 
@@ -85,9 +83,8 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # The sum over all partitions must equal ``flow(tree)``. The partition into one component has the
-        # summand ``step(vertex) * field(tree)``. A consistent step has step(vertex) = 1. Hence the equation
-        # is solved for ``field(tree)``.
+        # The sum over all partitions is ``flow(tree)``, and the partition into one component has the summand
+        # ``field(tree)``, because a consistent step has step(vertex) = 1.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -110,8 +107,8 @@ def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bo
 
 @lru_cache(maxsize=1 << 12)
 def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
-    r"""Return all partitions of a canonical tree, one for each set of removed edges. A partition is a pair
-    (components, skeleton). The skeleton is the quotient tree, in which each component becomes one vertex.
+    r"""Return all partitions of a canonical tree, as pairs (components, skeleton). The skeleton is the
+    quotient tree, in which each component becomes one vertex.
 
     >>> partitions(b"\0\1")
     (((b'\x00\x01',), b'\x00'), ((b'\x00', b'\x00'), b'\x00\x01'))
@@ -124,13 +121,8 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
-    """Partition a tree by removing edges. ``cut`` begins with one flag for each edge of the tree in preorder.
-    An edge is removed if its flag is true. If the tree is part of a larger tree, flags for edges of the
-    larger tree follow.
-
-    Return four values: the component of the root, a list of the other components, the quotient tree, and the
-    remaining flags.
-    """
+    """Remove the edges of a tree whose flag in ``cut`` is true, where the edges are in preorder. Return the
+    component of the root, the other components, the quotient tree, and the remaining flags of ``cut``."""
     attached: list[Tree] = []
     components: list[Tree] = []
     skeletons: list[Tree] = []
@@ -152,9 +144,8 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """The images of ordered forests under the substitution that replaces the vector field f by ``field``. An
-    image is a linear combination of ordered forests. Forests with more than a given number of vertices are
-    omitted."""
+    """The images of ordered forests under the substitution that replaces the vector field f by ``field``.
+    Forests with more than a given number of vertices are omitted."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

@@ -1,21 +1,18 @@
 """Series of two-register (2N) Runge-Kutta schemes, on a group and on a vector space.
 
-The registers are y and k. At the start of a step, k is zero. Stage i replaces k by A_i k + h f(y), and then
-replaces y by exp(B_i k) y. The series of a step is a linear combination of words in the letters K and D. The
-letter K (kick) is the derivative along the vector field k' = f(y). The letter D (drift) is the derivative
+The registers are y and k, where k is zero at the start of a step. Stage i replaces k by A_i k + h f(y), and
+then replaces y by exp(B_i k) y. The series of a step is a linear combination of words in the letters K and D.
+The letter K (kick) is the derivative along the vector field k' = f(y). The letter D (drift) is the derivative
 along the vector field y' = k y. The last letter of a word acts first. Each letter D introduces one factor k,
-and each letter K replaces one factor k by f(y). If a suffix of a word contains more letters K than letters D,
-the result is zero, because no factor k is left to replace. If a word contains more letters D than letters K,
-a factor k remains in the result, and k is zero at the start. Hence only words with two properties are needed:
-the numbers of letters K and D are equal, and no suffix contains more letters K than letters D.
+and each letter K replaces one factor k by f(y). Hence only words with two properties are needed: the numbers
+of letters K and D are equal, and no suffix contains more letters K than letters D.
 
-A linear combination of words is a differential operator. The operator is zero on all groups if and only if it
-is zero on all vector spaces (proof: docs/explanation/two_registers.md). Hence the order of a 2N scheme on
-groups equals its order on vector spaces.
+As an operator, a linear combination of words is zero on all groups if and only if it is zero on all vector
+spaces (proof: docs/explanation/two_registers.md). Hence the order of a 2N scheme on groups equals its order
+on vector spaces.
 
-The value of a rooted forest is the product of the elementary weights of its trees. In the Lie-Butcher series
-of a 2N scheme, the coefficient of an ordered forest is a linear combination of the values of rooted forests.
-This module computes the linear combination. The linear combination does not depend on the 2N scheme.
+The value of a rooted forest is the product of the elementary weights of its trees. In the Lie-Butcher series,
+the coefficient of an ordered forest is the same linear combination of these values for all 2N schemes.
 """
 
 from __future__ import annotations
@@ -32,10 +29,8 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives, from left to right. Each entry denotes the derivative along a vector field. The
-entry None denotes the derivative along the vector field k y, where y and k are the two registers. An entry P
-that is a product of derivatives denotes the derivative along the vector field P f, where f is the vector
-field of the problem. Hence the entry () denotes the derivative along f."""
+"""A product of derivatives along vector fields, from left to right. The entry None denotes the vector field k
+y, and an entry P denotes the vector field P f."""
 
 Combination = dict[Operator, int]
 
@@ -60,8 +55,8 @@ def words(order: int) -> tuple[str, ...]:
 
 
 def on_group(word: str) -> dict[Forest, int]:
-    """Return a differential operator on a group: the operator that ``word`` denotes. The letters of the word
-    are K (kick) and D (drift). The operator is a map from ordered forests to coefficients.
+    """Return the operator of a word in the letters K (kick) and D (drift) on a group, as a map from ordered
+    forests to coefficients.
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_group("KDKD").items()}
@@ -71,9 +66,10 @@ def on_group(word: str) -> dict[Forest, int]:
 
 
 def on_vector_space(word: str) -> dict[Forest, int]:
-    """Return the differential operator that a word denotes on a vector space. The letters of the word are K
-    (kick) and D (drift). The operator is a map from forests of rooted trees to coefficients. The branches and
-    trees of each forest are sorted by :func:`unordered`.
+    """Return the operator of a word in the letters K (kick) and D (drift) on a vector space, as a map from
+    forests to coefficients.
+
+    The branches and trees of each forest are sorted by :func:`unordered`.
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_vector_space("KDKDKD").items()}
@@ -83,8 +79,8 @@ def on_vector_space(word: str) -> dict[Forest, int]:
 
 
 def unordered(forest: Forest) -> Forest:
-    r"""Sort the branches and the trees of an ordered forest. The result represents a forest of rooted trees.
-    The trees are canonical and sorted by level sequence, the greatest first.
+    r"""Sort the branches and the trees of an ordered forest. The trees are canonical and sorted by level
+    sequence, the greatest first.
 
     >>> unordered(b"\0\0\1")
     b'\x00\x01\x00'
@@ -133,16 +129,12 @@ def independent_trees(order: int) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=16)
 def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
-    """Return formulas in elementary weights for the coefficients in the Lie-Butcher series of two-register
-    (2N) schemes.
+    """Return formulas for the coefficients of all ordered forests with ``order`` vertices in the Lie-Butcher
+    series of two-register (2N) schemes.
 
-    The value of a rooted forest is the product of the elementary weights of the trees in the forest. In a 2N
-    scheme, the coefficient of an ordered forest is a linear combination of the values of rooted forests. The
-    result maps each ordered forest with ``order`` vertices to a linear combination. A linear combination is a
-    map from rooted forests to numbers.
-
-    The result is valid for every 2N scheme and for the exact flow. Raises ValueError if a coefficient is not
-    a linear combination of values.
+    The value of a rooted forest is the product of the elementary weights of its trees. Each formula is a
+    linear combination of values, as a map from rooted forests to numbers. The result is valid for every 2N
+    scheme and for the exact flow. Raises ValueError if a coefficient is not a linear combination of values.
 
     >>> from orderconds.trees.levels import text
     >>> {text(w): {text(u): str(x) for u, x in row.items()} for w, row in in_rooted_forests(2).items()}
@@ -180,9 +172,8 @@ def _symmetry(forest: Forest) -> int:
 
 @lru_cache(maxsize=1 << 12)
 def _applied(word: str, ordered: bool) -> Combination:
-    """Return a linear combination of products of derivatives: the differential operator that ``word``
-    denotes. The letters of the word are K (kick) and D (drift). ``ordered`` is true on a group and false on a
-    vector space."""
+    """Return the operator that ``word`` denotes, as a linear combination of products of derivatives.
+    ``ordered`` is true on a group and false on a vector space."""
     result: dict[Operator, int] = defaultdict(int)
     if not word:
         return {(): 1}
@@ -195,8 +186,7 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Apply the operator D (drift) to a product of derivatives by the product rule. D is the derivative along
-    the vector field y' = k y, where y and k are the two registers."""
+    """Apply the operator D (drift) to a product of derivatives by the product rule."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -204,9 +194,7 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the operator K (kick) to a product of derivatives by the product rule. In each term of the
-    result, the derivative along f replaces one derivative along y' = k y, where f is the vector field of the
-    problem and k is a register."""
+    """Apply the operator K (kick) to a product of derivatives by the product rule."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:
@@ -216,9 +204,8 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Return a sum over the factors of a product of derivatives. In each summand, the function ``act`` is
-    applied to one factor. Factors that are None have no summand. The function ``act`` is :func:`_drift` or
-    :func:`_kick`."""
+    """Return the sum of the results of ``act``, applied to one factor of a product of derivatives. Factors
+    that are None have no summand."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

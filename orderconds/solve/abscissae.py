@@ -10,18 +10,16 @@ defined by
 
 For Crouch-Grossman methods, m_i = b_1 + ... + b_{i-1} + b_i/2.
 
-Let each of x and z be one of the abscissae c, chat and m. A method of order three satisfies sum_i b_i x_i z_i
-= 1/3. Hence the sum of b_i (c_i - m_i)^2 over i is 1/3 - 2/3 + 1/3 = 0. Similarly, the sum of b_i (chat_i -
-m_i)^2 is zero. If the weights are positive, all terms of the two sums are zero, and the three abscissae are
-equal.
+A method of order three satisfies sum_i b_i x_i z_i = 1/3, where each of x and z is one of c, chat and m.
+Hence the sum of b_i (c_i - m_i)^2 over i is 1/3 - 2/3 + 1/3 = 0, and likewise for chat. If the weights are
+positive, the three abscissae are equal.
 
 Let A be the matrix of the coefficients a_ij of stage j in stage i. If the three abscissae are equal, A
-satisfies linear equations: sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each
-column j. Equations of this form are called a transportation problem.
+satisfies a transportation problem: sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for
+each column j.
 
-The rows and columns of A are the nodes of a graph. Each entry a_ij is an edge between row i and column j. A
-spanning tree of the graph is chosen. The equations determine the entries a_ij that are edges of the spanning
-tree. All other entries can be chosen freely.
+The rows and columns of A are the nodes of a graph with the edges a_ij. The equations determine the entries
+a_ij of a spanning tree. All other entries can be chosen freely.
 """
 
 from __future__ import annotations
@@ -34,10 +32,8 @@ WHERE = "structure abscissae"
 
 
 def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
-    """Return formulas for the abscissae m_1, ..., m_s of a Crouch-Grossman method.
-
-    ``b`` contains the names of the weights b_1, ..., b_s. The abscissae are defined by
-    m_i = b_1 + ... + b_{i-1} + b_i/2.
+    """Return formulas for the abscissae m_i = b_1 + ... + b_{i-1} + b_i/2 of a Crouch-Grossman method. ``b``
+    contains the names of the weights.
 
     >>> crouch_grossman_times(["b1", "b2"])
     {'m1': '1/2*b1', 'm2': 'b1 + 1/2*b2'}
@@ -46,11 +42,10 @@ def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
 
 
 def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> dict[str, str]:
-    """Return formulas for the weights b_i, the sums y_J and the abscissae m_i.
+    """Return formulas for the weights b_i, the sums y_J and the abscissae m_i of the module docstring.
 
-    Row J of ``update`` contains the coefficients of the J-th exponential of the update. The sum of row J is
-    y_J, and the sum of column i is b_i. The module docstring defines m_i. ``b`` contains the names of the
-    weights.
+    Row J of ``update`` contains the coefficients of the J-th exponential of the update. ``b`` contains the
+    names of the weights.
 
     >>> commutator_free_times([["x"], ["y"]], ["b1"])
     {'b1': 'x + y', 'y1': 'x', 'y2': 'y', 'm1': '1 - (x*(1/2*y1 + y2) + y*(1/2*y2))/b1'}
@@ -75,14 +70,13 @@ def _sum(row: Sequence[str]) -> str:
 def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
     """Return formulas for 2 s - 1 entries of A, where s is the number of stages.
 
-    With these formulas, each row i satisfies the equation sum_j a_ij = m_i, and each column j satisfies the
-    equation sum_i b_i a_ij = b_j (1 - m_j), where m_i are the abscissae and b_i are the weights. The formulas
-    contain the abscissae, the weights and the remaining entries of A.
+    With these formulas, sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column
+    j. Here m_i are the abscissae and b_i are the weights.
 
-    ``b`` contains the texts of the weights. ``fixed`` maps the names of known entries to their values. The
-    rows and columns of A are the nodes of a graph. Each entry a_ij without a known value is an edge between
-    row i and column j. The formulas are for the entries that are edges of a spanning tree. Raises
-    :class:`~orderconds.errors.InputError` if the graph is not connected.
+    ``b`` contains the texts of the weights. ``fixed`` maps the names of known entries to their values. Each
+    entry a_ij without a known value is an edge between row i and column j of a graph. The formulas are for
+    the entries of a spanning tree. Raises :class:`~orderconds.errors.InputError` if the graph is not
+    connected.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
@@ -106,8 +100,8 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
 
 
 def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, int]]:
-    """Return the edges of a spanning tree of a graph. The nodes of the graph are the s rows and the s columns
-    of a matrix. An edge (i, j) joins row i and column j. Raises InputError if the graph is not connected."""
+    """Return a spanning tree of the graph whose edges (i, j) join row i and column j of an s x s matrix.
+    Raises InputError if the graph is not connected."""
     component = list(range(2 * s))
     kept = []
     for i, j in sorted(edges, key=lambda e: (e[0] != s - 1 and e[1] != s - 1, -e[0], -e[1])):
@@ -125,11 +119,8 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
-    """Find an entry that is the only unknown in its row or column. Return a triple (row, column, by_row).
-
-    Rows are tested first. If the entry is the only unknown in its row, ``by_row`` is True. Otherwise, the
-    entry is the only unknown in its column, and ``by_row`` is False.
-    """
+    """Return a triple (row, column, by_row) for an entry that is the only unknown in its row or column. If
+    the entry is the only unknown in its row, ``by_row`` is True."""
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
@@ -146,19 +137,18 @@ def symmetric_transport(
 ) -> dict[str, str]:
     """Return formulas for coefficients of a symmetric method with s stages and the abscissae m_i.
 
-    Stage i begins with the first ``leave[i]`` exponentials of ``update``. The other exponentials of stage i
-    are called its own exponentials (:mod:`orderconds.solve.paths`). Let x_ij be the sum of the coefficients
-    of stage j in the own exponentials of stage i.
+    Stage i begins with the first ``leave[i]`` exponentials of ``update``, followed by its own exponentials
+    (:mod:`orderconds.solve.paths`). Let x_ij be the sum of the coefficients of stage j in the own
+    exponentials of stage i.
 
     - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
     The abscissa m_i determines the sum of row i of ``own``. For each column j in the first half, let k = s +
-    1 - j. The sum of b_i (x_ij - x_ik) over the rows i of ``own`` must be C_j, where b_i are the weights. The
-    value of C_j does not depend on ``own``.
+    1 - j. The sum of b_i (x_ij - x_ik) over the rows i of ``own`` must be C_j, where b_i are the weights.
 
-    The function solves these equations for the last entry of each row and the first half of the last row. It
-    returns formulas for these entries and for C_j. In the formulas, y_J is the sum of row J of ``update``.
+    The result contains formulas for C_j, the last entry of each row, and the first half of the last row. In
+    the formulas, y_J is the sum of row J of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]
