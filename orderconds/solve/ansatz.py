@@ -1,8 +1,6 @@
-"""An ansatz: the text of a tableau file in which some coefficients are unknown. A search computes the
-unknown coefficients.
+"""An ansatz: the text of a tableau file in which some coefficients are unknown.
 
-The file describes a method with a given number of stages. The coefficients of the method have names such as
-a21 and b1. The coefficients are evaluated in three ways:
+The coefficients are evaluated in three ways:
 
 - with a record of all operations; the record is a program for the numerical search
 - with integers modulo primes, for the ranks of the conditions
@@ -28,8 +26,7 @@ class Ansatz:
     - ``free``: the names of the free coefficients (the unknowns)
     - ``numbers``: formulas for all other named coefficients
     - ``body``, ``tail``: the lines of the file before and after the table [numbers]
-    - ``cells``: the names of all coefficients that are not constants; their values are free or given by
-      ``numbers``
+    - ``cells``: the names of all coefficients that are not constants
     - ``family``: the label of the method family whose order conditions are solved
     - ``reduction``: the name of the theorem that makes some order conditions unnecessary in the proof of the
       order (:mod:`orderconds.proof.equations`)
@@ -100,7 +97,7 @@ class Ansatz:
 
 def _place(name: str) -> tuple[bool, bool, str, list[int]]:
     """Return the sort key of the name of a coefficient. Names m1, m2, ... come first, then b1, b2, ..., then
-    all other names. Indices are compared as numbers."""
+    all other names."""
     letters = name.rstrip("0123456789_")
     return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])
 

@@ -1,10 +1,9 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
-Coefficients that the order conditions do not determine are rounded to short decimals. Newton's method
-computes all other coefficients to high precision. Lattice reduction tries to find one number field that
-contains all computed coefficients, and gives their closed forms in this field. With closed forms, the order
-is checked exactly. If there are no closed forms or the check fails, the file contains rounded decimals. In
-this case, interval arithmetic proves that the order conditions have a solution near the decimals.
+Coefficients that the order conditions do not determine are rounded to short decimals. Lattice reduction tries
+to find closed forms of all other coefficients in one number field. If exact arithmetic does not prove the
+order, interval arithmetic proves that a solution of the order conditions exists near the decimals in the
+file.
 """
 
 from __future__ import annotations
@@ -48,21 +47,16 @@ STEPS = (
     Fraction(1, 1000),
 )
 """Rounding units, tried in this order. Coefficients that the order conditions do not determine are rounded to
-multiples of a unit. The order conditions are then solved for all other coefficients. The unit is accepted if
-two conditions hold: the largest coefficient and the principal error increase by less than the factor
-:data:`WORSE`, and the Jacobian of the order conditions has no singular value near zero.
-"""
+multiples of a unit."""
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""Rounding units for a solution with minimised principal error. Finer units are unnecessary, because small
-changes of the coefficients hardly change the error near a minimum."""
+"""Rounding units for a solution with minimised principal error."""
 
 DIGITS = 50
 """A rounded coefficient in the tableau file has at least this number of decimal places."""
 
 BITS = 1400
-"""The working precision of Newton's method in bits. The precision is high, because lattice reduction must
-find closed forms of the computed numbers."""
+"""The working precision of Newton's method in bits, high enough for lattice reduction."""
 
 WORSE = 1.5
 """Rounding must not increase the largest coefficient or the principal error by more than this factor."""
@@ -90,8 +84,7 @@ def certify_solution(
     """Return a solution near ``point``, and prove its order.
 
     ``point`` contains values of the free coefficients of the ansatz. ``name`` and ``source`` are entries of
-    the tableau file. ``minimised`` is true if the principal error was minimised. Raises NotProved if the
-    required order cannot be proved.
+    the tableau file. Raises NotProved if the required order cannot be proved.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -117,10 +110,9 @@ def certify_solution(
 def _rounded_free(
     problem: Problem, point: Floats, steps: Sequence[Fraction]
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
-    """Round the coefficients that the equations do not determine. Return three values: a solution with the
-    rounded coefficients, a map from the index of each rounded coefficient to its value, and the indices of
-    all other coefficients. The rounding units in ``steps`` are tried one after another. Raises NotProved if
-    no unit can be used (:data:`STEPS`)."""
+    """Round the coefficients that the equations do not determine. Return the solution, a map from the index
+    of each rounded coefficient to its value, and the indices of all other coefficients. Raises NotProved if
+    no rounding unit in ``steps`` can be used (:data:`WORSE`)."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]
@@ -141,8 +133,8 @@ def _rounded_free(
 
 
 def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple[Floats, float]:
-    """Solve the equations of the problem for the coefficients with the indices ``solved``. All other
-    coefficients keep their values in ``start``. Return the solution and the norm of the residual."""
+    """Solve the equations of the problem for the coefficients with the indices ``solved``. Return the
+    solution and the norm of the residual."""
 
     def restricted(points: Floats) -> tuple[Floats, Floats]:
         whole = np.repeat(start[None], len(points), axis=0)
@@ -157,9 +149,8 @@ def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple
 
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
-    """Return a tuple of one or two numbers. The first number is the largest absolute value of the
-    coefficients of the method. If the required order is at most :data:`CHEAP`, the second number is the
-    principal error."""
+    """Return the largest absolute value of the coefficients of the method. If the required order is at most
+    :data:`CHEAP`, also return the principal error."""
     size = float(np.abs(problem.coefficients.values(point[None])).max())
     if problem.order > CHEAP:
         return (size,)
@@ -167,8 +158,8 @@ def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
 
 
 def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
-    """Return True if a Jacobian has no singular value near zero. The Jacobian contains the derivatives of the
-    order conditions with respect to the coefficients with the indices ``solved``."""
+    """Return True if the columns ``solved`` of the Jacobian of the order conditions form a matrix without
+    singular values near zero."""
     if not solved:
         return True
     _, slopes = problem.tape.jacobians(point[None])
@@ -178,8 +169,8 @@ def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
 
 def determined(slopes: Floats) -> list[int]:
     """Return the indices of the pivot columns of the Jacobian ``slopes``, in ascending order. The pivots are
-    chosen by Gaussian elimination with complete pivoting. Column j contains the derivatives with respect to
-    unknown j. The equations can be solved for the unknowns of the pivot columns.
+    chosen by Gaussian elimination with complete pivoting. The equations can be solved for the unknowns of the
+    pivot columns.
 
     >>> determined(np.array([[0.0, 2.0, 1.0], [0.0, 4.0, 2.0]]))
     [1]
@@ -202,12 +193,8 @@ def determined(slopes: Floats) -> list[int]:
 def _newton(
     problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
 ) -> dict[int, arb]:
-    """Compute coefficients by Newton's method, with a precision of nearly :data:`BITS` bits. ``solved``
-    contains the indices of these coefficients. ``pinned`` maps the indices of the other coefficients to their
-    fixed values.
-
-    Raises NotProved if the Jacobian is singular or if Newton's method does not converge.
-    """
+    """Compute the coefficients with the indices ``solved`` by Newton's method, with nearly :data:`BITS` bits.
+    Raises NotProved if the Jacobian is singular or if Newton's method does not converge."""
     trace = problem.trace()
     operations = trace[0].ring.operations if trace else []
     places = [x.placed() for x in trace]
@@ -247,8 +234,8 @@ def _newton(
 
 
 def _square_roots(problem: Problem) -> dict[str, arb]:
-    """Return a map from formulas, for example ``sqrt(2)``, to their values. The map contains all square roots
-    of rational numbers that occur in the ansatz."""
+    """Return a map from the square roots of rational numbers in the ansatz, such as ``sqrt(2)``, to their
+    values."""
     roots = {}
     with precision(BITS):
         for radical in radicals(problem.ansatz.symbolic()):
@@ -268,8 +255,8 @@ def _roots(forms: dict[str, ClosedForm]) -> list[str]:
 
 
 def _exact(problem: Problem, text: str, source: str) -> Solution | None:
-    """Return the solution that a tableau file with exact coefficients describes. ``text`` is the content of
-    the file. Return None if exact arithmetic does not prove the required order."""
+    """Return the solution that the tableau file ``text`` describes, or None if exact arithmetic does not
+    prove the required order."""
     tableau = Tableau.loads(text)
     label = problem.measured.label()
     try:
@@ -283,8 +270,7 @@ def _exact(problem: Problem, text: str, source: str) -> Solution | None:
 
 
 def _without_zeros(method: Method, ring: Ring) -> Method:
-    """Remove the exponentials exp(0) from a commutator-free method. All other methods are returned
-    unchanged."""
+    """Remove the exponentials exp(0) from a commutator-free method."""
     if not isinstance(method, CommutatorFree):
         return method
 
@@ -302,8 +288,7 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # In a tableau file, decimals that are equal up to sign denote one unknown. Add digits until
-            # different coefficients have different decimals.
+            # In a tableau file, decimals that are equal up to sign denote one unknown.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1
@@ -320,8 +305,7 @@ def _proved(
 
 
 def _signed(x: arb, places: int) -> str:
-    """Return x as a decimal with ``places`` decimal places and the suffix ``~``. In a tableau file, this
-    suffix marks a rounded number."""
+    """Return x as a decimal with ``places`` decimal places and the suffix ``~`` of rounded numbers."""
     return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 
@@ -354,18 +338,15 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
     written = dumps(claimed)
     if exact:
-        # Names can replace repeated numbers in the file. Use the shorter of the texts with and without names.
+        # Use the shorter of the texts with and without names for repeated numbers.
         written = min(toml_text(without_names(claimed)), written, key=len)
     error = principal_error(claimed, wanted_family, problem.order + 1)
     return Solution(Tableau.loads(written), written, certificate, error)
 
 
 def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
-    """Return the 2-norm of the residuals of the conditions of order ``order``. Return None in two cases:
-    ``order`` exceeds the limit ``principal_error_limit`` of the family, or the family does not accept the
-    tableau.
-
-    The method :meth:`orderconds.families.Family.principal_residuals` of the family computes the residuals.
+    """Return the 2-norm of the residuals of the conditions of order ``order``. Return None if ``order``
+    exceeds the limit ``principal_error_limit`` of the family, or if the family does not accept the tableau.
 
     >>> from orderconds.checking import read
     >>> round(principal_error(read("suzuki4"), "vcg", 5), 6)

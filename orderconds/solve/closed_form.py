@@ -1,12 +1,11 @@
 """Recognition of high-precision numbers as elements of one number field, by lattice reduction.
 
-Let x be an approximate root of a polynomial of degree n with small integer coefficients c_0, ..., c_n. Let N
-be a large number. The vector v_k consists of the k-th unit vector and one more entry N x^k. The vectors v_0,
-..., v_n span a lattice. The lattice vector sum_k c_k v_k has the small entries c_0, ..., c_n. The last entry
-of sum_k c_k v_k is N times the value of the polynomial at x. This entry is small, too. Lattice reduction
-finds short vectors in a lattice (Lenstra, Lenstra and Lovasz 1982).
+Let x be an approximate root of a polynomial of degree n with small integer coefficients c_0, ..., c_n. For a
+large number N, the vector v_k consists of the k-th unit vector and one more entry N x^k. The lattice vector
+sum_k c_k v_k is short: its entries are c_0, ..., c_n and N times the value of the polynomial at x. Lattice
+reduction finds short vectors in a lattice (Lenstra, Lenstra and Lovasz 1982).
 
-The recognised number is only a guess. The caller must verify the guess by exact arithmetic.
+The caller must verify the recognised number by exact arithmetic.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ MAX_DEGREE = 6
 """The highest degree of an algebraic number that is recognised."""
 
 MAX_TEXT = 160
-"""The largest number of characters in a closed form. Longer closed forms are not used."""
+"""The largest number of characters in a closed form."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +44,8 @@ def closed_forms(
     closed form has more than :data:`MAX_TEXT` characters.
 
     ``bits`` is the precision of the numbers in bits. ``radicals`` maps texts of square roots to their values.
-    A closed form is a rational combination of basis elements. The degree of a number is the degree of its
-    minimal polynomial. Each number must have a degree of at most :data:`MAX_DEGREE`. Three bases are tried:
+    Each number must have a degree of at most :data:`MAX_DEGREE`. A closed form is a rational combination of
+    basis elements. Three bases are tried:
 
     - 1 and the square roots
     - the products e r^k, where e is an element of the first basis, r is one of the numbers, d is the degree
@@ -88,13 +87,7 @@ def closed_forms(
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
 ) -> dict[str, ClosedForm] | None:
-    """Return the numbers as rational combinations of basis elements, or None if no basis is found.
-
-    The basis contains 1 and the square roots ``radicals``. If a number is not a combination of these
-    elements, a new basis is used. Let r be such a number of least degree d. The new basis contains the
-    products e r^k, where e is an element of the old basis and k = 0, ..., d - 1. The new basis has at most 2
-    MAX_DEGREE elements.
-    """
+    """Return the numbers in the first or second basis of :func:`closed_forms`, or None."""
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:
@@ -158,8 +151,8 @@ def combination(x: arb, basis: Sequence[arb], bits: int) -> list[Fraction] | Non
 
 
 def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
-    """Return small integers c_0, c_1, ... such that the sum of c_k ``values[k]`` is zero up to rounding
-    errors. Return None if no such integers are found."""
+    """Return small integers c_k such that the sum of c_k ``values[k]`` is zero up to rounding errors, or
+    None."""
     known = bits - 100
     scale = fmpz(2) ** known
     rows = []
@@ -168,9 +161,7 @@ def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
         rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
     reduced = fmpz_mat(rows).lll()
     shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
-    # Let n be the number of ``values``. If there is no relation between the values, the entries of the
-    # shortest lattice vector have about ``known`` divided by n bits. If there is a relation, the entries are
-    # much smaller.
+    # Without a relation, the entries of the shortest lattice vector have about ``known / len(values)`` bits.
     longest = max(abs(c) for c in shortest).bit_length()
     if 2 * longest * (len(values) + 1) > known:
         return None
@@ -182,11 +173,8 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return three values: sqrt(n) for an integer n, the text of sqrt(n), and an empty tuple.
-
-    The roots of the quadratic polynomial p have the form u + v sqrt(n) with rational numbers u and v. The
-    tuple is empty, because a square root needs no definition in a tableau file.
-    """
+    """Return sqrt(n) for an integer n, the text of sqrt(n), and an empty tuple (no definition in the tableau
+    file). The roots of the quadratic polynomial p are u + v sqrt(n) with rational numbers u and v."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():

@@ -20,8 +20,7 @@ def on_cluster(work: Callable[[Job], Result], jobs: Sequence[Job], address: str)
     """Yield ``work(job)`` for each job, in the order of the jobs. ``address`` is the address of the
     scheduler.
 
-    If a worker process dies, another worker repeats the job. Raises InputError if there is no connection to
-    the scheduler, or if workers die repeatedly during one job.
+    Raises InputError if there is no connection to the scheduler, or if workers die repeatedly during one job.
     """
     level = logging.root.manager.disable
     # With logging enabled, dask would log a traceback for each lost connection.

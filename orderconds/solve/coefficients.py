@@ -18,8 +18,7 @@ node."""
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Eliminate coefficients by linear constraints. The constraints are ``constraints`` and the constraints
-    of the option ``--fix``. ``names`` contains the names of all coefficients.
+    """Eliminate coefficients by the linear ``constraints`` and the constraints of the option ``--fix``.
 
     A constraint of ``--fix`` may contain names of nodes (for example c2). Raises InputError if a constraint
     of ``--fix`` contains an unknown name, or if constraints contradict each other.
@@ -47,18 +46,14 @@ def eliminated(
 @dataclass(frozen=True)
 class Cells:
     """The coefficients in the form in which a tableau file contains them. Each coefficient is a number, a
-    name or a name with a formula. ``elimination`` contains the result of the linear constraints.
-
-    ``extra`` maps names to additional formulas. Examples are formulas for the abscissae m1, m2, ..., and for
-    coefficients that depend non-linearly on other coefficients.
-    """
+    name or a name with a formula. ``extra`` maps names to additional formulas."""
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None
 
     def written(self, name: str) -> str:
-        """Return the text of a coefficient in a matrix of the tableau file. The text of a constant is its
-        value. The text of each other coefficient is its name."""
+        """Return the text of a coefficient in a matrix of the tableau file: the value of a constant,
+        otherwise the name."""
         form = self.elimination.cell(name)
         if self.extra and name in self.extra:
             return name

@@ -1,16 +1,12 @@
 """Proofs that no method exists, by exact elimination from the order conditions.
 
-The conditions are written as polynomials that must be zero. A Groebner basis is computed for a subset of the
-polynomials. The subset contains at most :data:`MAX_VARIABLES` coefficients. If the basis contains 1, no real
-or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient, Sturm's
-theorem counts the real roots of this polynomial. If there is no real root, no real method satisfies the
-conditions.
+A Groebner basis is computed for a subset of the conditions with at most :data:`MAX_VARIABLES` coefficients.
+If the basis contains 1, no real or complex method satisfies the conditions. If the basis contains a
+polynomial in one coefficient without real roots (Sturm's theorem), no real method satisfies the conditions.
+Zero does not count as a root if the formulas of the family divide by the coefficient, a weight b_i.
 
-The formulas of some families divide by the weights b_i. In these families, no weight is zero. Zero is
-therefore not counted as a root of a polynomial in b_i.
-
-A proof multiplies the polynomials of the conditions by further polynomials. The sum of the products is 1 or
-the polynomial in one coefficient. This sum is verified exactly.
+The conditions, multiplied by polynomials, add up to 1 or to the polynomial in one coefficient. This identity
+is verified exactly.
 """
 
 from __future__ import annotations
@@ -33,15 +29,14 @@ if TYPE_CHECKING:
     from orderconds.tableau.unknowns import RootedRing
 
 Member = tuple[OrderCondition, fmpq_mpoly]
-"""An order condition and the numerator of its residual. The residual is the left-hand side minus the
-right-hand side."""
+"""An order condition and the numerator of its residual."""
 
 MAX_VARIABLES = 3
 """Elimination uses only conditions that contain at most MAX_VARIABLES coefficients."""
 
 MAX_UNKNOWNS, MAX_ORDER = 16, 5
-"""Elimination is tried for at most MAX_UNKNOWNS unknowns. Only conditions up to order MAX_ORDER are used. The
-two limits keep the number of terms in the polynomials small."""
+"""Elimination is tried for at most MAX_UNKNOWNS unknowns, with the conditions up to order MAX_ORDER. The two
+limits keep the number of terms in the polynomials small."""
 
 MAX_DEGREE = 8
 """The degree of a multiplier in a proof (:class:`Infeasible`) is below MAX_DEGREE."""
@@ -57,10 +52,10 @@ class Infeasible:
     - If ``real`` is false, the equation ``consequence`` = 0 has no real or complex solution.
     - If ``real`` is true and ``weight`` is empty, the equation has no real solution.
     - If ``weight`` is the name of a weight, the equation contains only this unknown, and zero is the only
-      real solution. The weight cannot be zero, because the formulas of the family divide by the weight.
+      real solution. The formulas of the family divide by the weight.
 
-    Entry k of ``equations`` is the residual of condition k: the left-hand side minus the right-hand side. The
-    residual is multiplied by a monomial that removes the denominators.
+    Entry k of ``equations`` is the numerator of the residual of condition k: left-hand side minus right-hand
+    side.
     """
 
     variables: tuple[str, ...]
@@ -108,9 +103,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # The formulas of symplectic methods divide by the weights. The proof also covers methods with a zero
-    # weight b_i: stage i has no influence on the step and can be replaced by a copy of a stage j with b_j
-    # other than zero. If both stages get the weight b_j/2, the new method is equivalent to the old one.
+    # The formulas of symplectic methods divide by the weights. The proof also covers a stage with weight
+    # zero: a copy of a stage j with nonzero b_j can replace this stage if both get the weight b_j/2.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -139,11 +133,8 @@ def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:
 
 
 def _nonzero(problem: Problem, ring: LaurentPolynomials | Polynomials) -> frozenset[str]:
-    """Return the names of the free coefficients that cannot be zero.
-
-    These are the weights by which the formulas of the family divide. If a weight is the sum of several free
-    coefficients, its summands are not returned, because a summand can be zero.
-    """
+    """Return the names of the free coefficients that are weights by which the formulas of the family
+    divide."""
     if not problem.family.needs_nonzero_weights:
         return frozenset()
     weights = problem.weights(ring.generators, cast("RootedRing", ring))
@@ -167,8 +158,8 @@ def _support(x: fmpq_mpoly) -> frozenset[int]:
 def _subsystems(
     system: Sequence[Member], plain: Polynomials
 ) -> Iterator[tuple[tuple[int, ...], list[Member]]]:
-    """Yield sets of at most :data:`MAX_VARIABLES` variables, in ascending order of size. With each set, yield
-    the conditions that contain only variables of the set."""
+    """Yield sets of at most :data:`MAX_VARIABLES` variables, in ascending order of size, each with the
+    conditions in these variables."""
     supports = sorted({_support(x) for _, x in system if len(_support(x)) <= MAX_VARIABLES}, key=sorted)
     wanted = {*supports, *(x | y for x, y in combinations(supports, 2) if len(x | y) <= MAX_VARIABLES)}
     for variables in sorted(wanted, key=lambda x: (len(x), sorted(x))):
@@ -180,13 +171,8 @@ def _subsystems(
 def _consequence(
     nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
-    """Return a contradiction: a polynomial in the ideal that ``members`` generate, and a name. Return None if
-    no contradiction is found.
-
-    The polynomial is a constant, or has only one variable. If it has no real root, the returned name is
-    empty. If zero is its only real root, its variable is a weight that cannot be zero, and the returned name
-    is the name of this weight. ``nonzero`` contains the names of the weights that cannot be zero.
-    """
+    """Return a contradiction: a polynomial in at most one variable from the ideal of ``members``, and a name.
+    The name is empty, or the name of a weight for which the polynomial has only the real root zero."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]
@@ -238,9 +224,8 @@ def _certificate(
     weight: str,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Return a proof that the conditions in ``members`` imply the equation ``consequence`` = 0. The proof
-    contains a multiplier for each condition (:class:`Infeasible`). Return None if no multipliers with a
-    degree below :data:`MAX_DEGREE` are found."""
+    """Return a proof that the conditions in ``members`` imply the equation ``consequence`` = 0. Return None
+    if no multipliers with a degree below :data:`MAX_DEGREE` are found."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:
@@ -266,8 +251,8 @@ def _multipliers(
     degree: int,
     plain: Polynomials,
 ) -> list[fmpq_mpoly] | None:
-    """Return polynomials m_k of degree at most ``degree`` with sum_k m_k f_k = ``consequence``. The f_k are
-    the polynomials in ``members``. Return None if there are no such polynomials m_k."""
+    """Return polynomials m_k of degree at most ``degree`` with sum_k m_k ``members[k]`` = ``consequence``, or
+    None."""
     monomials = [plain.one]
     frontier = [plain.one]
     for _ in range(degree):

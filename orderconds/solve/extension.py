@@ -1,24 +1,19 @@
 """Continuous extensions (dense output) of Runge-Kutta methods, from linear equations.
 
 The extension approximates the solution at the time t_0 + theta h within a step from t_0 to t_0 + h. The
-weights of the extension are polynomials in theta: b_i(theta) = sum_p beta_{p,i} theta^p, where i is the
-number of the stage. Let t be a tree with |t| nodes and the density gamma(t). The elementary weight of t is
-sum_i b_i Phi_i(t), where Phi_i(t) depends only on the matrix A. The extension has order q if the following
-equations hold for all trees t with at most q nodes:
+weights of the extension are polynomials in theta: b_i(theta) = sum_p beta_{p,i} theta^p for stage i. Let t be
+a tree with |t| nodes, the density gamma(t) and the elementary weight sum_i b_i Phi_i(t). The extension has
+order q if the following equations hold for all trees t with at most q nodes:
 
 - sum_i beta_{p,i} Phi_i(t) = 1/gamma(t) for p = |t|
 - sum_i beta_{p,i} Phi_i(t) = 0 for all other p
 
-For each p, these equations are a linear system for the coefficients of theta^p. The solution of least norm is
-used.
+The solution of least norm is used. If the first stage is the initial value, beta_{1,1} = 1 and beta_{1,i} = 0
+for i > 1 are used instead. Then the derivative of the extension at theta = 0 is exact.
 
-If the first stage is the initial value, another solution is used for p = 1: beta_{1,1} = 1, and
-beta_{1,i} = 0 for i > 1. Then the derivative of the extension at theta = 0 is exact.
-
-Finally, the coefficients of the highest power of theta are changed to obtain b_i(1) = b_i. The equations
-still hold, because the method has at least the order q. There is one special case: q > 1, the first stage is
-the initial value, and the last stage is the final value. In this case, the coefficients of the two highest
-powers are changed, and the derivative at theta = 1 is exact, too.
+Finally, the coefficients of the highest power of theta are changed to obtain b_i(1) = b_i. If q > 1, the
+first stage is the initial value and the last stage is the final value, the coefficients of the two highest
+powers are changed. Then the derivative at theta = 1 is exact, too.
 """
 
 from __future__ import annotations
@@ -118,8 +113,7 @@ def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:
 
 
 def _least(matrix: Rows, sides: Sequence[Element], ring: Ring) -> list[Element] | None:
-    """Return the vector x of least norm that solves the linear system ``matrix`` x = ``sides``. Return None
-    if there is no solution."""
+    """Return the vector x of least norm that solves the linear system ``matrix`` x = ``sides``, or None."""
     rows = _reduced([[*row, side] for row, side in zip(matrix, sides, strict=True)], ring)
     width = len(matrix[0])
     if any(all(ring.is_zero(x) for x in row[:width]) for row in rows):

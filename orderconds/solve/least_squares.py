@@ -1,11 +1,8 @@
 """Damped least squares (Levenberg 1944; Marquardt 1963) for many starting points at once.
 
-The damping parameter is a factor times the norm of the residual. The factor is reduced after a successful
-step and increased after a failed step.
-
-The convergence is quadratic if a local error bound holds near a solution: the distance to the set of
-solutions is at most a constant times the norm of the residual. The solution need not be isolated (Fan and
-Yuan 2005).
+The damping parameter is a factor times the norm of the residual. The convergence is quadratic if the distance
+to the set of solutions is at most a constant times the norm of the residual (Fan and Yuan 2005). The solution
+need not be isolated.
 """
 
 from __future__ import annotations
@@ -17,13 +14,11 @@ import numpy as np
 from orderconds.solve.tape import Floats
 
 System = Callable[[Floats], tuple[Floats, Floats]]
-"""A function that evaluates m equations at k points with n coordinates. The points are an array of shape
-(k, n). The function returns the residuals, an array of shape (k, m), and the Jacobians, an array of shape
-(k, m, n)."""
+"""A function that evaluates m equations at k points, an array of shape (k, n). The function returns the
+residuals, an array of shape (k, m), and the Jacobians, an array of shape (k, m, n)."""
 
 SOLVED = 1e-13
-"""Iterations stop if the norm of the residual is at most SOLVED. A residual of this size can result from
-rounding errors."""
+"""Iterations stop if the norm of the residual is at most SOLVED, the size of rounding errors."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:
@@ -73,8 +68,7 @@ def _solved(normal: Floats, right: Floats) -> Floats:
     try:
         return np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
     except np.linalg.LinAlgError:
-        # At least one matrix is singular, and numpy does not say which. Add a small multiple of the identity
-        # to all matrices.
+        # At least one matrix is singular, and numpy does not say which.
         eye = np.eye(normal.shape[1]) * 1e-9 * (1 + np.trace(normal, axis1=1, axis2=2))[:, None, None]
         return np.asarray(np.linalg.solve(normal + eye, right), dtype=np.float64)
 

@@ -151,8 +151,8 @@ def zero(name: str, why: str) -> Constraint:
 
 
 def equal(why: str, *terms: tuple[int, str]) -> Constraint:
-    """Return the constraint that a linear combination of coefficients is zero. ``terms`` contains pairs of a
-    factor and the name of a coefficient. Error messages quote the reason ``why``.
+    """Return the constraint that a linear combination of coefficients is zero. Error messages quote the
+    reason ``why``.
 
     >>> {name: str(x) for name, x in equal("--symmetric", (1, "b1"), (-1, "b3")).form.items()}
     {'b1': '1', 'b3': '-1'}

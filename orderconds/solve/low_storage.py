@@ -1,9 +1,7 @@
-"""The ansatz of low-storage (2N) schemes. Each scheme stores two registers. The unknowns are the coefficients
-A_i and B_i.
+"""The ansatz of low-storage (2N) schemes with the coefficients A_i and B_i.
 
 By a theorem, a 2N scheme has the same order on a Lie group as on a vector space
-(:mod:`orderconds.proof.equations`). A search therefore solves the order conditions of Runge-Kutta methods. Up
-to order 6, there are 37 conditions on vector spaces and 113 conditions on Lie groups.
+(:mod:`orderconds.proof.equations`). A search therefore solves the order conditions of Runge-Kutta methods.
 """
 
 from __future__ import annotations
@@ -17,13 +15,12 @@ from orderconds.solve.linear import named, zero
 from orderconds.solve.spec import Spec, refuse
 
 CENTRE = {"A": -0.8, "B": 0.25}
-"""Typical values of A_i and B_i in published schemes. Random starts are chosen near these values."""
+"""Random starts are chosen near these typical values of A_i and B_i in published schemes."""
 
 
 def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of low-storage schemes. Each scheme stores two registers, K and Y. The differential
-    equation is Y' = F(Y) Y, and h is the step size. Stage i replaces K by A_i K + F(Y). After that, stage i
-    replaces Y by exp(h B_i K) Y. The coefficient A_1 is zero.
+    """Return the ansatz of low-storage schemes for the equation Y' = F(Y) Y with the step size h. Stage i
+    replaces the register K by A_i K + F(Y), and then Y by exp(h B_i K) Y. The coefficient A_1 is zero.
 
     >>> low_storage(families.get("cf"), Spec(stages=2, low_storage=True), "low-storage", "m").free
     ('B1', 'B2', 'A2')
@@ -63,9 +60,8 @@ def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def solved_family(family: Family) -> Family:
-    """Return a family in which every low-storage (2N) scheme has the same order as in ``family``. The order
-    conditions of the returned family are solved in a search, because there are fewer of these conditions
-    (:mod:`orderconds.proof.equations`).
+    """Return a family in which every low-storage (2N) scheme has the same order as in ``family``. The
+    returned family has fewer order conditions (:mod:`orderconds.proof.equations`).
 
     Raises :class:`~orderconds.errors.InputError` if no such family is known for ``family``.
 

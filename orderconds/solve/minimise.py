@@ -1,10 +1,9 @@
 """Minimisation of the principal error over the solutions of the order conditions.
 
 Let F be the vector of residuals of the conditions. The principal error is the norm of a vector E. Let F' and
-E' be the Jacobians of F and E. Each iteration evaluates F, E, F' and E' at the current point. The step p is a
-solution of the linearised conditions F + F' p = 0. Among all solutions, p minimises |E + E' p|^2 + d |p|^2,
-where d is a damping parameter. The new point solves the conditions only approximately. A few iterations of
-:func:`orderconds.solve.least_squares.least_squares` correct the new point.
+E' be the Jacobians of F and E. Among all solutions of the linearised conditions F + F' p = 0, the step p
+minimises |E + E' p|^2 + d |p|^2, where d is a damping parameter. A few iterations of
+:func:`orderconds.solve.least_squares.least_squares` then solve the conditions again.
 
 The method is sequential quadratic programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical
 Optimization*, Section 18.4).
@@ -67,9 +66,8 @@ def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[F
 
 
 def _step(values: Floats, slopes: Floats, error: Floats, sloped: Floats, damping: float) -> Floats:
-    """Return one step of sequential quadratic programming. The vector ``values`` contains the residuals of
-    the conditions. The principal error is the norm of the vector ``error``. The Jacobian of ``values`` is
-    ``slopes``, and the Jacobian of ``error`` is ``sloped``."""
+    """Return one step of sequential quadratic programming. ``slopes`` and ``sloped`` are the Jacobians of the
+    residuals ``values`` and of the vector ``error``, whose norm is minimised."""
     if len(values):
         _, sizes, right = np.linalg.svd(slopes, full_matrices=True)
         rank = int((sizes > 1e-10 * max(sizes[0], 1e-300)).sum())

@@ -79,11 +79,11 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 def _symplectic(
     A: Sequence[Sequence[str]], b: Sequence[str], elimination: Elimination, symmetric: bool
 ) -> dict[str, str]:
-    """Return formulas for entries of A that make the method symplectic. The method is symplectic if
-    b_i a_ij + b_j a_ji = b_i b_j for all i and j. For i < j, this equation is solved for a_ij or a_ji.
+    """Return formulas for entries of A such that b_i a_ij + b_j a_ji = b_i b_j for all i and j
+    (symplecticity).
 
     For a symmetric method with s stages, the equations for (i, j) and for (s + 1 - j, s + 1 - i) are
-    equivalent. Only one of the two equations is solved. If i + j = s + 1, the symmetry implies the equation.
+    equivalent. If i + j = s + 1, the symmetry implies the equation.
     """
     cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
@@ -185,8 +185,8 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of the stages. With these formulas, c_i = chat_i = m_i holds for
-    the three abscissae of each stage i. :mod:`orderconds.solve.abscissae` defines the abscissae."""
+    """Return formulas for coefficients of the stages such that c_i = chat_i = m_i for the three abscissae of
+    each stage i (:mod:`orderconds.solve.abscissae`)."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -208,8 +208,8 @@ def _abscissae(
 
 
 def _gauss(s: int) -> dict[str, str]:
-    """Return the coefficients of the Gauss method with s stages, as a map from names to formulas. The names
-    of the weights are w1, w2, .... The names of the entries of A are g11, g12, ...."""
+    """Return the weights w1, w2, ... and the entries g11, g12, ... of A of the Gauss method with s stages, as
+    a map from names to formulas."""
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)
@@ -219,12 +219,9 @@ def _gauss(s: int) -> dict[str, str]:
 
 
 def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]]) -> list[Constraint]:
-    """Return constraints that make sums of coefficients equal to the coefficients of the Gauss method.
-
-    Let s be the number of stages. Let a_ij and b_j be the coefficients of the Gauss method with s stages.
-    Each exponential has one coefficient for each vector field k_1, ..., k_s. The sum of the coefficients of
-    k_j over the exponentials of stage i is a_ij. The sum over the exponentials of the update is b_j.
-    """
+    """Return constraints that contain the coefficients a_ij and b_j of the Gauss method with s stages. The
+    sum of the coefficients of stage j is a_ij over the exponentials of stage i, and b_j over those of the
+    update."""
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
     constraints += [
@@ -238,8 +235,8 @@ def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of a symmetric method. With these formulas, c_i = chat_i = m_i
-    holds for the three abscissae of each stage i. :mod:`orderconds.solve.abscissae` defines the abscissae."""
+    """Return formulas for coefficients of a symmetric method such that c_i = chat_i = m_i for the three
+    abscissae of each stage i (:mod:`orderconds.solve.abscissae`)."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -297,9 +294,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # Elimination solves each constraint for one step size. Among the step sizes in the constraint, this is
-    # the last one in ``order``. The middle step size is the last entry of ``order``, so it is determined by
-    # the constraint ``total``.
+    # Elimination solves ``total`` for the last free entry of ``order``: a middle step size.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -317,8 +312,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of splitting methods. A splitting method composes flows of two vector fields T and V.
-    The first flow and the last flow are flows of T.
+    """Return the ansatz of splitting methods for two vector fields T and V. The first flow and the last flow
+    are flows of T.
 
     >>> from orderconds.families import get
     >>> splitting(get("splitting"), Spec(stages=1), "full", "m").free
@@ -413,16 +408,14 @@ LAYOUTS = {
     "composition": Layout(composition, one_structure),
     "splitting": Layout(splitting, one_structure),
 }
-"""Maps the name of a tableau format to the parametrisations of the format. A search in a family uses the
-format whose name is the attribute :attr:`orderconds.families.Family.unknowns`."""
+"""Maps the name of a tableau format to the parametrisations of the format."""
 
 TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
 """The parametrisation of low-storage schemes (:mod:`orderconds.solve.low_storage`)."""
 
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
-    """Return the ansatz for methods of a family that satisfy the specification. ``family`` is the label of
-    the family, such as ``"rk"``.
+    """Return the ansatz for methods of the family with the label ``family`` that satisfy the specification.
 
     Raises :class:`~orderconds.errors.InputError` if options of the specification contradict each other, or if
     the family does not support an option.

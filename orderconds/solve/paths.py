@@ -1,5 +1,4 @@
-"""Parametrisations of all commutator-free methods, and of the symmetric commutator-free methods. The
-parameters are the coefficients of the exponentials.
+"""Parametrisations of all commutator-free methods, and of the symmetric commutator-free methods.
 
 Let Q_1, ..., Q_s be the values of the stages, and let y0 be the initial value. The update is
 exp(Y_m) ... exp(Y_1) y0. Each exponent X is a linear combination of the vector fields at Q_1, ..., Q_s. Let
@@ -27,14 +26,12 @@ from orderconds.solve.spec import Spec
 Path = list[list[str]]
 Paths = tuple[list[Path], Path, list[str], list[Constraint]]
 """A parametrised method: the stages, the update, the names of all coefficients, and the constraints. The
-update and each stage are lists of exponentials. The exponential that acts first is the first in the list. An
-exponential is a list of the names of its coefficients."""
+exponentials of a stage or the update are in the order in which they act."""
 
 
 def full_paths(spec: Spec) -> Paths:
     """Return the parametrisation of all methods. Each exponential has one coefficient for each stage. For
-    explicit and diagonally implicit methods, constraints set some coefficients to zero. The first
-    stage of an explicit method has no exponentials.
+    explicit and diagonally implicit methods, constraints set some coefficients to zero.
 
     >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update
@@ -61,7 +58,7 @@ def full_paths(spec: Spec) -> Paths:
 
 def symmetric_paths(spec: Spec) -> Paths:
     """Return the parametrisation of symmetric methods. Each stage begins with the first k exponentials of the
-    update, where k may be zero. The other exponentials of the stage have new coefficients.
+    update, where k may be zero.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
@@ -81,9 +78,8 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Let m be the number of exponentials of the update. Stage i begins with the first k of them. For
-        # i <= s/2, k is (i - 1/2) m/s, rounded up. If stage i has the number k, stage s + 1 - i has the
-        # number m - k. In the middle stage, k is m/2, rounded down. The variable ``whole`` contains k.
+        # Stage i begins with the first ``whole`` exponentials of the update. For two stages i and s + 1 - i,
+        # these numbers add up to m.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share
