@@ -26,16 +26,15 @@ MAX_COMPUTED = 5_000_000
 MAX_COMPUTED terms needs about 500 MB of memory."""
 
 MAX_TERMS = 500_000
-"""The largest number of terms of all expanded conditions together. The text of MAX_TERMS terms has about 20
-MB. Writing the text needs 1.5 GB of memory."""
+"""The largest number of terms of all expanded conditions together. Writing the text of MAX_TERMS terms needs
+1.5 GB of memory."""
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
     """Expand the conditions of a derivation as polynomials in the coefficients of a method with ``stages``
     stages.
 
-    If ``explicit`` is true, only the strictly lower triangular entries of A are variables. If ``explicit`` is
-    false, all entries are variables.
+    If ``explicit`` is true, only the strictly lower triangular entries of A are variables.
 
     Raises :class:`~orderconds.errors.InputError` if there are too many terms (:data:`MAX_COMPUTED`,
     :data:`MAX_TERMS`). The same error is raised for families in which the number of stages does not determine
@@ -65,10 +64,8 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
 def _terms_at_most(derivation: Derivation, stages: int, *, explicit: bool) -> int:
     """Return an estimate of the total number of terms of the expanded conditions.
 
-    In the expanded condition of a tree, each vertex has a stage index. The index of the root has ``stages``
-    values. For implicit methods, the other indices have ``stages`` values, too. For explicit methods, the
-    index decreases along each edge from the root. The estimate assumes that each of the other indices has
-    (stages - 1)/2 values. This is the mean number of stages that precede a stage.
+    For explicit methods, the estimate assumes (stages - 1)/2 values of the stage index at each vertex except
+    the root. This is the mean number of stages that precede a stage.
     """
     factor = Fraction(stages - 1, 2) if explicit else Fraction(stages)
     sizes = enumerate(derivation.counts)

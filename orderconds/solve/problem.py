@@ -54,8 +54,7 @@ class Problem:
     def measured(self) -> Family:
         """Return the family in which the principal error is computed.
 
-        In a search for low-storage schemes, this family can differ from :attr:`family`. For example, the
-        search in ``cf`` solves the order conditions of ``rk``, but computes the principal error in ``cf``.
+        In a search for low-storage schemes, this family can differ from :attr:`family`.
         """
         return families.get(self.ansatz.measured or self.ansatz.family)
 
@@ -63,9 +62,9 @@ class Problem:
     def conditions(self) -> tuple[OrderCondition, ...]:
         """Return order conditions that are sufficient for the required order.
 
-        In a search for symmetric methods of even order p, the conditions of order p are omitted. The
-        conditions of order p follow from the conditions of lower order, because symmetric methods have even
-        order (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Theorem II.3.2).
+        In a search for symmetric methods of even order p, the conditions of order p are omitted. These
+        conditions follow from the others, because symmetric methods have even order (Hairer, Lubich and
+        Wanner, *Geometric Numerical Integration*, Theorem II.3.2).
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order
@@ -90,9 +89,7 @@ class Problem:
         return list(self.family.residuals(method, ring, conditions))
 
     def _read(self, method: Method, ring: Ring) -> Method:
-        """Return the method for which the order conditions are evaluated. If ``ansatz.abelian`` is True and
-        ``method`` is commutator-free, return the Runge-Kutta method that equals ``method`` on abelian groups.
-        In all other cases, return ``method``."""
+        """Return the method for which the order conditions are evaluated."""
         if self.ansatz.abelian and isinstance(method, CommutatorFree):
             return method.as_runge_kutta(ring)
         return method
@@ -110,8 +107,8 @@ class Problem:
     def weights(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
         """Return the weights b_i. ``values`` contains the free coefficients as elements of ``ring``.
 
-        On abelian groups, a commutator-free method equals a Runge-Kutta method. For a commutator-free method,
-        return the weights of this Runge-Kutta method. For compositions and splittings, the list is empty.
+        For a commutator-free method, return the weights of the Runge-Kutta method that it equals on abelian
+        groups. For compositions and splittings, the list is empty.
         """
         return list(_weights(self.ansatz.method(values, ring), ring))
 
@@ -129,7 +126,7 @@ class Problem:
     @cached_property
     def positive(self) -> tuple[int, ...]:
         """Return the indices of the coefficients that must be positive. Index k refers to output k of the
-        program that :attr:`coefficients` returns. In the option ``positive``, b denotes all weights."""
+        program :attr:`coefficients`."""
         names = self.ansatz.cells
         indices: list[int] = []
         for wish in self.spec.positive:
@@ -146,7 +143,7 @@ class Problem:
         """Return the violations of the bounds on the coefficients, with one row for each point. Also return
         the derivatives of the violations with respect to the free coefficients.
 
-        The options ``positive`` and ``size`` give the bounds. If a bound is satisfied, its violation is zero.
+        If a bound is satisfied, its violation is zero.
         """
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
@@ -185,8 +182,7 @@ class Problem:
 @lru_cache(maxsize=8)
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
     """Return the :class:`Problem` of a search for methods of the given order in the family ``label``.
-    ``structure`` is the name of the parametrisation of the coefficients. The eight most recently used
-    problems are cached.
+    ``structure`` is the name of the parametrisation of the coefficients. Problems are cached.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

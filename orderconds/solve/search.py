@@ -1,10 +1,7 @@
-"""The search for methods from many random starting points, in batches. The batches run in one process, in
-several processes, or on a cluster.
+"""The search for methods from many random starting points, in batches.
 
-The result of a batch depends only on the problem, the seed and the number of the batch. The search uses
-the results in the order of the batch numbers. The result of a search therefore depends neither on the number
-of processes nor on interruptions. Each worker process receives the options of the search, and compiles the
-equations itself.
+The result of a batch depends only on the problem, the seed and the number of the batch. The result of a
+search depends neither on the number of processes nor on interruptions.
 """
 
 from __future__ import annotations
@@ -35,8 +32,7 @@ POLISHED = 1e-11
 """A point counts as a solution if the residual norm is below this number."""
 
 KEPT = 4
-"""The largest number of solutions that a batch of random starts returns. If the search minimises the
-principal error, each batch minimises the error from at most this number of solutions."""
+"""The largest number of solutions that a batch of random starts returns."""
 
 
 CHEAP = 4
@@ -45,8 +41,7 @@ higher orders, computing the principal error of every solution is too expensive.
 
 
 SINGULAR = 1e6
-"""At a singular solution, the gradients of the conditions are linearly dependent. SINGULAR is added to the
-score of such a solution, so that every regular solution of a search has a lower score."""
+"""The penalty in the score of a solution at which the gradients of the conditions are linearly dependent."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +97,7 @@ class Batch:
 
 def run_batch(search: Search, number: int) -> Batch:
     """Search from the random starting points of batch ``number``. The result contains at most :data:`KEPT`
-    solutions: the ones with the lowest scores. :class:`Batch` defines the score.
+    solutions: the ones with the lowest scores.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
@@ -116,8 +111,7 @@ def run_batch(search: Search, number: int) -> Batch:
     regular = [
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
-    # Singular solutions are kept only if the batch has no regular solution. The order of a singular solution
-    # can sometimes be proved in exact arithmetic.
+    # If all solutions are singular, keep them: exact arithmetic can sometimes prove their order.
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:
@@ -129,9 +123,7 @@ def run_batch(search: Search, number: int) -> Batch:
 
 
 def _score(problem: Problem, point: Floats) -> float:
-    """Return the score of a solution. The caller adds :data:`SINGULAR` if the solution is singular. If the
-    required order is at most :data:`CHEAP`, the score is the principal error. For higher orders, the score is
-    the largest absolute value of a coefficient."""
+    """Return the score of a solution, without the penalty :data:`SINGULAR`."""
     if problem.order <= CHEAP:
         return float(np.linalg.norm(problem.error.values(point[None])[0]))
     return float(np.abs(problem.coefficients.values(point[None])).max())
@@ -193,8 +185,7 @@ class Checkpoint:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a file atomically: write a temporary file and rename it. Raises InputError if the file cannot be
-    written.
+    """Write a file atomically. Raises InputError if the file cannot be written.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -216,8 +207,8 @@ def batches(
     """Yield the batches 0, ..., ``count`` - 1 in ascending order. A batch is computed only if the
     checkpoint does not contain it. Each new batch is added to the checkpoint.
 
-    If ``cluster`` is the address of a dask cluster, all new batches are computed on the cluster. Raises
-    :class:`~orderconds.errors.InputError` if there is no connection to the cluster.
+    ``cluster`` is the address of a dask cluster. Raises :class:`~orderconds.errors.InputError` if there is no
+    connection to the cluster.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> [batch.number for batch in batches(search, 2, Checkpoint(None, search))]

@@ -20,16 +20,15 @@ from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
 """The default number of random starts is MINIMISED if the search minimises the principal error, and PLAIN in
-all other cases. A search with several parametrisations of the coefficients uses this number for each."""
+all other cases."""
 
 
 @dataclass
 class Outcome:
     """The outcome of a search: a method (``solution``), a proof that no method exists (``none``), or neither.
 
-    ``best`` is the least residual norm of all random starts. A search tries one or several
-    parametrisations of the coefficients. ``tried`` contains one line of text about each parametrisation.
-    ``structure`` is the name of the last parametrisation.
+    ``best`` is the least residual norm of all random starts. ``tried`` contains one line of text about each
+    parametrisation of the coefficients. ``structure`` is the name of the last parametrisation.
     """
 
     solution: Solution | None = None
@@ -163,9 +162,7 @@ def _finished(
 ) -> tuple[Solution | None, str]:
     """Return the first solution whose order can be proved, and the message of the last failed proof.
 
-    The function tries the eight solutions with the lowest scores, in ascending order of the score. If all
-    proofs fail, the returned solution is None. ``refused`` is the message of the last failed proof in earlier
-    calls. If no proof fails in this call, the returned message is ``refused``.
+    ``refused`` is the message of the last failed proof in earlier calls.
     """
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:

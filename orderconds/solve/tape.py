@@ -1,8 +1,8 @@
 """Evaluation of recorded operations (:mod:`orderconds.ring.traces`) with numpy. Values and Jacobians are
 computed at many points at once.
 
-The operations are sorted into levels. The operations of a level depend only on earlier levels. A few numpy
-calls evaluate all operations of a level. The Jacobian is computed by forward differentiation.
+The operations are sorted into levels that depend only on earlier levels. The Jacobian is computed by forward
+differentiation.
 """
 
 from __future__ import annotations
@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from orderconds.ring.traces import ADD, CONSTANT, DIVIDE, INPUT, MULTIPLY, ROOT, Operation, Trace
 
 MOST_SLOPES = 1 << 24
-"""The largest number of derivatives in memory at one time (128 MiB). If more derivatives are needed, the
-points are evaluated in several groups."""
+"""The largest number of derivatives in memory at one time (128 MiB)."""
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.int64]
@@ -27,9 +26,8 @@ Places = NDArray[np.int64]
 class _Level:
     """A group of operations of one kind that do not depend on each other.
 
-    One array contains the results of all operations of the program. The array has one row for each operation.
-    The group fills the rows ``start`` to ``stop`` - 1. ``left`` and ``right`` contain the row numbers of the
-    first and the second operands.
+    The results fill the rows ``start`` to ``stop`` - 1 of an array with one row for each operation. ``left``
+    and ``right`` contain the row numbers of the first and the second operands.
     """
 
     kind: int
@@ -38,14 +36,13 @@ class _Level:
     left: Places
     right: Places
     index: Places
-    """The degrees n of the n-th roots. Only operations of the kind ROOT use this array."""
+    """The degrees n of the n-th roots, for operations of the kind ROOT."""
 
 
 class Tape:
     """A recorded program that computes outputs from ``width`` inputs, in double precision.
 
-    All ``outputs`` are elements of one ring :class:`~orderconds.ring.traces.Traces`. The ring records each
-    arithmetic operation. The recorded operations are the program.
+    All ``outputs`` are elements of one ring :class:`~orderconds.ring.traces.Traces`.
 
     >>> from orderconds.ring.traces import Traces
     >>> R = Traces(2)
@@ -84,7 +81,7 @@ class Tape:
 
     def _forward(self, points: Floats) -> Floats:
         values = self._start(points)
-        # Residuals can overflow if a search diverges. Suppress the warnings of numpy in this case.
+        # Residuals can overflow if a search diverges.
         with np.errstate(all="ignore"):
             for level in self._levels:
                 out = values[level.start : level.stop]
@@ -96,8 +93,7 @@ class Tape:
         return values
 
     def values(self, points: Floats) -> Floats:
-        """Return the outputs at ``points``. A row of ``points`` contains the inputs at one point. A row of
-        the result contains the outputs at one point."""
+        """Return the outputs at ``points``, with one row for each point."""
         return np.ascontiguousarray(self._forward(points)[self._outputs].T)
 
     def jacobians(self, points: Floats) -> tuple[Floats, Floats]:
@@ -144,8 +140,7 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
     """Return the indices of all inputs and of the operations on which the outputs ``wanted`` depend. The
-    indices are sorted by level and kind. Inputs and constants have level 0. The level of every other
-    operation is 1 plus the larger level of its two operands."""
+    indices are sorted by level and kind."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

@@ -1,5 +1,4 @@
-"""The text of a Lie algebra element in a tableau file. Examples are ``"[2,1]"``, ``"[a, [1, b]]"`` and
-``"S*S*S"``.
+"""The text of a Lie algebra element in a tableau file, such as ``"[2,1]"``, ``"[a, [1, b]]"`` or ``"S*S*S"``.
 
 The number i denotes the vector field at node i of a quadrature formula. A name denotes an element whose
 definition precedes it in the file. The commutator ``[x,y]`` is the product ``x*y`` minus the product ``y*x``.
@@ -21,9 +20,8 @@ from orderconds.ring.protocol import Element, Ring
 
 Nodes = tuple[int, ...]
 NodeSeries = dict[Nodes, Element]
-"""A map from words to coefficients. A word is a tuple of nodes and denotes a product of vector fields. The
-first node of a word acts first. For example, (i, j) denotes the product A_j A_i, where A_i is the vector
-field at node i."""
+"""A map from words (tuples of nodes) to coefficients. The word (i, j) denotes the product A_j A_i, where A_i
+is the vector field at node i."""
 
 MAX_DEPTH = 12
 _TOKEN = re.compile(r"\s*(?:([0-9]{1,3})|([A-Za-z_]\w*)|([\[\],*]))", re.ASCII)
@@ -114,8 +112,8 @@ def has_product(term: Term) -> bool:
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
     """Return a function that maps a term to a lower and an upper bound of the degrees in its expansion.
 
-    The expansion of a term is a sum of products of the vector fields at the nodes. The degree of a product is
-    the number of its factors. ``elements`` contains the definition of each name in the terms.
+    The expansion of a term is a sum of products of the vector fields at the nodes. ``elements`` contains the
+    definition of each name in the terms.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)
@@ -136,21 +134,19 @@ def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, 
 def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, int]]) -> tuple[int, int]:
     """Return a lower and an upper bound of the degrees in the expansion of a linear combination of terms.
 
-    The expansion is a sum of products of the vector fields at the nodes. The degree of a product is the
-    number of its factors. For a single term, ``extent(term)`` returns the two bounds.
+    For a single term, ``extent(term)`` returns the two bounds.
 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # The expansion of an empty combination contains no products. The bounds (1, 1) are a convention.
+    # For an empty combination, the bounds (1, 1) are a convention.
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 
 
 def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
-    """Expand a linear combination of terms. The result maps words of nodes (:data:`NodeSeries`) to
-    coefficients. ``named`` maps each name in the terms to its expansion. Words with coefficient zero are
-    omitted.
+    """Expand a linear combination of terms. ``named`` maps each name in the terms to its expansion. Words
+    with coefficient zero are omitted.
 
     >>> from orderconds.ring import QQ
     >>> expand(((parse("[2,1]", ""), QQ.one),), {}, QQ)

@@ -26,7 +26,7 @@ SPACED = r" \\[2pt] "
 rows would touch."""
 
 NARROWER = r"\!"
-"""LaTeX code of a negative space. In a wide array, each entry has one or two negative spaces on each side."""
+"""LaTeX code of a negative space, for wide arrays."""
 
 CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 
@@ -36,7 +36,7 @@ def tableau_latex(tableau: Tableau) -> str:
 
     The function returns equations in three cases: the method has no Butcher array, the array does not fit in
     a column of a two-column article, or a coefficient contains the name of a number, such as g in
-    ``1 - 2*g``. If necessary, the space between the columns of the array is reduced.
+    ``1 - 2*g``.
 
     >>> from orderconds.tableau import Tableau
     >>> print(tableau_latex(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])))
@@ -47,9 +47,8 @@ def tableau_latex(tableau: Tableau) -> str:
 
 
 def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> str | None:
-    """Return a Butcher array in LaTeX. A horizontal line separates the rows of the stages (``above``) from
-    the rows of the weights (``below``). Return None if the array is too wide for a column of an article.
-    Also return None if a coefficient contains the name of a number, such as g in ``1 - 2*g``."""
+    """Return a Butcher array in LaTeX, with the rows of the stages (``above``) and of the weights
+    (``below``). Return None if the array is too wide, or if a coefficient contains the name of a number."""
     rows = [*above, *below]
     if any(has_name(x) for row in rows for x in row):
         return None
@@ -100,12 +99,8 @@ def _html(text: str) -> str:
 
 
 def _butcher(tableau: Tableau) -> tuple[list[list[str]], list[list[str]]] | None:
-    """Return the entries of a Butcher array as text, in two lists of rows.
-
-    In the first list, row i contains the node c_i and the coefficients a_ij of stage i. Zeros at the end of
-    such a row are blank. The second list contains the rows of weights. Return None if the method has no
-    Butcher array, or has more than :data:`WIDEST` stages.
-    """
+    """Return the entries of a Butcher array as text: the rows of the stages and the rows of the weights.
+    Return None if the method has no Butcher array, or has more than :data:`WIDEST` stages."""
     method = tableau.method
     if not isinstance(method, RungeKutta) or method.s > WIDEST:
         return None

@@ -8,10 +8,10 @@ from orderconds.ring import Ball, Balls, Element
 from orderconds.tableau.record import Tableau
 
 SHORT = Balls(64)
-"""Interval arithmetic with 64 bits. Interval coefficients are rounded to this precision before printing."""
+"""The interval arithmetic of printed coefficients, with 64 bits."""
 
 DIGITS = 24
-"""The largest number of characters of a decimal that is printed unchanged. A longer decimal is shortened."""
+"""The largest number of characters of a decimal that is printed unchanged."""
 
 
 def butcher_text(tableau: Tableau) -> list[str]:
@@ -48,8 +48,7 @@ def butcher_text(tableau: Tableau) -> list[str]:
 
 
 def entry(tableau: Tableau, x: Element) -> str:
-    """Return the text of a coefficient. Exact coefficients are written in full. An interval
-    coefficient is printed as a decimal that ends with "~".
+    """Return the text of a coefficient. An interval coefficient is printed as a decimal that ends with "~".
 
     >>> from orderconds.tableau import find
     >>> yoshida = Tableau.load(find("yoshida6"))
@@ -61,6 +60,5 @@ def entry(tableau: Tableau, x: Element) -> str:
     text = SHORT.text(SHORT.enclose(x.value) + 0)
     if len(text) <= DIGITS:
         return text
-    # The decimal of a number near zero has many leading zeros. The format ``g`` prints an exponent instead of
-    # these zeros.
+    # For a number near zero, the format ``g`` prints an exponent instead of many leading zeros.
     return f"{Decimal(text.rstrip('~')):.{DIGITS - 2}g}~"

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class OrderClaim:
-    """The claim that the order of a method in the family ``family`` is ``order``, and not higher. Some
-    families truncate a power series in ad, for example the series of dexpinv. For such a family, ``cutoff``
-    is the highest power in the truncated series. For all other families, ``cutoff`` is None."""
+    """The claim that the order of a method in the family ``family`` is ``order``, and not higher. If the
+    family truncates a power series in ad, ``cutoff`` is the highest power in the truncated series. For all
+    other families, ``cutoff`` is None."""
 
     family: str
     cutoff: int | None

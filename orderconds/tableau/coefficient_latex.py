@@ -54,8 +54,7 @@ def _latex(x: Expression, tight: int) -> str:
 
 
 def _split_sign(x: Expression) -> tuple[str, Expression]:
-    """Return a pair (sign, y). If x is an exact negative number or a negated expression, the sign is "-" and
-    y is -x. In all other cases, the sign is empty and y is x."""
+    """Return the leading sign of x ("-" or empty), and x without this sign."""
     if isinstance(x, Chain) and x.operators == ("-",) and x.operands[0] == Constant(Fraction(0)):
         return "-", x.operands[1]
     if isinstance(x, Constant) and not x.unit and x.value < 0:
@@ -70,7 +69,7 @@ def _ends_in_a_factor(x: Expression) -> bool:
 
 def with_fractions(x: Expression) -> Expression:
     """Return an equal expression with fewer operations. An exact fraction at the beginning of a product
-    becomes one constant. A negated exact number, such as -1, also becomes one constant.
+    becomes one constant.
 
     >>> with_fractions(parse("1/2"))
     Constant(value=Fraction(1, 2), unit=Fraction(0, 1))

@@ -13,13 +13,11 @@ mean          A is the mean of two matrices (Lobatto IIID: of IIIC and IIIC*; Lo
 ============  ============================================================================================
 
 Here C(s - 1) is Butcher's simplifying assumption: row i of A integrates polynomials of degree below s - 1
-from 0 to c_i exactly. Lobatto IIIC* is also known as Butcher's Lobatto III.
+from 0 to c_i exactly.
 
-Radau IIA and Lobatto IIIA with at least three stages have an embedded method for step-size control. The
-embedded method uses a quadrature without one of the nodes. Radau IIA omits the last node. Lobatto IIIA omits
-the middle node, or the first of the two middle nodes.
-
-The nodes are algebraic numbers. All other coefficients follow from the nodes by rational arithmetic.
+Radau IIA and Lobatto IIIA with at least three stages have an embedded method for step-size control. For Radau
+IIA, the embedded method omits the last node. For Lobatto IIIA, it omits the middle node, or the first of the
+two middle nodes.
 
 Sources: Hairer and Wanner, *Solving Ordinary Differential Equations II*, Section IV.5; Jay, *Lobatto
 methods*, Encyclopedia of Applied and Computational Mathematics, 2015.
@@ -46,11 +44,9 @@ Matrix = list[list[Algebraic]]
 
 
 class Nodes:
-    """The nodes, weights and Lagrange polynomials of a quadrature. All numbers are elements of one number
-    field. The nodes are in ascending order.
+    """The nodes, weights and Lagrange polynomials of a quadrature. The nodes are in ascending order.
 
-    ``s`` is the number of nodes. ``left`` is true if 0 is a node, and ``right`` is true if 1 is a node. The
-    function :func:`nodal_polynomial` returns the polynomial whose roots are the nodes.
+    ``s`` is the number of nodes. ``left`` is true if 0 is a node, and ``right`` is true if 1 is a node.
     """
 
     def __init__(self, s: int, left: bool, right: bool) -> None:
@@ -88,13 +84,13 @@ class Nodes:
         return result
 
     def without(self, left_out: int) -> list[Algebraic]:
-        """Return the weights of the quadrature that omits one node. ``left_out`` is the index of the omitted
-        node, counted from 0.
+        """Return the weights of the quadrature that omits one node. The omitted node has the index k =
+        ``left_out``, counted from 0.
 
         Let s be the number of nodes, and let e_j be the leading coefficient of the Lagrange polynomial of
-        node j. If a polynomial p has a degree below s - 1, the sum of all e_j p(c_j) is zero. Let k be the
-        omitted node. The new weights are b_j - (b_k/e_k) e_j, so the weight of node k is zero. These weights
-        integrate polynomials of degree below s - 1 exactly.
+        node j. If a polynomial p has a degree below s - 1, the sum of all e_j p(c_j) is zero. The new weights
+        are b_j - (b_k/e_k) e_j, so the weight of node k is zero. These weights integrate polynomials of
+        degree below s - 1 exactly.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -118,8 +114,7 @@ class Nodes:
         """Return a matrix A that satisfies the assumption C(s - 1). All entries of column k are ``value``.
 
         The docstring of :meth:`without` defines e_j. To each row of the matrix :meth:`rows`, a multiple of
-        (e_1, ..., e_s) is added such that the entry in column k becomes ``value``. The changed rows satisfy
-        C(s - 1).
+        (e_1, ..., e_s) is added such that the entry in column k becomes ``value``.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [
@@ -215,8 +210,7 @@ LEAST_WITH_ROW = 3
 
 
 def construct(kind: str, stages: int) -> Tableau:
-    """Return the method of the given kind with the given number of stages. The coefficients are elements of
-    the number field that the nodes generate.
+    """Return the method of the given kind with the given number of stages.
 
     Raises :class:`UnknownName` for an unknown kind. Raises :class:`InputError` if ``stages`` is too small, or
     if the degree of the number field exceeds :data:`orderconds.ring.tower.MAX_DEGREE`.
@@ -245,8 +239,8 @@ def construct(kind: str, stages: int) -> Tableau:
 
 
 def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:
-    """Return a polynomial of degree s with the nodes as roots, by Rodrigues' formula. ``left`` is true if
-    0 is a node, and ``right`` is true if 1 is a node. In formulas, True counts as 1 and False as 0.
+    """Return a polynomial of degree s with the nodes as roots, by Rodrigues' formula. ``left`` is true if 0
+    is a node, and ``right`` is true if 1 is a node.
 
     The result is the derivative of order ``s - left - right`` of ``x^(s - right) (x - 1)^(s - left)``.
 
@@ -265,9 +259,9 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
     square roots.
 
     If square roots do not suffice for an irreducible factor, its roots get the names c1, c2, ... in ascending
-    order. The largest root gets no name: it is the sum of all roots minus the other roots. The coefficients
-    of the factor determine the sum of all roots. If the roots of the factor are symmetric about their mean,
-    the squared distances from the mean are treated in this way instead of the roots.
+    order. The largest root gets no name: it is the sum of all roots minus the other roots. If the roots of
+    the factor are symmetric about their mean, the squared distances from the mean are treated in this way
+    instead of the roots.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

@@ -16,8 +16,7 @@ COMPARED = 160
 
 
 def equal_coefficients(one: Tableau, other: Tableau) -> bool:
-    """Return True if two tableaux have equal coefficients. The coefficients of embedded methods are compared,
-    too.
+    """Return True if two tableaux have equal coefficients, including the coefficients of embedded methods.
 
     Two balls (intervals) count as equal if they intersect, and if the larger width is at most 2^-100 plus 4
     times the smaller width. The balls of equal coefficients can differ, because the centre and the radius of
@@ -49,7 +48,7 @@ def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
 
 def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
     """Return True if two intervals intersect, and if the larger width is at most 2^-100 plus 4 times the
-    smaller width. Thus, widths up to 2^-100 always count as similar."""
+    smaller width."""
     widths = sorted(high - low for low, high in (one, other))
     meet = one[0] <= other[1] and other[0] <= one[1]
     return bool(meet and widths[1] <= 4 * widths[0] + fmpq(1, 2**100))

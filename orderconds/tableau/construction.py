@@ -12,9 +12,8 @@ from orderconds.tableau.file_format import Coefficient, Data
 from orderconds.tableau.python_numbers import matrix, row
 
 Claimed = Mapping[str, int | bool] | int | None
-"""The claims about a method. A mapping contains claimed orders and properties, as in
-``{"rk": 4, "explicit": True}``.
-For a tableau of the family ``rk``, the integer 4 means the same as ``{"rk": 4}``. None means no claims."""
+"""The claims about a method. A mapping contains claimed orders and properties, as in ``{"rk": 4, "explicit":
+True}``. For a tableau of the family ``rk``, the integer 4 means the same as ``{"rk": 4}``."""
 
 
 def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> Data:
@@ -46,9 +45,7 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
 
 
 def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> None:
-    """Raise TableauError if the rows of A have wrong lengths. Three shapes are allowed: a full square, rows
-    that end at the diagonal, and rows that end before the diagonal.
-    """
+    """Raise TableauError if the rows of A have wrong lengths."""
     lengths = [len(x) for x in rows]
     shapes = ([stages] * stages, list(range(stages)), list(range(1, stages + 1)))
     if len(rows) != stages:
@@ -136,8 +133,8 @@ def _product(rows: object, where: str) -> Data:
 
 
 def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
-    """Return ``data`` with the keys ``name``, ``source`` and ``claims`` added. If ``source`` is empty, the
-    key ``source`` is not added. If ``claims`` is None, the key ``claims`` is not added.
+    """Return ``data`` with the keys ``name``, ``source`` and ``claims`` added. If ``source`` is empty or
+    ``claims`` is None, this key is not added.
 
     >>> named({"family": "rk"}, "m", "", {"rkmk(1)": 3, "explicit": True})["claims"]
     {'rkmk': [{'cutoff': 1, 'order': 3}], 'explicit': True}
@@ -161,8 +158,7 @@ def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
 
 
 def _claimed(claims: object, family: str) -> dict[str, int | bool]:
-    """Check the claims and return the claims as a dictionary. If a key is a family ("rk"), the value is the
-    claimed order. If a key is a property ("explicit"), the value is True or False."""
+    """Check the claims and return the claims as a dictionary."""
     if isinstance(claims, numbers.Integral) and not isinstance(claims, bool):
         claims = {family: claims}
     if not isinstance(claims, Mapping):

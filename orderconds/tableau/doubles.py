@@ -2,12 +2,11 @@
 
 A double is usually a rounded coefficient, such as 0.3333333333333333 for 1/3. In a tableau file, the letter
 ``d`` marks a double, as in ``0.3333333333333333d``. The coefficient is then a ball: an interval around the
-double x with the radius ``UNITS * 2^-53 * max(1, |x|)``. One rounding changes a number x by at most
-``2^-53 |x|``. The factor ``UNITS`` allows for several roundings, because many coefficients are results of a
-computation.
+double x with the radius ``UNITS * 2^-53 * max(1, |x|)``. The factor ``UNITS`` allows for several roundings,
+because many coefficients are results of a computation.
 
-A Python float counts as an exact number if it has at most :data:`SHORT` significant bits. Examples are 0.5,
-3.0 and -0.375. Very large and very small numbers are exceptions (:data:`LARGE`).
+A Python float counts as an exact number if it has at most :data:`SHORT` significant bits. Very large and very
+small numbers are exceptions (:data:`LARGE`).
 """
 
 from __future__ import annotations
@@ -20,15 +19,13 @@ from fractions import Fraction
 from orderconds.errors import TableauError
 
 UNITS = 8
-"""The default factor in the radius of a ball. A double x denotes a ball (an interval) around x with the
-radius ``UNITS * 2^-53 * max(1, |x|)``."""
+"""The default factor in the radius ``UNITS * 2^-53 * max(1, |x|)`` of the ball around a double x."""
 
 ROUNDING = Fraction(1, 2**53)
 """The largest relative error of rounding a number to a double."""
 
 SHORT = 26
-"""A double counts as an exact number only if it has at most this number of significant bits. A double with
-more bits is probably a rounded number."""
+"""A double counts as an exact number only if it has at most this number of significant bits."""
 
 PRINTED = 16
 """A decimal counts as a printed double only if it has at least this number of significant digits."""
@@ -53,8 +50,8 @@ def radius(value: Fraction, units: Fraction | int = UNITS) -> Fraction:
 
 
 def double_text(x: float, where: str = "") -> str:
-    """Return a double as the text of a coefficient. A double that counts as an exact number
-    (:func:`is_short`) is written without suffix. Every other double is written with the suffix ``d``.
+    """Return a double as the text of a coefficient. The text ends with ``d`` unless the double counts as an
+    exact number (:func:`is_short`).
 
     Raises :class:`~orderconds.errors.TableauError` if x is not finite. The error message contains ``where``.
 
@@ -122,11 +119,10 @@ def is_printed(decimal: str) -> bool:
     """Return True if a decimal without exponent was probably printed from a double. Zeros at the beginning of
     the decimal do not count as digits.
 
-    - Fewer than 16 digits: the result is False.
+    - Fewer than 16 or more than 1200 digits: the result is False.
     - 16 or 17 digits: the result is True.
-    - From 18 to 1200 digits: let n be the number of digits. The double nearest to ``decimal`` is printed with
-      n digits. The result is True if the printed number equals ``decimal``.
-    - More than 1200 digits: the result is False.
+    - n digits, from 18 to 1200: the result is True if the nearest double, printed with n digits, equals
+      ``decimal``.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")
     (True, False, False)
