@@ -1,10 +1,9 @@
 """Symmetry of commutator-free methods: their exponentials form a palindrome.
 
-A method with s stages maps y0 to y1 in a step of length h. The method is symmetric if a step of length -h
-maps y1 back to y0. An exponent has s coefficients, one for each stage. The conjugate of an exponential is the
-exponential with these coefficients in reverse order. One sequence of exponentials leads from y0 to y1. For
-each stage, a sequence of exponentials leads from y0 to the value of the stage. The method is symmetric if two
-conditions hold:
+A step of length h maps y0 to y1. The method is symmetric if a step of length -h maps y1 back to y0. An
+exponent has s coefficients, one for each stage. The conjugate of an exponential is the exponential with these
+coefficients in reverse order. For each stage, a sequence of exponentials leads from y0 to the value of the
+stage. The method is symmetric if two conditions hold:
 
 - The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
   original sequence.
@@ -26,8 +25,8 @@ def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
     """Return True if a method is symmetric. Return None if the coefficients are balls (intervals) that are
     too wide to decide.
 
-    In a method with s stages, stage i is compared with stage s + 1 - i. If the stages of a symmetric method
-    are numbered such that these stages are not mirror images of each other, the result is False.
+    If stages i and s + 1 - i of a method with s stages are not mirror images, the result is False, even for a
+    symmetric method.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]
@@ -62,8 +61,8 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
-    """Simplify a product of exponentials without changing its value. Neighbouring exponentials with
-    proportional exponents are combined into one exponential. Exponentials with zero exponent are removed."""
+    """Combine neighbouring exponentials with proportional exponents, and remove exponentials with zero
+    exponent."""
     reduced: list[Row] = []
     for row in rows:
         total = row
@@ -75,8 +74,7 @@ def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
 
 
 def _parallel(x: Row, y: Row, ring: Ring) -> bool:
-    # The test of all 2 x 2 minors is slow, so a faster test comes first. Two rows are not parallel if each
-    # row has a non-zero entry where the other row has a zero.
+    # The test of all 2 x 2 minors is slow, so a faster test comes first.
     zeros = [(ring.is_zero(u), ring.is_zero(v)) for u, v in zip(x, y, strict=True)]
     if (False, True) in zeros and (True, False) in zeros:
         return False

@@ -30,12 +30,10 @@ from orderconds.tableau.products import AdjointComposition, Magnus, Method, Spli
 
 
 class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "composition"``: a composition of basic steps. The file contains either the
-    key gamma, or the keys alpha and beta.
+    """The format ``family = "composition"``: a composition of basic steps.
 
-    With gamma, all steps use one symmetric method of order 2, and the step sizes are gamma_i h. With alpha
-    and beta, steps of a basic method alternate with steps of its adjoint. The basic method has the step sizes
-    alpha_i h, and its adjoint has the step sizes beta_i h.
+    With the key gamma, all steps use one symmetric method of order 2, and the step sizes are gamma_i h. With
+    the keys alpha and beta, steps alpha_i h of a basic method alternate with steps beta_i h of its adjoint.
     """
 
     base: Literal["symmetric-2", "adjoint-pair"]
@@ -91,11 +89,10 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "splitting"``: a product of flows. A vector field is a sum of vector fields. The
-    summands are called parts. Each factor of the product is the flow of one part.
+    """The format ``family = "splitting"``: a product of flows of the parts of a vector field.
 
-    ``parts`` contains the names of the parts. If there are two parts T and V whose Lie brackets
-    satisfy [V,[V,[V,T]]] = 0, the optional key ``rkn`` contains the name of V.
+    ``parts`` contains the names of the parts. If there are two parts T and V whose Lie brackets satisfy
+    [V,[V,[V,T]]] = 0, the optional key ``rkn`` contains the name of V.
     """
 
     parts: list[str]
@@ -142,12 +139,12 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "magnus"``: the file contains the nodes c and one table for each exponent.
-    A table maps terms to coefficients. A term is, for example, the number of a node, or a bracket of two
-    nodes. Nodes are counted from 1.
+    """The format ``family = "magnus"``: the nodes c, and one table from terms to coefficients for each
+    exponent. A term is the number of a node (counted from 1), the name of an element, or a bracket of two
+    terms.
 
-    ``elements`` defines named Lie elements. The exponents and all later elements may contain these names.
-    ``map`` is the map to the group: ``exp`` (exponential) or ``cay`` (Cayley transform).
+    ``elements`` defines named Lie elements. ``map`` is the map to the group: ``exp`` (exponential) or ``cay``
+    (Cayley transform). With ``cay``, a term may also be a product of terms.
     """
 
     c: list[Coefficient]
@@ -162,9 +159,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"exponents[{k + 1}]", table
 
     def verify(self, where: str) -> None:
-        """Check the terms of all elements and exponents. A term is the number of a quadrature node, the name
-        of an element, or a bracket of two terms. If ``map`` is ``cay``, a term may also be a product of
-        terms. The definition of an element may contain only the names of earlier elements."""
+        """Check the terms of all elements and exponents. The definition of an element may contain only the
+        names of earlier elements."""
         s = counted(len(self.c), f"{where}: c")
         counted(len(self.exponents), f"{where}: exponents", "exponents")
         known: list[str] = []
@@ -234,8 +230,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             tuple((name, tables[f"elements.{name}"]) for name in self.elements),
             self.map,
         )
-        # A product of two elements of a Lie algebra may lie outside the Lie algebra. Verify that each
-        # exponent lies in the Lie algebra of the group, for every quadratic Lie group.
+        # A product of two elements of a Lie algebra may lie outside the Lie algebra.
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():

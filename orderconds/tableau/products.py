@@ -1,7 +1,6 @@
-"""Splittings, compositions and Magnus methods.
+"""Splittings, compositions and Magnus methods, stored as sequences of maps.
 
-Each splitting, composition or Magnus method is a product of maps. The product is stored as a sequence. The
-first factor of the sequence acts first. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
+The first factor of a sequence acts first. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
 Integration*.
 """
 
@@ -26,9 +25,8 @@ class Splitting:
     """A splitting method: a product of flows of the parts of a vector field. An entry (k, x) of ``steps`` is
     the flow of part k over the time x h, where h is the step size.
 
-    ``parts`` contains the names of the parts. A Runge-Kutta-Nystroem splitting has two parts T and V whose
-    Lie brackets satisfy [V,[V,[V,T]]] = 0. For such a splitting, ``rkn`` is the index of V in ``parts``. For
-    all other splittings, ``rkn`` is None.
+    A Runge-Kutta-Nystroem splitting has two parts T and V whose Lie brackets satisfy [V,[V,[V,T]]] = 0. For
+    such a splitting, ``rkn`` is the index of V in ``parts``. For all other splittings, ``rkn`` is None.
 
     >>> Splitting(("T", "V"), ((0, 1), (1, 1)), rkn=1).s
     2
@@ -50,7 +48,7 @@ class Splitting:
 
 @dataclass(frozen=True)
 class AdjointComposition:
-    """A composition of a basic method Phi and its adjoint Phi*. Phi may be any method.
+    """A composition of a basic method Phi and its adjoint Phi*.
 
     One step of size h is Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}. The rightmost
     factor acts first (HLW, Section II.4).
@@ -78,11 +76,10 @@ class AdjointComposition:
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
         """Return the composition as a Runge-Kutta tableau. The basic method Phi becomes the explicit Euler
-        method. The adjoint Phi* becomes the implicit Euler method.
+        method, and the adjoint Phi* becomes the implicit Euler method.
 
-        The implicit Euler step with step size beta_i h evaluates the vector field at the end point of the
-        step. This end point is the value of stage i. The next explicit Euler step starts there. Hence
-        b_i = beta_i + alpha_i, a_ii = beta_i, and a_ij = b_j for j < i (HLW, Section II.4).
+        The coefficients are b_i = beta_i + alpha_i, a_ii = beta_i, and a_ij = b_j for j < i (HLW, Section
+        II.4).
         """
         b = tuple(y + x for x, y in zip(self.alpha, self.beta, strict=True))
         A = tuple((*b[:i], y, *((ring.zero,) * (self.s - i - 1))) for i, y in enumerate(self.beta))
@@ -90,8 +87,7 @@ class AdjointComposition:
 
     def as_splitting(self) -> Splitting:
         """Convert the composition to a splitting into two parts A and B, with the indices 0 and 1. The basic
-        method Phi is the flow of A, followed by the flow of B. Hence its adjoint Phi* is the flow of B,
-        followed by the flow of A. Two neighbouring flows of A, or of B, are combined.
+        method Phi is the flow of A, followed by the flow of B.
 
         The order of the composition for a general basic method is the order of this splitting (McLachlan,
         SIAM J. Sci. Comput. 16 (1995) 151).
@@ -116,8 +112,7 @@ class Magnus:
     size and c_i are the nodes. Each exponent is a linear combination of the A_i and their brackets. With the
     Cayley transform, products of the A_i are also allowed.
 
-    The exponential of the first entry of ``exponents`` acts first. Each entry of ``elements`` is a
-    name and a Lie element. The name may occur in the exponents and in later entries of ``elements``.
+    The exponential of the first entry of ``exponents`` acts first. ``elements`` contains named Lie elements.
     ``transform`` is ``"exp"``, or ``"cay"`` for the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     >>> from orderconds.ring import QQ
@@ -149,11 +144,10 @@ class Magnus:
         )
 
     def words(self, ring: Ring) -> tuple[NodeSeries, ...]:
-        """Expand the exponents into sums of products of the A_i, where A_i = h A(c_i h). Each sum is a
-        dictionary from products to coefficients.
+        """Expand the exponents into sums of products of the A_i, where A_i = h A(c_i h).
 
-        A product is represented by the tuple of its node indices. Nodes are counted from 0. The last index
-        belongs to the left factor: (i, j) denotes A_j A_i.
+        A product is represented by the tuple of its node indices, counted from 0. The last index belongs to
+        the left factor: (i, j) denotes A_j A_i.
         """
         named: dict[str, NodeSeries] = {}
         for name, combination in self.elements:
@@ -161,15 +155,15 @@ class Magnus:
         return tuple(expand(combination, named, ring) for combination in self.exponents)
 
     def extents(self) -> tuple[tuple[int, int], ...]:
-        """Return a pair (m, n) for each exponent. The exponent expands to a sum of products of the A_i. Each
-        of these products has at least m and at most n factors."""
+        """Return a pair (m, n) for each exponent: the products in its expansion have at least m and at most n
+        factors."""
         extent = extents(dict(self.elements))
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
-        """Return True if the estimated number of products of the A_i in the expansion of all exponents is at
-        most :data:`MOST_WORDS`. Let s be the number of nodes. If the products in one exponent have at most m
-        factors, the estimate for this exponent is s^m."""
+        """Return True if the estimated number of products in the expansion of all exponents is at most
+        :data:`MOST_WORDS`. For s nodes and products of at most m factors, the estimate for an exponent is
+        s^m."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 

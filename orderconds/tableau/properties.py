@@ -30,9 +30,6 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
     """Decide each property that is defined for this tableau. The keys of the result are the names of the
     properties, in the order of :data:`orderconds.tableau.method_properties.PROPERTIES`.
 
-    For example, a commutator-free method has the properties ``explicit``, ``symmetric``, ``fsal`` and
-    ``low_storage``.
-
     >>> from orderconds.tableau import Tableau
     >>> midpoint = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["1/2"]]\\nb = ["1"]')
     >>> [name for name, holds in properties(midpoint).items() if holds]
@@ -61,10 +58,9 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     """Rewrite a Runge-Kutta or commutator-free method as a low-storage scheme with two registers (2N). The
     result contains the scheme, or the reason why there is no such scheme. Return None for all other methods.
 
-    Rounded decimals may be too inaccurate to decide whether the method equals the scheme. In this case, and
-    if the file has a table ``[proof]``, random numbers replace the decimals in a second comparison. Equality
-    for the random numbers counts as equality for all numbers in place of the decimals. The probability of an
-    error is negligible (:mod:`orderconds.tableau.random_member`).
+    If rounded decimals are too inaccurate to decide, and the file has a table ``[proof]``, random numbers
+    replace the decimals. The probability of an error is then negligible
+    (:mod:`orderconds.tableau.random_member`).
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds
@@ -109,10 +105,9 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Test symmetry with random numbers in place of the rounded decimals. If the test succeeds, return True:
-    apart from a negligible probability of an error, the method is symmetric for all numbers in place of the
-    decimals. If the test fails, return None, because the method with the exact coefficients may still be
-    symmetric. The test needs the table ``[proof]``. If the file has no such table, return None."""
+    """Return True if the method with random numbers in place of the rounded decimals is symmetric, and None
+    otherwise. The result is never False, because the method with the exact coefficients may still be
+    symmetric."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember
@@ -133,11 +128,8 @@ def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:
 
 
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
-    """Return the properties of a composition of midpoint rules.
-
-    A composition of midpoint rules is always symplectic and diagonally implicit. The composition is symmetric
-    if its steps form a palindrome.
-    """
+    """Return the properties of a composition of midpoint rules, which is always symplectic and diagonally
+    implicit."""
     gamma = method.gamma
     verdicts = {
         **_of_tableau(method.as_runge_kutta(ring), ring),

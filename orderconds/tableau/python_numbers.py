@@ -1,9 +1,7 @@
-"""Conversion of Python numbers to coefficients of a tableau file. Integers, fractions, texts, floats, SymPy
-numbers, and rows of such numbers are accepted.
+"""Conversion of Python numbers to coefficients of a tableau file.
 
 A float with few significant bits becomes an exact decimal. Other floats become decimals with the suffix ``d``
-(:mod:`orderconds.tableau.doubles`). A text must satisfy the grammar of tableau files. If an entry is wrong,
-the error message contains its position, for example ``A[2][1]``. Rows and columns are counted from 1.
+(:mod:`orderconds.tableau.doubles`). In error messages, rows and columns are counted from 1.
 """
 
 from __future__ import annotations
@@ -24,8 +22,8 @@ EXPECTED = (
 
 
 SMALL = 1024
-"""The limit for exact NumPy floats of 16 or 32 bits. Such a float is a fraction. If the denominator in lowest
-terms is at most SMALL, the float counts as an exact number. Otherwise, it counts as a rounded decimal."""
+"""The largest denominator for which a NumPy float of 16 or 32 bits counts as an exact number. All other such
+floats count as rounded decimals."""
 
 
 class _Listed(Protocol):
@@ -43,10 +41,9 @@ class _Narrow(Protocol):
 def coefficient(x: object, where: str) -> Coefficient:
     """Convert a number to a coefficient of a tableau file.
 
-    In a tableau file, ``d`` after a decimal denotes a double, and ``~`` denotes a rounded decimal. A NumPy
-    float of 16 or 32 bits becomes an exact number if its denominator is at most 1024 (:data:`SMALL`), and a
-    rounded decimal otherwise. Raises TableauError for complex numbers, infinities, NaN, truth values and
-    objects that are not numbers.
+    A NumPy float of 16 or 32 bits becomes an exact number if its denominator is at most 1024 (:data:`SMALL`),
+    and a rounded decimal otherwise. Raises TableauError for complex numbers, infinities, NaN, truth values
+    and objects that are not numbers.
 
     >>> from fractions import Fraction
     >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]
@@ -90,9 +87,8 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 
 
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
-    """Convert a float of 16 or 32 bits to a coefficient. If the denominator of the float is at most
-    :data:`SMALL`, return an exact number. Otherwise, return a rounded decimal with ``digits`` significant
-    digits."""
+    """Convert a float of 16 or 32 bits to an exact number, or to a rounded decimal with ``digits``
+    significant digits."""
     text = double_text(x, where)
     if Fraction(x).denominator <= SMALL:
         return text
@@ -100,7 +96,7 @@ def _rounded(x: float, digits: int, where: str) -> Coefficient:
 
 
 def _of_sympy(x: object, where: str) -> Coefficient:
-    """Convert a real number of SymPy to a coefficient. Floats of SymPy are converted like Python floats."""
+    """Convert a real number of SymPy to a coefficient."""
     import sympy
 
     if not isinstance(x, sympy.Expr) or x.free_symbols:
@@ -154,7 +150,7 @@ def _items(values: object, where: str) -> list[object]:
 
 
 def _entries(values: object, where: str) -> list[object]:
-    """Return the entries of a row. A SymPy matrix with one row or one column is also accepted as a row."""
+    """Return the entries of a row, or of a SymPy matrix with one row or one column."""
     items = _items(values, where)
     if type(values).__module__.partition(".")[0] != "sympy":
         return items

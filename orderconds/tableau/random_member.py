@@ -1,16 +1,15 @@
 """Random methods over Q: random numbers replace the rounded decimals and the radicals of a tableau file.
 
-The coefficients of the method are rational functions of the replaced numbers. An identity, for example a
-symmetry condition, is an equation between two rational functions. The identity is tested at one random point.
-If the identity holds for all points, it also holds for the exact decimals and radicals.
+The coefficients of the method are rational functions of the replaced numbers. An identity between two
+rational functions is tested at one random point. If the identity holds for all points, it also holds for the
+exact decimals and radicals.
 
 Each coordinate of the random point is drawn from 2^128 numbers. Let two different functions have degree at
 most D. The probability that their values at the point are equal is at most D / 2^128 (Schwartz 1980; Zippel
-1979). Hence a false identity passes the test only with negligible probability.
+1979).
 
-The random numbers are computed from a digest of all coefficients in the file. A change of one coefficient
-changes all random numbers. Hence nobody can choose coefficients for which the random numbers satisfy a false
-identity. All computations use exact rational numbers.
+The random numbers are computed from a digest of all coefficients in the file. Hence nobody can choose
+coefficients for which the random numbers satisfy a false identity.
 """
 
 from __future__ import annotations
@@ -30,14 +29,11 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""The number of bits of a random number. A false identity between rational functions of degree D passes
-the test with probability at most D / 2^128. The value of a function of degree D at a random point has about
-128 D bits, and :data:`orderconds.tableau.evaluate.MAX_SIZE` limits the number of bits. Hence D is far below
-2^40."""
+"""The number of bits of a random number. The limit :data:`orderconds.tableau.evaluate.MAX_SIZE` keeps the
+degree D of an identity far below 2^40, so D / 2^128 is negligible."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
-"""The errors that are raised if the method with random coefficients cannot be evaluated. For example, a
-divisor may be zero."""
+"""The errors that are raised if the method with random coefficients cannot be evaluated."""
 
 
 class RandomMember(Rationals):

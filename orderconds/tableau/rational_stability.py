@@ -1,7 +1,7 @@
 """Tests of A- and L-stability for methods with rational coefficients.
 
-The Flint library computes with the polynomials and certifies the enclosures of their roots. The criteria are
-those of :mod:`orderconds.tableau.stability`. The tests are fast enough for methods with a hundred stages.
+The criteria are those of :mod:`orderconds.tableau.stability`. The Flint library computes with the polynomials
+and certifies the enclosures of their roots.
 """
 
 from __future__ import annotations
@@ -23,9 +23,8 @@ def determinant(A: Rows) -> fmpq_poly:
 
 
 def stable(P: fmpq_poly, Q: fmpq_poly) -> tuple[bool, bool] | None:
-    """Return two truth values for a method with the stability function P/Q. The first one is True if the
-    method is A-stable, and the second one is True if the method is L-stable. Return None if a pole of P/Q may
-    lie on the imaginary axis.
+    """Decide whether a method with the stability function P/Q is A-stable, and whether it is L-stable. Return
+    None if a pole of P/Q may lie on the imaginary axis.
 
     >>> stable(fmpq_poly([1]), fmpq_poly([1, -1])), stable(fmpq_poly([2, 1]), fmpq_poly([2, -1]))
     ((True, True), (True, False))

@@ -19,9 +19,6 @@ class RealNumber:
     """A real coefficient that is not an exact rational number. ``text`` is the number in the grammar of
     tableau files, and ``nearest`` is the nearest double.
 
-    ``float(x)`` returns the nearest double. NumPy can therefore convert a matrix of coefficients by
-    ``numpy.array(tableau.A, dtype=float)``.
-
     >>> root = RealNumber("sqrt(3)/6", 0.28867513459481287)
     >>> root, float(root)
     (sqrt(3)/6, 0.28867513459481287)
@@ -45,8 +42,8 @@ class RealNumber:
         return f"${to_latex(self.text)}$"
 
     def _sympy_(self) -> sympy.Expr:
-        """Convert the number to a SymPy expression. ``sympy.sympify`` calls this method. A rounded decimal
-        becomes a SymPy Float."""
+        """Convert the number to a SymPy expression, for ``sympy.sympify``. A rounded decimal becomes a SymPy
+        Float."""
         import sympy
 
         if "~" in self.text:
@@ -55,8 +52,8 @@ class RealNumber:
 
 
 Value = Fraction | float | RealNumber
-"""A coefficient in the Python interface. An exact rational number is a Fraction. All other numbers are floats
-if the tableau contains doubles, and RealNumbers otherwise."""
+"""A coefficient in the Python interface: a Fraction for an exact rational number. All other numbers are
+floats if the tableau contains doubles, and RealNumbers otherwise."""
 
 
 def value_of(x: Element, ring: Ring, doubles: bool = False) -> Value:

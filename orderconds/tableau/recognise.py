@@ -14,7 +14,7 @@ def as_composition(tableau: Tableau) -> Tableau | None:
 
     The conditions are a_ij = b_j for j < i, a_ii = b_i/2 and a_ij = 0 for j > i (Bogfjellmo and Marthinsen,
     Lemma 3.5.4). If coefficients are rounded decimals, the first two equations must hold within the
-    uncertainty of the decimals. The entries above the diagonal must be exact zeros.
+    uncertainty of the decimals.
 
     >>> from orderconds.tableau import find
     >>> jump = Tableau.load(find("triple_jump"))

@@ -42,9 +42,6 @@ class Tableau:
     """A named method with coefficients in ``ring``. ``family`` is the name of the format of its tableau file,
     for example ``rk`` or ``cf``.
 
-    :meth:`rk` and :meth:`cf` build a tableau from numbers. :meth:`load` reads a tableau from a file or the
-    library.
-
     >>> heun = Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"], name="heun")
     >>> heun, heun.c, heun.orders["rk"]
     (Tableau('heun', rk, 2 stages), (Fraction(0, 1), Fraction(1, 1)), 2)
@@ -60,8 +57,7 @@ class Tableau:
     embedded: LowerOrder | None = None
     path: str | None = None
     proof: Proof | None = field(default=None, compare=False)
-    """The table ``[proof]`` of the file, or None if there is no such table. The table contains equations that
-    the rounded decimals solve approximately."""
+    """The table ``[proof]`` of the file: equations that the rounded decimals solve approximately."""
     file: File | None = field(default=None, compare=False, repr=False)
     """The parsed tableau file, or None if the tableau is a copy with other coefficients."""
     doubles: bool = False
@@ -84,12 +80,11 @@ class Tableau:
         floats, or texts such as ``"1/4 - sqrt(3)/6"``. A float with few significant bits is exact, for
         example 0.5. All other floats count as rounded numbers.
 
-        - ``bhat``: the s weights of an embedded method. The order of the embedded method is computed.
-        - ``c``: the abscissae. They must equal the row sums of A.
+        - ``bhat``: the s weights of an embedded method
+        - ``c``: the abscissae, which must equal the row sums of A
         - ``claims``: the claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``
 
-        Raises :class:`~orderconds.errors.TableauError` for a wrong entry. The message contains the position
-        of the entry.
+        Raises :class:`~orderconds.errors.TableauError` for a wrong entry.
 
         >>> Tableau.rk([[], [0.5]], [0, 1]).b
         (Fraction(0, 1), Fraction(1, 1))
@@ -115,12 +110,11 @@ from the table [numbers] (none)
         """Return the commutator-free method with the given stages and the given update.
 
         ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials.
-        The first exponential of a list acts first. An exponential is a row of s coefficients, where s is the
-        number of stages. Zeros at the end of a row may be omitted. The types that are allowed for an entry of
-        A in :meth:`rk` are also allowed for a coefficient.
+        The first exponential of a list acts first. An exponential is a row of s coefficients (numbers as in
+        :meth:`rk`), where s is the number of stages. Zeros at the end of a row may be omitted.
 
-        - ``starts``: maps i to j if the exponentials of stage i act on the value of an earlier stage j. All
-          other stages start from y0. Stages are counted from 1.
+        - ``starts``: maps i to j if the exponentials of stage i act on the value of an earlier stage j, not
+          on y0. Stages are counted from 1.
         - ``embedded``: a second update for an error estimate
 
         >>> euler_midpoint = Tableau.cf([[], [["1/2"]]], [[0, 1]])
@@ -132,11 +126,10 @@ from the table [numbers] (none)
 
     @staticmethod
     def load(path: str | PathLike[str]) -> Tableau:
-        """Read a tableau from the library or from a file. ``path`` is the name of a tableau in the library,
-        or the path of a file.
+        """Read the tableau with the name ``path`` from the library, or the tableau file at ``path``.
 
-        Raises :class:`orderconds.errors.TableauError` for a file that is not valid. The message contains the
-        file and the key. Raises :class:`orderconds.errors.UnknownName` for a name that is not in the library.
+        Raises :class:`orderconds.errors.TableauError` for a file that is not valid. Raises
+        :class:`orderconds.errors.UnknownName` for a name that is not in the library.
 
         >>> Tableau.load("gauss2").A[0]
         (Fraction(1, 4), 1/4 - sqrt(3)/6)
@@ -172,8 +165,8 @@ from the table [numbers] (none)
         """The rows of A. Exact rational entries are Fractions. All other entries are floats if the tableau
         contains doubles, and :class:`~orderconds.tableau.real_number.RealNumber` objects otherwise.
 
-        For a commutator-free method, a sequence of exponentials leads from y0 to the value of stage i. Row i
-        of A is the sum of the coefficient rows of these exponentials.
+        For a commutator-free method, row i is the sum of the coefficient rows of the exponentials from y0 to
+        stage i.
         """
         return tuple(self._values(x) for x in self.abelian().A)
 
@@ -189,15 +182,14 @@ from the table [numbers] (none)
 
     @property
     def bhat(self) -> tuple[Value, ...] | None:
-        """The embedded weights. Their types are those of the entries of :attr:`A`. The value is None if there
-        is no embedded method."""
+        """The embedded weights, or None if there is no embedded method."""
         lower = self.lower()
         return None if lower is None else lower.b
 
     @property
     def extension(self) -> Extension | None:
-        """The continuous extension in the tableau file. The value is None if the file has no extension. The
-        value is also None for a copy of the tableau with other coefficients."""
+        """The continuous extension in the tableau file, or None. A copy of the tableau with other
+        coefficients has no extension."""
         return None if self.file is None else self.file.extension
 
     def _values(self, row: Row) -> tuple[Value, ...]:
@@ -205,11 +197,7 @@ from the table [numbers] (none)
 
     @cached_property
     def orders(self) -> dict[str, int]:
-        """The computed orders, for example ``{"rk": 4, ...}``. Each key is a family of integrators. The value
-        is the order of the method in this family.
-
-        :func:`orderconds.check` also returns certificates and the conditions that fail.
-        """
+        """The computed order of the method in each family of integrators, for example ``{"rk": 4, ...}``."""
         orders_of: Callable[[Tableau], dict[str, int]] = _above("checking.computed_orders").orders_of
         return orders_of(self)
 
@@ -222,7 +210,7 @@ from the table [numbers] (none)
         return f", {self.s} stage" + "s" * (self.s != 1)
 
     def __hash__(self) -> int:
-        # The coefficients may be balls or algebraic numbers, which cannot be hashed. The hash omits them.
+        # The coefficients may be balls or algebraic numbers, which cannot be hashed.
         return hash((self.name, self.family, self.source, self.bibtex, self.path, self.doubles))
 
     def _repr_latex_(self) -> str:
@@ -232,16 +220,15 @@ from the table [numbers] (none)
         return tableau_html(self)
 
     def __reduce__(self) -> tuple[Callable[..., Tableau], tuple[object, ...]]:
-        # Objects of python-flint cannot be pickled. Store the texts of the coefficients instead.
+        # Objects of python-flint cannot be pickled.
         where = self.path or self.name
         return from_data, (as_data(self), where, self.path)
 
     def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
         """Return a copy of the tableau with coefficients in ``ring``.
 
-        ``convert`` converts one coefficient to ``ring``. If ``convert`` is None, the ring of this tableau is
-        embedded in ``ring``. In this case, raises TypeError if there is no embedding
-        (:func:`orderconds.ring.embed.embedding`).
+        If ``convert`` is None, the ring of this tableau is embedded in ``ring``. In this case, raises
+        TypeError if there is no embedding (:func:`orderconds.ring.embed.embedding`).
         """
         if convert is None:
             from orderconds.ring.embed import embedding
@@ -273,10 +260,9 @@ from the table [numbers] (none)
         """Convert the method to the first format in ``formats`` for which a conversion exists. Return None if
         there is no such format.
 
-        A composition of symmetric steps can be converted to ``rk``: the basic method becomes the implicit
-        midpoint rule. A composition of a basic method and its adjoint can be converted to ``rk`` or
-        ``splitting``. In ``rk``, the basic method becomes the explicit Euler method, and the adjoint becomes
-        the implicit Euler method.
+        In ``rk``, the basic method of a composition of symmetric steps becomes the implicit midpoint rule.
+        Otherwise, the basic method becomes the explicit Euler method, and its adjoint becomes the implicit
+        Euler method.
         """
         method = self.method
         for wanted in formats:
@@ -308,8 +294,7 @@ from the table [numbers] (none)
 def load(path: str | Path) -> Tableau:
     """Read the tableau file at ``path``.
 
-    Raises :class:`TableauError` for a file that is not valid. The message contains the file, the key, the
-    value and the expected value.
+    Raises :class:`TableauError` for a file that is not valid.
 
     >>> from orderconds.tableau import find
     >>> load(find("kutta3")).name
@@ -360,8 +345,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau that ``data`` defines. If ``data`` contains an embedded method, compute its order on
-    vector spaces and store the order in ``data``, because the file format requires it."""
+    """Return the tableau that ``data`` defines. The order of an embedded method is computed and stored in
+    ``data``, because the file format requires it."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:
@@ -375,8 +360,8 @@ def _with_embedded_order(data: Data, name: str) -> Tableau:
 
 
 def _above(module: str) -> ModuleType:
-    """Import the module ``orderconds.<module>`` at the time of the call. The module itself needs this file,
-    so an import at the top of this file would be circular."""
+    """Import ``orderconds.<module>`` at the time of the call, because an import at the top of this file would
+    be circular."""
     return import_module(f"orderconds.{module}")
 
 

@@ -1,15 +1,12 @@
 """Symmetry of Magnus methods: a step of length -h undoes a step of length h.
 
 The method for Y' = A(t) Y has s nodes c_i that are symmetric about 1/2. Let A_i = h A(c_i h). The reverse
-step starts at time h and has length -h. At node i, the time is h - c_i h = c_{s+1-i} h. The reverse step
-hence contains -h A(c_{s+1-i} h) = -A_{s+1-i} in place of A_i. In this module, the *substitution* is the
-replacement of every A_i by -A_{s+1-i}. Let Omega_1, ..., Omega_m be the exponents of the method. The method
-is symmetric if the substitution turns every Omega_k into -Omega_{m+1-k}.
+step starts at time h and contains -h A(h - c_i h) = -A_{s+1-i} in place of A_i. In this module, the
+*substitution* is the replacement of every A_i by -A_{s+1-i}. Let Omega_1, ..., Omega_m be the exponents of
+the method. The method is symmetric if the substitution turns every Omega_k into -Omega_{m+1-k}.
 
 A combination of the A_i is called *odd* if the substitution changes its sign. A combination is called *even*
-if the substitution does not change it. The parity of a bracket or product follows from the parities of its
-factors. A method with only one exponent is symmetric if this exponent is odd. In all other cases, the
-exponents are expanded into products of the A_i and compared.
+if the substitution does not change it. A method with only one exponent is symmetric if this exponent is odd.
 """
 
 from __future__ import annotations
@@ -51,10 +48,9 @@ def sign(method: Magnus, ring: Ring) -> int | None:
     """Return -1 if the first exponent of the method is odd, and 1 if it is even. Return None if the terms of
     the exponent are not all odd or all even.
 
-    Let A_i be h times the value of A at node i. Consider the replacement of every A_i by -A_{s+1-i}. This
-    replacement changes the sign of an odd exponent, and does not change an even exponent. The sum of all
-    terms x A_i of the exponent counts as one term. The sign of a bracket is the product of the signs of its
-    two entries: -1 for odd, 1 for even.
+    Let A_i be h times the value of A at node i of s nodes. The replacement of every A_i by -A_{s+1-i}
+    changes the sign of an odd exponent, and does not change an even exponent. The sum of all terms x A_i of
+    the exponent counts as one term.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

@@ -23,12 +23,11 @@ def simplifying_order(B: int, C: int, D: int) -> int:
 
 def simplifying(method: RungeKutta, ring: Ring, assumptions: Mapping[str, int]) -> Iterator[Element]:
     """Yield the residuals of the equations in the simplifying assumptions B(p), C(q) and D(r). The mapping
-    ``assumptions`` maps the keys B, C and D to p, q and r. The exponent k runs from 1 to p in B, from 1 to q
-    in C, and from 1 to r in D.
+    ``assumptions`` maps the keys B, C and D to p, q and r.
 
-    - B: sum_i b_i c_i^(k-1) = 1/k.
-    - C: sum_j a_ij c_j^(k-1) = c_i^k/k. The equation for k = 1 defines c and is omitted.
-    - D: sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k.
+    - B: sum_i b_i c_i^(k-1) = 1/k for k = 1, ..., p.
+    - C: sum_j a_ij c_j^(k-1) = c_i^k/k for k = 2, ..., q. The equation for k = 1 defines c.
+    - D: sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k for k = 1, ..., r.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
@@ -78,9 +77,8 @@ def highest_assumptions(method: RungeKutta, ring: Ring, order: int) -> int:
 
 
 def _simplifies(algebra: NodalAlgebra, m: int) -> bool:
-    """Return True if the simplifying assumptions C(m) and D(m) hold: sum_j a_ij c_j^(k-1) = c_i^k / k and
-    sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k) / k for k = 1, ..., m. In the code, vectors with one entry for
-    each node c_i are polynomials: p denotes the vector with the entries p(c_i)."""
+    """Return True if the simplifying assumptions C(m) and D(m) hold (:func:`simplifying`). In the code, a
+    polynomial p denotes the vector with the entries p(c_i), where c_i are the nodes."""
     stages = range(int(algebra.modulus.degree()))
     powers = [fmpq_poly([0] * k + [1]) % algebra.modulus for k in range(max(m + 1, len(stages)))]
     for k in range(1, m + 1):

@@ -1,16 +1,14 @@
 """A- and L-stability of a Runge-Kutta method, decided in exact arithmetic from the stability function.
 
 The stability function is R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - z(A - 1 b^T)), where 1 is the
-vector of ones. Common factors of P and Q are removed. The method is A-stable if and only if two
-conditions hold:
+vector of ones. Common factors of P and Q are removed. The method is A-stable if and only if two conditions
+hold:
 
-- Every zero of Q has positive real part. Routh's test decides whether this is true.
-- |P(iy)| <= |Q(iy)| for all real y. For this condition, Sturm's test is applied to |Q(iy)|^2 - |P(iy)|^2, a
-  polynomial in y^2.
+- Every zero of Q has positive real part (Routh's test).
+- |P(iy)| <= |Q(iy)| for all real y (Sturm's test for |Q(iy)|^2 - |P(iy)|^2, a polynomial in y^2).
 
 An A-stable method is L-stable if and only if deg P < deg Q (Hairer and Wanner, *Solving Ordinary Differential
-Equations II*, Sections IV.3 and IV.5). The result is undecided in two cases: the sign of a ball (interval)
-is unknown, or the computation would take too long (:data:`LARGEST`, :data:`EFFORT`).
+Equations II*, Sections IV.3 and IV.5).
 """
 
 from __future__ import annotations
@@ -27,18 +25,16 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import RungeKutta
 
 Polynomial = list[Element]
-"""The ascending coefficients of a polynomial. The last coefficient is not zero. The zero polynomial has no
-coefficients."""
+"""The ascending coefficients of a polynomial. The last coefficient is not zero."""
 
 
 LARGEST = 100
-"""The limit on the number of rows of the matrix A. For a larger matrix, stability is not decided. If A is
-block triangular, the limit applies to each diagonal block. For a block of this size with rational entries,
-the computation takes about a second."""
+"""The limit on the number of rows of the matrix A, or of each diagonal block if A is block triangular. For a
+block of this size with rational entries, the computation takes about a second."""
 
 EFFORT = 10**11
-"""The limit on the work of polynomial operations. Work is measured in multiplications of two bits. The limit
-corresponds to about a second. The coefficients in Euclid's algorithm grow fast, so a limit is necessary."""
+"""The limit on the work of polynomial operations, in multiplications of two bits (about a second). The
+coefficients in Euclid's algorithm grow fast, so a limit is necessary."""
 
 
 class SignedRing(Ring, Protocol):
@@ -57,9 +53,8 @@ class StabilityFunction(Struct, frozen=True):
 
 
 def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
-    """Decide whether the method is A-stable and L-stable. The keys of the result are ``a_stable`` and
-    ``l_stable``. If the computation would take too long, both values are None. If the sign of a ball
-    (interval) is unknown, both values are None.
+    """Decide whether the method is A-stable and L-stable. Both values are None if the computation would take
+    too long, or if the sign of a ball (interval) is unknown.
 
     >>> half, one = QQ.rational(1, 2), QQ.one
     >>> stability(RungeKutta(((half,),), (one,)), QQ)
@@ -68,8 +63,7 @@ def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
     {'a_stable': True, 'l_stable': True}
     """
     if all(ring.is_zero(x) is True for i, row in enumerate(method.A) for x in row[i:]):
-        # The stability function of an explicit method is a polynomial. A polynomial of positive degree is
-        # unbounded.
+        # A polynomial stability function is unbounded unless it is constant.
         return {"a_stable": False, "l_stable": False}
     if any(ring.is_zero(x) is None for row in (*method.A, method.b) for x in row):
         return {"a_stable": None, "l_stable": None}
@@ -102,12 +96,10 @@ def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
 
 def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bool | None]:
     """Decide whether a composition of midpoint rules with step sizes gamma_i h is A-stable and L-stable. The
-    keys of the result are ``a_stable`` and ``l_stable``. The stability function of the composition is
-    R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
+    stability function is R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    On the imaginary axis and at infinity, |R| = 1. Hence the composition is never L-stable. If
-    gamma_j = -gamma_i, the factors of gamma_i and gamma_j cancel. If a negative gamma_i remains, R has a pole
-    in the left half plane, and the composition is not A-stable.
+    At infinity, |R| = 1, so the composition is never L-stable. If gamma_j = -gamma_i, the factors of gamma_i
+    and gamma_j cancel. The composition is A-stable if and only if no negative gamma_i remains.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}
@@ -136,8 +128,7 @@ class _Undecided(Exception):
 
 
 class _Limited:
-    """A ring with a limit on the total work. If the work exceeds :data:`EFFORT`, :class:`_Undecided` is
-    raised."""
+    """A ring that raises :class:`_Undecided` if the total work exceeds :data:`EFFORT`."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring, self.left = ring, EFFORT
@@ -155,17 +146,14 @@ class _Limited:
 
 def _bits(x: Element) -> int:
     """Return the number of bits of the numerator plus the number of bits of the denominator of a rational
-    number x. An element x of a number field has several rational coefficients. In this case, return the
-    maximum over the coefficients."""
+    number x. For an element x of a number field, return the maximum over its rational coefficients."""
     coefficients = x.polynomial.coeffs() if hasattr(x, "polynomial") else [x]
     return max((int(fmpq(c).p).bit_length() + int(fmpq(c).q).bit_length() for c in coefficients), default=1)
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Subtract the estimated work of ``count`` multiplications from the work that is still allowed. Let n be
-    1000 plus the number of bits of the longest number in ``numbers``. Over a number field, the number of bits
-    is multiplied by the degree of the field. The estimate for one multiplication is n^2 if ``quadratic`` is
-    true, and 1000 n otherwise."""
+    """Subtract the estimated work of ``count`` multiplications from the work that is still allowed. The
+    estimate is quadratic in the number of bits if ``quadratic`` is true, and linear otherwise."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
@@ -205,8 +193,7 @@ def stability_function(method: RungeKutta, ring: Ring) -> StabilityFunction:
 
 
 def _determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
-    """Return det(I - zA) as a polynomial in z. If A is block triangular, the determinants of the diagonal
-    blocks are multiplied. The determinant of a block is computed by the method of Faddeev and LeVerrier."""
+    """Return det(I - zA) as a polynomial in z, by the method of Faddeev and LeVerrier."""
     result = [ring.one]
     start = 0
     for end in range(1, len(A) + 1):
@@ -258,9 +245,7 @@ def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
 def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
     """Return True if |R(iy)| <= 1 for all real y.
 
-    Let R = P/Q. The difference E = |Q(iy)|^2 - |P(iy)|^2 is a polynomial in x = y^2. The condition is
-    E >= 0 for all x >= 0. A non-zero polynomial E satisfies this condition if its leading coefficient is
-    positive and every positive zero of E has even multiplicity.
+    For R = P/Q, the condition is |Q(iy)|^2 - |P(iy)|^2 >= 0, a polynomial inequality in y^2.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))
@@ -280,8 +265,7 @@ def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
 
 
 def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
-    """Return |p(iy)|^2 for real y as a polynomial in y^2. The function uses that Re p(iy) and Im p(iy) / y
-    are polynomials in y^2."""
+    """Return |p(iy)|^2 for real y as a polynomial in y^2."""
     real = [x if k % 2 == 0 else -x for k, x in enumerate(p[0::2])]
     imaginary = [x if k % 2 == 0 else -x for k, x in enumerate(p[1::2])]
     square, rest = _product(real, real, ring), [ring.zero, *_product(imaginary, imaginary, ring)]
