@@ -14,8 +14,7 @@ from orderconds.tableau.record import Tableau
 
 def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
     """Return the tableau with a ball (interval) in place of every double x. The ball has the centre x and the
-    radius ``units * 2^-53 * max(1, |x|)``. Coefficients that are not doubles do not change. If ``units`` is
-    None, the tableau itself is returned.
+    radius ``units * 2^-53 * max(1, |x|)``. If ``units`` is None, the tableau itself is returned.
 
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.1d"]]\\nb = ["1"]'
     >>> wide = with_tolerance(Tableau.loads(text), 2**43)
@@ -38,10 +37,7 @@ def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
 
 
 def _scaled(x: Expression, units: Fraction) -> Expression:
-    """Return a copy of an expression in which each double is replaced by a ball (interval).
-
-    A double c becomes the ball with the centre c and the radius ``units * 2^-53 * max(1, |c|)``.
-    """
+    """Replace each double c by the ball (interval) of centre c and radius ``units * 2^-53 * max(1, |c|)``."""
     if isinstance(x, Constant):
         return Constant(x.value, radius(x.value, units)) if x.is_double else x
     if isinstance(x, Chain):

@@ -1,7 +1,4 @@
-"""Format the keys and values of a tableau file as TOML text, in the layout of a file written by hand.
-
-A row is on one line. A matrix that is too long for one line has a line for each row. Tables have headings.
-"""
+"""Format the keys and values of a tableau file as TOML text, in the layout of a file written by hand."""
 
 from __future__ import annotations
 
@@ -16,8 +13,7 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+", re.ASCII)
 
 
 def toml_text(data: Mapping[str, object]) -> str:
-    """Return the TOML text of ``data``. The values may be strings, integers, booleans, lists and tables. A
-    TOML reader converts the text back to ``data``.
+    """Return the TOML text of ``data``. The values may be strings, integers, booleans, lists and tables.
 
     >>> print(toml_text({"b": ["1"], "stage": [{}, {"exp": [["1"]]}], "claims": {"rk": 1}}), end="")
     b = ["1"]
@@ -39,8 +35,7 @@ def _entries(table: Mapping[str, object]) -> Iterator[str]:
 
 
 def _headed(key: str, value: object) -> bool:
-    """Return True if a value is written below a heading. The list of stages and all tables have headings,
-    except a table ``embedded`` that fits on one line."""
+    """Return True if a value is written below a heading."""
     if _blocks(value, key):
         return True
     return isinstance(value, Mapping) and not (key == "embedded" and len(_line(key, value)) <= WIDTH)

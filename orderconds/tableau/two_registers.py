@@ -3,17 +3,15 @@
 Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y. Here F is the vector field and h is the step
 size. A step stores only the state Y and one element K of the Lie algebra (Williamson, J. Comput. Phys. 35
 (1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225). A 2N scheme is a commutator-free method
-with one exponential for each stage. Each stage begins where the previous stage ended. On a vector space, a 2N
-scheme is a Runge-Kutta method.
+with one exponential for each stage. On a vector space, a 2N scheme is a Runge-Kutta method.
 
 Let F_i be the vector field at stage i. Increment i leads from stage i to stage i + 1. The last increment
 leads to the update. In a 2N scheme, increment i is B_i K_i with K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j.
 The recognition computes B_i and A_i from the increments of a tableau:
 
 - B_i is the coefficient of F_i in increment i.
-- A_i is a quotient of two coefficients in one increment. The numerator is the coefficient of F_{i-1}, and the
-  denominator is the coefficient of F_i. The quotient is taken from the first increment in which the
-  coefficient of F_i is not zero.
+- A_i is the quotient of the coefficients of F_{i-1} and F_i in the first increment in which the coefficient
+  of F_i is not zero.
 
 The tableau is a 2N scheme if all its increments are equal to the increments B_i K_i.
 """
@@ -32,7 +30,7 @@ from orderconds.tableau.methods import CommutatorFree, Row, RungeKutta, Stage
 @dataclass(frozen=True)
 class TwoRegisters:
     """A low-storage (2N) scheme. Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y, where F is
-    the vector field and h is the step size. ``A`` and ``B`` contain the numbers A_i and B_i. A_1 is zero."""
+    the vector field and h is the step size. A_1 is zero."""
 
     A: Row
     B: Row
@@ -43,9 +41,8 @@ class TwoRegisters:
         return len(self.B)
 
     def increments(self, ring: Ring) -> tuple[Row, ...]:
-        """Return the increments B_i K_i for i = 1, ..., s. The register K has the value K_i after stage i,
-        and B_i is the entry i of ``B``. Let F_j be the vector field at stage j. Row i of the result contains
-        the coefficients of F_1, ..., F_s in B_i K_i.
+        """Return the increments B_i K_i for i = 1, ..., s, where K_i is the register K after stage i. Row i
+        contains the coefficients in B_i K_i of F_1, ..., F_s, the vector fields at the stages.
 
         >>> from orderconds.ring import QQ
         >>> half, two = QQ.rational(1, 2), QQ.rational(2)
@@ -53,8 +50,7 @@ class TwoRegisters:
         ((1/2, 0), (-1, 2))
         """
         rows: list[Row] = []
-        # In stage i, the register K receives the value K_i = F_i + sum_{j < i} x_j F_j, where F_j is the
-        # vector field at stage j. The list ``register`` contains the coefficients x_j.
+        # The list ``register`` contains the coefficients x_j of K_i = F_i + sum_{j < i} x_j F_j.
         register: list[Element] = []
         for i, (a, b) in enumerate(zip(self.A, self.B, strict=True)):
             register = [*(a * x for x in register), a] if i else []
@@ -86,8 +82,7 @@ class Rewriting:
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     """Rewrite a method as a low-storage (2N) scheme. If no such scheme exists, return the reason.
 
-    If ``method`` is commutator-free, the scheme computes the same step as ``method`` on every Lie group. If
-    ``method`` is a Runge-Kutta method, the scheme computes the same step on vector spaces.
+    The scheme computes the same step as ``method`` (on vector spaces, if ``method`` is a Runge-Kutta method).
 
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
@@ -122,9 +117,6 @@ def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | 
     applies the exponentials of the update and then one final exponential, return the exponent of the final
     exponential. Otherwise, return None.
 
-    Let sum_i D_i F_i be this exponent, where F_i is the vector field at stage i. Generated code needs only
-    one additional register for ``second``: stage i adds D_i F_i to the register.
-
     >>> from orderconds.tableau import Tableau, find
     >>> pair = Tableau.load(find("cf43"))
     >>> second_exponent(pair.method, pair.embedded.update, pair.ring) is None
@@ -136,8 +128,8 @@ def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | 
 
 
 def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
-    """Return the coefficient A_i of the 2N scheme, where i is counted from 0. ``rows`` contains the
-    increments. If A_i does not exist or is undecided, return a :class:`Rewriting` with the reason."""
+    """Return the coefficient A_i of the 2N scheme with the increments ``rows``, where i is counted from 0. If
+    A_i does not exist or is undecided, return a :class:`Rewriting` with the reason."""
     above = ""
     for m in range(i, len(rows)):
         denominator = rows[m][i]
@@ -153,14 +145,13 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
                 f"A_{i + 1} has a zero denominator: in the increment of stage {m + 1}, k_{i} has the "
                 f"coefficient {ring.text(rows[m][i - 1])} and k_{i + 1} has the coefficient 0"
             )
-    # The denominator is zero in all increments. If a numerator is not zero, A_i does not exist. If all
-    # numerators are zero, A_i is arbitrary, and zero is chosen.
+    # If all numerators and denominators are zero, A_i is arbitrary, and zero is chosen.
     return Rewriting(False, reason=above) if above else ring.zero
 
 
 def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
-    """Compare the increments of the scheme with ``rows``, the increments of the method. Return the scheme, or
-    the reason why method and scheme differ."""
+    """Return the scheme, or the reason why its increments differ from ``rows``, the increments of the
+    method."""
     holds: Verdict = True
     for i, (row, expected) in enumerate(zip(rows, scheme.increments(ring), strict=True)):
         for j, (x, y) in enumerate(zip(row, expected, strict=True)):
@@ -177,7 +168,7 @@ def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
 
 def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
     """Return the differences of successive rows of A, where b is appended as the last row. If the first row
-    of A is not zero, the first stage differs from the start value y0. In this case, return an error text."""
+    of A is not zero, return an error text."""
     if any(ring.is_zero(x) is False for x in method.A[0]):
         return "the first stage is not the start value"
     rows = (*method.A, method.b)
@@ -185,10 +176,8 @@ def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
 
 
 def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
-    """Return the increments of a commutator-free method. The exponential of increment i leads from stage i
-    to stage i + 1. The exponential of the last increment leads to the update. Return an error text if the
-    first stage differs from the start value y0, or if two successive stages differ by more than one
-    exponential."""
+    """Return the increments of a commutator-free method. Return an error text if the first stage differs from
+    the start value y0, or if two successive stages differ by more than one exponential."""
     *paths, update = (
         [row for row in method.from_start(stage) if any(ring.is_zero(x) is not True for x in row)]
         for stage in (*method.stages, method.update)

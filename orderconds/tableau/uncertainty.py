@@ -12,9 +12,9 @@ from orderconds.tableau.doubles import radius
 from orderconds.tableau.record import Tableau
 
 WIDER = fmpq(17, 8)
-"""A factor. A double counts as accurate if the width of its ball (interval) is at most ``WIDER`` times the
-default radius (:func:`~orderconds.tableau.doubles.radius`). The factor exceeds 2, because the endpoints of
-the ball are rounded outward.
+"""A double counts as accurate if the width of its ball (interval) is at most ``WIDER`` times the default
+radius (:func:`~orderconds.tableau.doubles.radius`). The factor exceeds 2, because the endpoints of the ball
+are rounded outward.
 """
 
 
@@ -23,9 +23,8 @@ def uncertainty(tableau: Tableau, bits: int) -> str:
     coefficients are accurate, the result is empty.
 
     A coefficient is inaccurate if the radius of its ball (interval) exceeds the error of one rounding to
-    ``bits`` bits. Doubles are an exception: a double with the default radius
-    (:mod:`orderconds.tableau.doubles`) counts as accurate, because generated code contains the double itself,
-    without further rounding.
+    ``bits`` bits. But a double with the default radius (:mod:`orderconds.tableau.doubles`) counts as
+    accurate.
 
     >>> from orderconds.tableau import find
     >>> uncertainty(Tableau.load(find("rk4")), 53)

@@ -1,8 +1,6 @@
 """Rounded decimals of a tableau file as unknowns of equations, and the table ``[proof]``.
 
-A decimal with ``~`` approximates a number without a known closed form. The table ``[proof]`` names order
-conditions in which these numbers are the unknowns. Near the decimals, the order conditions have an exact
-solution.
+The table ``[proof]`` names order conditions in which the decimals with ``~`` are the unknowns.
 
 ::
 
@@ -53,8 +51,7 @@ class Unknown(Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Proof:
-    """The table ``[proof]`` of a file. The table defines equations. The rounded decimals of the file are an
-    approximate solution of these equations.
+    """The table ``[proof]`` of a file: equations that the rounded decimals of the file satisfy approximately.
 
     The equations are the order conditions of the family ``conditions`` up to order ``order``. The decimals in
     ``unknowns`` are the unknowns of the equations. The decimals in ``pinned`` count as exact numbers.
@@ -142,6 +139,5 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        # The evaluation refuses values for which this method returns too many bits. If ``ring`` has no method
-        # ``size``, the result 0 switches off the limit.
+        # If ``ring`` has no method ``size``, the result 0 switches off the limit on the number of bits.
         return 0 if size is None else int(size(x))

@@ -1,14 +1,11 @@
 """The cost of a step: field evaluations, exponentials and brackets.
 
-A field evaluation is counted for each stage on which the update depends. Stages that only the error estimate
-uses are not counted. The last stage of an explicit first-same-as-last method is not counted, because it is
-also the first stage of the next step. An implicit method solves for its stages by iteration. The counts are
-those of one iteration. One iteration evaluates each stage once.
+A field evaluation is counted for each stage on which the update depends. The counts of an implicit method are
+those of one iteration.
 
-Equal exponents count as one exponential. A Munthe-Kaas method evaluates dexpinv at each stage on which
-the update depends. At a stage that equals the start value, dexpinv is not needed. All nested brackets of
-dexpinv are counted. For a Magnus method, the brackets are the commutators in the exponents, and equal
-commutators are counted once. A Cayley transform counts as an exponential.
+Equal exponents count as one exponential. The brackets of a Munthe-Kaas method are those of dexpinv at the
+counted stages that differ from the start value. For a Magnus method, the brackets are the commutators in the
+exponents, and equal commutators are counted once. A Cayley transform counts as an exponential.
 """
 
 from __future__ import annotations
@@ -74,9 +71,8 @@ def commutator_free_work(tableau: Tableau) -> Work | None:
 
 
 def crouch_grossman_work(tableau: Tableau) -> Work | None:
-    """Return the cost of a step of a Crouch-Grossman method. The method has one exponential for each non-zero
-    coefficient of the Butcher tableau. For a tableau of the format ``cf``, only field evaluations
-    are counted (:func:`evaluations`).
+    """Return the cost of a step of a Crouch-Grossman method. For a tableau of the format ``cf``, only field
+    evaluations are counted (:func:`evaluations`).
 
     >>> from orderconds.tableau import find
     >>> crouch_grossman_work(Tableau.load(find("cg3")))
@@ -88,9 +84,9 @@ def crouch_grossman_work(tableau: Tableau) -> Work | None:
 
 
 def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
-    """Return the cost of a step of a Runge-Kutta-Munthe-Kaas method. The series dexpinv_u is a sum of powers
-    of ad_u. The powers with exponents above ``cutoff`` are omitted. For a method without a Butcher
-    tableau, only field evaluations are counted (:func:`evaluations`).
+    """Return the cost of a step of a Runge-Kutta-Munthe-Kaas method. The series dexpinv_u omits the powers of
+    ad_u with exponents above ``cutoff``. For a method without a Butcher tableau, only field evaluations are
+    counted (:func:`evaluations`).
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> munthe_kaas_work(heun, 1)
@@ -120,7 +116,7 @@ def magnus_work(tableau: Tableau) -> Work | None:
 
 def _stages_evaluated(method: RungeKutta, ring: Ring) -> int:
     # The last stage of an explicit first-same-as-last method is not counted: the update does not depend on
-    # this stage. The stage is evaluated as the first stage of the next step.
+    # this stage.
     return len(_needed(method, ring))
 
 
@@ -157,8 +153,7 @@ def _used(rows: Iterable[Sequence[Element]], ring: Ring) -> set[int]:
 
 
 def _linear(method: Magnus, ring: Ring) -> Work:
-    """Count the nodes, the distinct exponents and the distinct brackets of a Magnus method. Each node counts
-    as one field evaluation."""
+    """Count the nodes, the distinct exponents and the distinct brackets of a Magnus method."""
     elements = dict(method.elements)
     used: dict[Term, None] = {}
 
@@ -187,9 +182,8 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 def _nested(cutoff: int | None) -> int:
     """Return the number of brackets in one evaluation of dexpinv_u, where the series sum_k (B_k / k!) ad_u^k
-    ends at k = ``cutoff``. Each power ad_u^k needs one bracket more than the power before. Hence the result
-    is the largest k <= ``cutoff`` for which the Bernoulli number B_k is not zero. If ``cutoff`` is None, the
-    result is 0."""
+    ends at k = ``cutoff``. The result is the largest k <= ``cutoff`` for which the Bernoulli number B_k is
+    not zero, or 0 if ``cutoff`` is None."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

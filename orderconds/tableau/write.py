@@ -34,8 +34,7 @@ def dumps(tableau: Tableau) -> str:
 
     If the tableau was read from a file, the coefficients are copied as they are written in the file, together
     with the named numbers and the table ``[proof]``. Otherwise, values replace the named numbers
-    (:func:`without_names`). A ball is written as a decimal with ``~``. The error of the decimal is at most
-    one unit in the last place.
+    (:func:`without_names`). A ball is written as a decimal with ``~``.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\n[numbers]\\na = "0.50~"\\n'

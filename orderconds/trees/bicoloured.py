@@ -4,9 +4,7 @@ Colour 0 (black) denotes the first part y of a partitioned system, and colour 1 
 part z. A tree is encoded by one byte ``2 level + colour`` for each vertex, in preorder. The root has level
 0. The branches at each vertex are sorted, and the branch with the greatest encoding comes first.
 
-The module :mod:`orderconds.trees.directed` encodes trees with edges of two kinds. The encoding in that module
-contains the kind of the edge from a vertex to its parent in place of the colour of the vertex. HLW denotes
-Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -36,13 +34,11 @@ def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
 
 
 def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
-    """Return all free trees in which neighbours differ in colour, each tree once. Each free tree is returned
-    as a rooted tree. The root is a vertex for which the height is least.
+    """Return all free trees in which neighbours differ in colour, each tree once. The root of each tree is a
+    vertex for which the height is least.
 
     The trees with alternating colours index the order conditions of symplectic partitioned methods for
-    separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2). An uncoloured tree gives two coloured
-    trees. An exchange of the two colours maps one to the other. The two trees are equal if a symmetry of the
-    uncoloured tree exchanges the colours.
+    separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2).
 
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']
@@ -56,8 +52,8 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
 
 
 def alternating(colour: int, tree: Tree) -> BicolouredTree:
-    r"""Add a colour to each vertex of a rooted tree. Neighbours differ in colour, and the root has the given
-    colour. Return the coloured tree in canonical order.
+    r"""Colour a rooted tree such that neighbours differ in colour, and the root has the given colour. Return
+    the coloured tree in canonical order.
 
     >>> text(alternating(1, b"\0\1\2\1"))
     '([o].)'

@@ -11,9 +11,8 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Return the numbers of multisets. Each element of a multiset has a weight. Entry k - 1 of ``counts`` is
-    the number of different elements of weight k. Entry k - 1 of the result is the number of multisets of
-    total weight k.
+    """Return the numbers of multisets. Entry k - 1 of ``counts`` is the number of different elements of
+    weight k. Entry k - 1 of the result is the number of multisets of total weight k.
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)
@@ -86,8 +85,7 @@ def essential_free_tree_count(vertices: int) -> int:
 def alternating_free_tree_count(vertices: int) -> int:
     """Return the number of free trees with two colours in which neighbours differ in colour.
 
-    An uncoloured free tree has two such colourings. If a symmetry of the tree exchanges the colours, the two
-    coloured trees are equal.
+    The two colourings of a tree are equal if a symmetry of the tree exchanges the colours.
 
     >>> [alternating_free_tree_count(n) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]
@@ -116,9 +114,8 @@ def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
     """Return the number of Lyndon words of a given weight. ``letters(k)`` is the number of letters of weight
     k.
 
-    Let L(n) be the number of Lyndon words of weight n. Every word is the product of a unique non-increasing
-    sequence of Lyndon words. Hence the product of (1 - x^n)^(-L(n)) over all n is equal to
-    1/(1 - sum_k letters(k) x^k), the generating function of all words.
+    Let L(n) be the number of Lyndon words of weight n. The product of (1 - x^n)^(-L(n)) over all n is equal
+    to 1/(1 - sum_k letters(k) x^k), the generating function of all words.
 
     >>> [lyndon_word_count(n, ordered_tree_count) for n in range(1, 10)]
     [1, 1, 3, 8, 25, 75, 245, 800, 2700]

@@ -4,11 +4,9 @@ A partitioned method has weights b_i and two tableaux, a_ij and ahat_ij. Let an 
 child j. An edge that points away from the root has kind 0 and gives the factor a_ij in the elementary weight.
 An edge that points to the root has kind 1 and gives the factor ahat_ij.
 
-A move of the root across an edge changes the kind of the edge, but not its direction. Symplectic methods
-satisfy b_i ahat_ij + b_j a_ji = b_i b_j. Let t and t' be rooted trees that differ by a move of the root
-across one edge. The sum of their elementary weights is the product of the elementary weights of two smaller
-trees. If the conditions of lower order hold, the conditions of t and t' are equivalent. Hence the order
-conditions are indexed by free trees with directed edges.
+Symplectic methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j. Let t and t' be rooted trees that differ by a
+move of the root across one edge. The sum of their elementary weights is the product of the elementary weights
+of two smaller trees. Hence the order conditions are indexed by free trees with directed edges.
 
 A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder. ``level`` is the level of the
 vertex, and ``kind`` is the kind of the edge to its parent. The branches of a vertex are sorted by their
@@ -121,8 +119,8 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
     """
     if vertices < 1:
         return ()
-    # A free tree has one or two centroids. At a single centroid, each branch has less than half of the
-    # vertices. The edge between two centroids divides the tree into halves.
+    # At a single centroid, each branch has less than half of the vertices. The edge between two centroids
+    # divides the tree into halves.
     central = [joined(below) for below in _multisets_in_turn(vertices - 1, (vertices - 1) // 2)]
     if vertices % 2 == 0:
         halves = directed_rooted_trees(vertices // 2)
@@ -132,12 +130,10 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def representative(tree: DirectedTree) -> DirectedTree:
-    """Move the root of the tree to the vertex that gives the simplest order condition. Return the tree with
-    this root.
+    """Move the root of the tree to the vertex that gives the simplest order condition.
 
-    For a given root, let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1. The first criterion is
-    the least value of min(n_0, n_1). If roots tie, the tree of least height is chosen. If roots still tie,
-    the least n_1 is chosen. The last criterion is the least byte string.
+    Let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1 after the move. The criteria are, in this
+    order, the least min(n_0, n_1), the least height, the least n_1 and the least byte string.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'
@@ -160,8 +156,7 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
     r"""Yield three trees (u, v, w) for each edge at the root. The removal of the edge gives two trees: u
-    contains the root, and v does not. The tree w is the given tree after a move of the root across the edge:
-    the root of w is the root of v.
+    contains the root, and v does not. The tree w is the given tree after a move of the root to the root of v.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]
@@ -182,9 +177,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        # ``hats[place]`` is the number of edges of kind 1 after a move of the root to the vertex ``place``.
-        # The kind of an edge depends on the root: a move of the root across an edge changes the kind of this
-        # edge only.
+        # ``hats[place]`` is the number of edges of kind 1 after a move of the root to the vertex ``place``. A
+        # move of the root across an edge changes the kind of this edge only.
         hats[place] = hats[parents[place]] + 1 - 2 * kind
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)
@@ -207,7 +201,7 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
 
 
 def _rooted_at(tree: DirectedTree, place: int) -> DirectedTree:
-    """Move the root to the vertex with the preorder index ``place``. Return the tree in canonical form."""
+    """Return the tree, in canonical form, with the vertex of preorder index ``place`` as root."""
     behind: list[Branch] = []
     while place:
         start = 1
@@ -239,8 +233,8 @@ def _simplicity(tree: DirectedTree) -> tuple[int, int, int]:
 
 @lru_cache(maxsize=256)
 def _multisets(vertices: int, largest: int) -> tuple[list[Branch], ...]:
-    """Return all multisets of branches that have ``vertices`` vertices together. Each branch has at most
-    ``largest`` vertices."""
+    """Return all multisets of branches with at most ``largest`` vertices each and ``vertices`` vertices
+    together."""
     return tuple(_multisets_in_turn(vertices, largest))
 
 

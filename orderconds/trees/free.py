@@ -5,8 +5,8 @@ tableau a_ij and the weights b_i satisfy b_i a_ij + b_j a_ji = b_i b_j. Let phi 
 let o be Butcher's product of rooted trees. Then phi(u o v) + phi(v o u) = phi(u) phi(v) for all rooted trees
 u and v (Sanz-Serna and Abia 1991; HLW VI.7.1).
 
-A free tree is called superfluous if it has the form u o u for a suitable root. In this case,
-phi(u o u) = phi(u)^2/2. Hence the order condition of u o u follows from the order condition of u.
+A free tree is called superfluous if it has the form u o u for a suitable root. The order condition of u o u
+follows from the order condition of u.
 
 HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
@@ -20,8 +20,7 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""A pair (u, v) of trees. Let o be Butcher's product. The pair denotes a move of the root across an edge.
-This move changes the tree u o v to the tree v o u."""
+"""A pair (u, v): the move of the root from u o v to v o u, where o is Butcher's product."""
 
 
 @lru_cache(maxsize=32)
@@ -65,11 +64,9 @@ def representative(tree: Tree) -> Tree:
 
 
 def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
-    r"""Yield three trees for each edge at the root of a canonical tree.
+    r"""Yield the three trees u, v and v o u for each edge at the root of a canonical tree.
 
-    The edge separates the tree into two parts u and v. The root belongs to u. Hence the given tree is u o v,
-    where o is Butcher's product. The three trees are u, v and v o u. The last tree is the given tree with the
-    root moved across the edge.
+    The edge separates the tree into two parts u and v, and u contains the root. Here o is Butcher's product.
 
     >>> list(moves(b"\0\1\1"))[0]
     (b'\x00\x01', b'\x00', b'\x00\x01\x02')

@@ -7,9 +7,9 @@ Livernet 2001).
 On a Lie group, trees are ordered, because derivatives in different directions do not commute. Let t be an
 ordered tree with the branches t_1, ..., t_k at the root. F(t) is obtained from the vector field by k
 derivatives in the directions F(t_k), ..., F(t_1), in this order. In these derivatives, each direction is
-frozen: F(t_i) is an element of the Lie algebra and is not differentiated. Grafting onto the root corresponds
-to one further derivative after these k derivatives. Hence the grafted tree becomes the leftmost branch
-(Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+frozen: F(t_i) is an element of the Lie algebra and is not differentiated. A tree grafted onto the root gives
+one further derivative, and becomes the leftmost branch (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008)
+227).
 
 HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
@@ -42,9 +42,9 @@ def butcher_product(u: Tree, v: Tree) -> Tree:
 
 
 def graft(u: Tree, v: Tree) -> Counter[Tree]:
-    r"""Return the trees that result if u becomes a new branch of a vertex of v. The trees are unordered.
+    r"""Return the unordered trees that result if u becomes a new branch of a vertex of v.
 
-    Each vertex of v gives one tree. The result maps each tree to the number of vertices that give this tree.
+    The result maps each tree to the number of vertices of v that give this tree.
 
     >>> sorted(graft(b"\0", b"\0\1\1").items())
     [(b'\x00\x01\x01\x01', 1), (b'\x00\x01\x02\x01', 2)]
@@ -82,8 +82,8 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Return the trees that result from grafting, as in :func:`left_graft`: each tree of the forest ``word``
-    becomes a branch of one vertex of ``tree``. Different trees of ``word`` may have different vertices."""
+    """Return the trees that result from grafting the forest ``word`` onto vertices of ``tree``, as in
+    :func:`left_graft`."""
     grafted = []
     for root, above in deshuffles(word):
         grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]
@@ -91,8 +91,7 @@ def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
 
 
 def deshuffles(word: Forest) -> tuple[tuple[Forest, Forest], ...]:
-    r"""Return all divisions of a forest into two forests. Each tree of ``word`` belongs to one of the two
-    forests. The trees of a forest keep their order. For k trees, there are 2^k divisions.
+    r"""Return all divisions of a forest into two forests. The trees of a forest keep their order.
 
     >>> deshuffles(b"\0")
     ((b'', b'\x00'), (b'\x00', b''))

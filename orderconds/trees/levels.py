@@ -1,11 +1,10 @@
 """Level sequences of trees and forests. A level sequence contains the level of each vertex as one byte, in
 preorder.
 
-Roots have level 0. A tree is a forest with one root. The type ``bytes`` is fast to hash and to compare.
+Roots have level 0. A tree is a forest with one root.
 
-Trees are printed in brackets. For example, ``.`` is one vertex, and ``[..]`` is a root with two leaves. The
-trees of a forest are separated by spaces. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
-Integration*.
+Trees are printed in brackets: ``.`` is one vertex, and ``[..]`` is a root with two leaves. The trees of a
+forest are separated by spaces. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
