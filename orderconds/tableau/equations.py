@@ -1,10 +1,8 @@
-r"""Equations in LaTeX that define a method. The equations are printed if the method has no Butcher array, or
-if the array is too wide.
+"""Equations in LaTeX that define a method.
 
-Each equation is broken into lines that fit in a column of a two-column article. If the tableau contains
-doubles, all coefficients are rounded to six digits. In every other tableau, a short coefficient is printed
-exactly. A long coefficient, or a coefficient that contains a name (for example c1), is printed as a truncated
-decimal. A truncated decimal ends in ``\ldots``.
+If the tableau contains doubles, all coefficients are rounded to six digits. In every other tableau, a short
+coefficient is printed exactly. A long coefficient, or a coefficient that contains a name (for example c1), is
+printed as a truncated decimal.
 """
 
 from __future__ import annotations
@@ -54,9 +52,8 @@ part."""
 def equations(tableau: Tableau) -> str:
     r"""Return the equations that define the method, aligned at the equality signs.
 
-    If the equations do not fit on a page, the result contains only the size of the method. The size of a
-    Magnus method is the number of nodes. The size of a composition or a splitting is the number of
-    coefficients. The size of every other method is the number of stages, as in ``8 stages``.
+    If the equations do not fit on a page, the result contains only the number of stages, nodes or
+    coefficients, as in ``8 stages``.
 
     >>> from orderconds.tableau import Tableau
     >>> print(equations(Tableau.cf([[], [["1/2"]]], [[0, 1]])))
@@ -82,8 +79,8 @@ def has_name(text: str) -> bool:
 
 def short_text(x: Element, tableau: Tableau) -> str:
     """Return the text of a coefficient. If the tableau contains doubles, the coefficient is rounded to six
-    digits. In every other tableau, an exact coefficient is not changed. If the text of an inexact coefficient
-    has more than :data:`SHORT` characters, the decimal is cut off after :data:`SHORT` significant digits.
+    digits. In every other tableau, a long inexact coefficient is cut off after :data:`SHORT` significant
+    digits.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau = Tableau.rk([[0, 0], ["1/2", 0]], [0, 1])
@@ -97,14 +94,14 @@ def short_text(x: Element, tableau: Tableau) -> str:
 
 
 def _decimal(x: Element, tableau: Tableau) -> str:
-    """Return an inexact coefficient as a decimal, cut off after :data:`SHORT` significant digits. A tilde is
-    always appended. In LaTeX, the tilde becomes ``\\ldots``."""
+    """Return a coefficient as a decimal, cut off after :data:`SHORT` significant digits. The result ends in a
+    tilde, which becomes ``\\ldots`` in LaTeX."""
     nearest = Decimal(cast("RealRing", tableau.ring).nearest_float(x))
     return f"{Context(prec=SHORT, rounding=ROUND_DOWN).plus(nearest):f}~"
 
 
 def _latex(x: Element, tableau: Tableau) -> str:
-    r"""Return a coefficient in LaTeX. Fractions are written with the command ``\tfrac``."""
+    """Return a coefficient in LaTeX."""
     text = short_text(x, tableau)
     if tableau.doubles:
         return text
@@ -150,7 +147,7 @@ def _equations(tableau: Tableau) -> Iterator[Equation]:
 
 def _matrix(a: str, b: str, A: Sequence[Row], weights: Row, tableau: Tableau) -> Iterator[Equation]:
     """Yield one equation for each nonzero row of the matrix A, then one equation for the weights. The symbols
-    of A and of the weights are ``a`` and ``b``. Zeros at the end of a row of A are omitted."""
+    of A and of the weights are ``a`` and ``b``."""
     for i, row in enumerate(A, start=1):
         last = max((j for j, x in enumerate(row) if tableau.ring.is_zero(x) is not True), default=-1)
         if last >= 0:
@@ -174,7 +171,7 @@ def _splitting(method: Splitting, tableau: Tableau) -> Iterator[Equation]:
 
 def _magnus(method: Magnus, tableau: Tableau) -> Iterator[Equation]:
     """Yield the equations that define the nodes, then the named Lie elements, then the exponents Omega_1,
-    Omega_2, .... The exponential of Omega_1 acts first."""
+    Omega_2, ...."""
     yield "c", _list(method.c, tableau)
     for name, combination in method.elements:
         yield _name(name), _brackets(combination, tableau)
@@ -199,17 +196,15 @@ def _name(name: str) -> str:
 
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:
-    """Return the formula of a stage in parts. A line break is allowed after each part. The formula is a
-    product of exponentials that acts on y_0 or on an earlier stage. The rightmost exponential acts first."""
+    """Return the parts of the formula of a stage, a product of exponentials. The rightmost exponential acts
+    first."""
     start = "y_0" if stage.start is None else f"Y_{{{stage.start + 1}}}"
     parts = [part for row in reversed(stage.exponentials) for part in _exponential(row, tableau)]
     return [*parts[:-1], parts[-1] + start] if parts else [start]
 
 
 def _exponential(row: Row, tableau: Tableau) -> list[str]:
-    """Return a list of the parts of the formula of one exponential. A line break is allowed after each part.
-    The exponent is h times a linear combination of k_1, k_2, .... The entries of ``row`` are the
-    coefficients."""
+    """Return the parts of the formula of exp(h sum_j x_j k_j), where the x_j are the entries of ``row``."""
     terms = _sum([(x, f"k_{{{j}}}") for j, x in enumerate(row, start=1)], tableau)
     if len(terms) == 1:
         factor, _, index = terms[0].rpartition("k_")
@@ -219,8 +214,7 @@ def _exponential(row: Row, tableau: Tableau) -> list[str]:
 
 
 def _sum(combination: Sequence[tuple[Element, str]], tableau: Tableau) -> list[str]:
-    """Return the terms of a linear combination, each with its sign. Terms with coefficient zero are omitted.
-    If no term remains, the result is a single 0."""
+    """Return the terms of a linear combination, each with its sign."""
     written: list[str] = []
     for x, vector in combination:
         if tableau.ring.is_zero(x) is True:

@@ -8,9 +8,8 @@ The first of these rules that applies determines the ring:
   most :data:`orderconds.ring.tower.MAX_DEGREE`, the ring is this field.
 - If the degree is larger, all coefficients are balls.
 
-Equal expressions in one file are evaluated only once, so their values are the same Python object. Two balls
-that are equal need not represent equal coefficients. But if the values of two coefficients are the same ball
-object, the coefficients are equal.
+Equal expressions in one file are evaluated only once, so their values are the same Python object. If the
+values of two coefficients are the same ball object, the coefficients are equal.
 """
 
 from __future__ import annotations
@@ -31,9 +30,8 @@ MAX_SIZE = 40_000
 
 class NamedRoot(Struct, frozen=True):
     """A real root of a polynomial over Q. ``minpoly`` contains the coefficients of the polynomial, lowest
-    power first. The decimal ``near`` approximates the root. The distance between ``near`` and the root is at
-    most one unit in the last digit of ``near``. The polynomial must not have another real root within this
-    distance of ``near``."""
+    power first. The polynomial must have exactly one real root within one unit in the last digit of the
+    decimal ``near``."""
 
     minpoly: tuple[Fraction, ...]
     near: Constant
@@ -56,7 +54,7 @@ class Scalars(Protocol):
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Element:
         """Return the real root of ``minpoly`` whose distance from ``near`` is at most ``unit``. Raises
-        ValueError if there is no such root or more than one. ``name`` becomes the name of the root."""
+        ValueError if there is no such root or more than one."""
 
     def size(self, x: Element) -> int:
         """Return the number of bits of the largest numerator or denominator in x. For a ball, return the
@@ -66,12 +64,11 @@ class Scalars(Protocol):
 def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
-    """Return a ring and the values of ``expressions`` in this ring. The ring is Q, a number field, or the
-    ring of balls. The keys of ``expressions`` are positions in the tableau file, such as ``A[2][1]``. Each
-    value has the key of its expression.
+    """Return a ring and the values of ``expressions`` in this ring. The keys of ``expressions`` are positions
+    in the tableau file, such as ``A[2][1]``.
 
-    ``numbers`` contains the named numbers of the file. Named numbers may refer to each other, but not in a
-    cycle. Raises :class:`TableauError` if a number has no value, for example after a division by zero.
+    ``numbers`` contains the named numbers of the file. Raises :class:`TableauError` if a number has no value,
+    for example after a division by zero or in a cycle of definitions.
 
     >>> from orderconds.tableau.grammar import parse
     >>> ring, values = evaluate({"a": parse("sqrt(g)/2", "")}, {"g": Constant(Fraction(3))}, "")
@@ -119,15 +116,14 @@ def evaluate_in(
 
 
 def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
-    """Convert the values to elements of one field by the function ``lift``. If two keys have the same object
-    as their value, they also have the same object as their converted value."""
+    """Convert the values by the function ``lift``. Keys that share a value object also share the result."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 
 
 def rounded_and_exact(x: Definition) -> Iterator[Constant]:
     """Yield every constant in an expression: exact numbers, rounded decimals and doubles. The attribute
-    ``unit`` is the uncertainty of the constant. The uncertainty of an exact number is zero.
+    ``unit`` is the uncertainty of the constant.
 
     >>> from orderconds.tableau.grammar import parse
     >>> [str(c.unit) for c in rounded_and_exact(parse("1/2 + 0.25~", ""))]
@@ -143,13 +139,12 @@ def rounded_and_exact(x: Definition) -> Iterator[Constant]:
 
 
 def _bits(constants: Sequence[Constant]) -> int:
-    """Return the working precision in bits. The result is at least 256, and exceeds the precision of every
-    constant by at least 64 bits."""
+    """Return a working precision in bits that exceeds the precision of every constant by at least 64 bits."""
     return max([256, *(64 + 4 * len(str(c.unit.denominator)) for c in constants)])
 
 
 class _Evaluation:
-    """The values of expressions in one ring. Equal expressions are evaluated only once."""
+    """The values of expressions in one ring."""
 
     def __init__(self, scalars: Scalars, numbers: Mapping[str, Definition], where: str) -> None:
         self.scalars, self.numbers, self.where = scalars, numbers, where

@@ -1,11 +1,11 @@
 """Continuous extensions (dense output). An extension gives the solution at every time t_0 + theta h inside a
 step from t_0 to t_0 + h.
 
-The extension of a Runge-Kutta method replaces the weights b_i of the stages by polynomials b_i(theta). Each
-rooted tree t gives one order condition. Let n be the number of nodes of t, and gamma(t) the density of t. The
-condition is: the elementary weight of t, computed with the weights b_i(theta), equals ``theta^n / gamma(t)``.
-The extension has order q if the conditions of all trees with at most q nodes are satisfied (Hairer, Norsett
-and Wanner, Solving Ordinary Differential Equations I, section II.6).
+The extension of a Runge-Kutta method replaces the weights b_i of the stages by polynomials b_i(theta). The
+order condition of a rooted tree t with n nodes and density gamma(t) is: the elementary weight of t, computed
+with the weights b_i(theta), equals ``theta^n / gamma(t)``. The extension has order q if the conditions of all
+trees with at most q nodes are satisfied (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
+I, section II.6).
 
 The extension of an RKMK method (Runge-Kutta-Munthe-Kaas) uses the polynomials b_i(theta) of the Runge-Kutta
 method. Let k_i be the Lie algebra element of stage i. The exponential of ``h sum_i b_i(theta) k_i`` maps the
@@ -22,9 +22,8 @@ from orderconds.tableau.methods import Row
 
 @dataclass(frozen=True)
 class Extension:
-    """The weights of a continuous extension. The weight of a stage is a polynomial in theta. ``rows``
-    contains one row for each stage: the coefficients of theta, theta^2, ... in the weight. All rows have the
-    same length. ``order`` is the order that the tableau file claims.
+    """The weights b_i(theta) of a continuous extension. ``rows`` contains one row for each stage: the
+    coefficients of theta, theta^2, ... in the weight. ``order`` is the order that the tableau file claims.
 
     >>> Extension(((1, -1), (0, 1)), 1).power(2)
     (-1, 1)

@@ -57,8 +57,7 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 class File(Struct, frozen=True):
     """The content of a tableau file. ``data`` contains the keys and values of the file. ``entry`` is an
-    object whose attributes are these values. The key ``family`` determines the class of ``entry``. All other
-    attributes are computed from ``entry``."""
+    object whose attributes are these values. All other attributes are computed from ``entry``."""
 
     data: Mapping[str, object]
     entry: Format
@@ -157,8 +156,7 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # If ``build`` raises an error, ``problem.where`` contains the name of the tableau. Replace the name by
-    # ``where``, usually the path of the file.
+    # In an error of ``build``, ``problem.where`` contains the name of the tableau instead of ``where``.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -171,8 +169,8 @@ def read(data: Mapping[str, object], where: str) -> File:
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
-    """Convert the keys and values of a file to an object. The key ``family`` determines the class of the
-    object. Raises TableauError if the family is unknown, or if a key or a type does not fit the class."""
+    """Convert the keys and values of a file to an object. Raises TableauError if the family is unknown, or if
+    a key or a type does not fit the family."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
         given = "no family" if family is None else f"family = {family!r}"
@@ -187,8 +185,7 @@ def _converted(data: Mapping[str, object], where: str) -> Format:
 def _each(
     table: Mapping[str, object], kind: Any, struct: type[Struct], key: str, where: str
 ) -> dict[str, Any]:
-    """Convert the entries of a table one by one. If an entry is invalid, the error message contains the name
-    of the entry."""
+    """Convert the entries of a table one by one, so that an error message contains the name of the entry."""
     result = {}
     for name, value in table.items():
         try:
@@ -199,8 +196,7 @@ def _each(
 
 
 def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> TableauError:
-    """The library msgspec checks keys and types. Convert an error message of msgspec to an error of this
-    package. The error contains the position in the file."""
+    """Convert an error message of the library msgspec to an error that contains the position in the file."""
     summary, _, path = message.partition(" - at `$")
     key = re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", path.rstrip("`"))
     key = (prefix + key).removeprefix(".")
@@ -318,8 +314,7 @@ def _decimal(text: str, where: str) -> Constant:
 
 def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
     """Return the content of the table ``[proof]``, or None if the file has no such table. Raises TableauError
-    in three cases: the table contains an unknown name, the key ``assumptions`` does not fit the key
-    ``reduction``, or a file without rounded decimals contains the table."""
+    if the table contradicts itself or the other keys of the file."""
     given = entry.proof
     if given is None:
         return None

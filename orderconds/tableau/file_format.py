@@ -1,12 +1,11 @@
 """The keys that all tableau formats share, and functions that read rows of coefficients.
 
-All coefficients of a tableau are elements of one ring, for example of the rational numbers. The choice of
-the ring depends on all coefficients. Therefore a file is read in two steps:
+The choice of a common ring depends on all coefficients of a file. Therefore the file is read in two steps:
 
 1. ``coefficients`` yields every coefficient, as it is written in the file, with its position.
 2. ``build`` receives the value of every coefficient and returns the method.
 
-A position, such as ``A[2][1]``, consists of a key and indices. Indices start at 1.
+In a position, such as ``A[2][1]``, indices start at 1.
 """
 
 from __future__ import annotations
@@ -31,8 +30,8 @@ MAX_PARTS = 6
 
 class RootEntry(Struct, forbid_unknown_fields=True):
     """A real root of a polynomial. ``minpoly`` contains the coefficients of the polynomial, beginning with
-    the constant term. The decimal ``near`` is an approximation of the root. The error is at most one
-    unit of the last digit of ``near``. Every other real root has a larger distance from ``near``."""
+    the constant term. The polynomial must have exactly one real root within one unit of the last digit of the
+    decimal ``near``."""
 
     minpoly: list[Coefficient]
     near: str
@@ -48,9 +47,8 @@ class CutoffClaim(Struct, forbid_unknown_fields=True):
 
 
 class ProofEntry(Struct, forbid_unknown_fields=True):
-    """The table ``[proof]`` of a file with rounded decimals. The table defines equations. The exact
-    coefficients solve the equations and are close to the decimals. The module
-    :mod:`orderconds.tableau.unknowns` explains the keys."""
+    """The table ``[proof]`` of a file with rounded decimals: equations that the exact coefficients solve. The
+    module :mod:`orderconds.tableau.unknowns` explains the keys."""
 
     conditions: str
     order: Annotated[int, Meta(ge=1, le=20)]
@@ -63,17 +61,16 @@ class ProofEntry(Struct, forbid_unknown_fields=True):
 Number = Coefficient | RootEntry
 """A value in the table ``numbers`` of a tableau file."""
 Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
-"""A value in the table ``claims`` of a tableau file. The key of the value in this table is the name of a
-property or of a family of methods. For a property, the value is True or False. For a family, the value is the
-order of the method in this family. If the order depends on the option ``cutoff`` of the family, the value is
-a list of :class:`CutoffClaim`."""
+"""A value in the table ``claims`` of a tableau file: True or False for a property, the order of the method
+for a family of methods. If the order depends on the option ``cutoff`` of the family, the value is a list of
+:class:`CutoffClaim`."""
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The base class of all formats. The class defines the keys that all formats share.
+    """The base class of all formats.
 
-    ``family`` is the name of the format, for example ``rk``. A family of methods has the same name. ``order``
-    is the claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
+    ``family`` is the name of the format and of a family of methods, for example ``rk``. ``order`` is the
+    claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
     ``claims`` contains the claimed properties, and the claimed orders in other families (:data:`Claim`).
     """
 
@@ -89,11 +86,9 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """True if a tableau of this format can be stored as named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """A tableau that is stored as arrays has this format if one of the arrays has this name. For the default
-    format, ``distinctive_key`` is empty (:func:`orderconds.tableau.formats.array_format`)."""
+    """A tableau that is stored as arrays has this format if one of the arrays has this name."""
     as_products: ClassVar[bool] = False
-    """True if a tableau of this format consists of products of exponentials. If such a tableau is stored as
-    arrays, the array ``exponentials`` contains the coefficients (:mod:`orderconds.exchange.arrays`)."""
+    """True if a tableau of this format consists of products of exponentials."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
@@ -111,8 +106,8 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
         longer than the number of stages."""
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the pair (method, embedded method). If the file has no embedded method, the second value is
-        None. ``values`` maps positions, such as ``A[2][1]``, to the values of the coefficients."""
+        """Return the method, and the embedded method or None. ``values`` maps positions, such as ``A[2][1]``,
+        to the values of the coefficients."""
         raise TypeError(f"{type(self).__name__} is an abstract format")
 
     def extension(self, values: Mapping[str, Element], ring: Ring) -> Extension | None:
@@ -132,8 +127,8 @@ def row_places(row: list[Coefficient], place: str) -> Places:
 
 
 def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) -> Row:
-    """Return a row of coefficients, padded with zeros to length ``s``. ``place`` is the position of the row
-    in the file. ``values`` maps positions, such as ``b[1]``, to the values of the coefficients.
+    """Return a row of coefficients, padded with zeros to length ``s``. ``values`` maps positions, such as
+    ``b[1]``, to the values of the coefficients.
 
     >>> from orderconds.ring import QQ
     >>> filled_row({"b[1]": QQ.one}, "b", 2, QQ)

@@ -47,9 +47,8 @@ class EmbeddedEntry(Struct, forbid_unknown_fields=True):
 
 
 class ExtensionEntry(Struct, forbid_unknown_fields=True):
-    """The weights b_i(theta) of a continuous extension. Each weight is a polynomial in theta without a
-    constant term. Row i of ``b`` contains the coefficients of b_i, beginning with the coefficient of theta.
-    Zeros at the end of a row may be omitted."""
+    """The weights b_i(theta) of a continuous extension. Row i of ``b`` contains the coefficients of theta,
+    theta^2, ... in the polynomial b_i. Zeros at the end of a row may be omitted."""
 
     b: list[list[Coefficient]]
     order: Annotated[int, Meta(ge=1)]
@@ -57,8 +56,7 @@ class ExtensionEntry(Struct, forbid_unknown_fields=True):
 
 class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     """The format ``family = "rk"``: a Butcher tableau with the matrix A and the weights b. Zeros at the end
-    of a row of A may be omitted. The nodes c are optional, and must equal the row sums of A. The key
-    ``dense`` contains a continuous extension (:mod:`orderconds.tableau.extension`).
+    of a row of A may be omitted. The nodes c are optional, and must equal the row sums of A.
     """
 
     A: list[list[Coefficient]]
@@ -125,9 +123,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         return Extension(tuple(rows), self.dense.order)
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the pair (Runge-Kutta method, embedded weights). If the file has no embedded weights, the
-        second value is None. Raises TableauError if c differs from the row sums of A, or if the embedded
-        weights equal b."""
+        """Return the Runge-Kutta method, and the embedded weights or None. Raises TableauError if c differs
+        from the row sums of A, or if the embedded weights equal b."""
         s = len(self.b)
         A = tuple(filled_row(values, f"A[{i + 1}]", s, ring) for i in range(s))
         method, embedded = RungeKutta(A, filled_row(values, "b", s, ring)), None
@@ -207,13 +204,11 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class StageEntry(Struct, forbid_unknown_fields=True):
-    """A product of exponentials. ``from`` is the number of a stage, counted from 1. The product acts on the
-    value of this stage. If the key ``from`` is missing, the product acts on y0, the value at the start of the
-    step.
+    """A product of exponentials. The product acts on the value of stage ``from``, counted from 1, or on the
+    initial value y0 if ``from`` is missing.
 
-    Each row of ``exp`` defines one exponential. A row beta_1, ..., beta_s defines exp(h sum_j beta_j k_j).
-    Here h is the step size, and k_j is the vector field at stage j. The exponential of the first row acts
-    first.
+    A row beta of ``exp`` defines exp(h sum_j beta_j k_j), where h is the step size and k_j is the vector
+    field at stage j. The exponential of the first row acts first.
     """
 
     exp: list[list[Coefficient]] = []
@@ -221,17 +216,15 @@ class StageEntry(Struct, forbid_unknown_fields=True):
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """The embedded update, for an error estimate. The update and the embedded update use the same stages. Let
-    s be the number of stages. If the key ``from`` of the embedded update has the value s + 1, the embedded
-    update acts on the result of the update."""
+    """The embedded update, for an error estimate. With s stages, the value s + 1 of the key ``from`` denotes
+    the result of the update."""
 
     order: Annotated[int, Meta(ge=1)]
 
 
 class LowStorage(Struct, forbid_unknown_fields=True):
-    """A low-storage scheme. A step stores only the state Y and one element K of the Lie algebra. Let F be the
-    vector field and h the step size. Stage i replaces K by A_i K + F(Y), and then replaces Y by exp(h B_i K)
-    Y."""
+    """A low-storage scheme for the state Y and one element K of the Lie algebra. Let F be the vector field
+    and h the step size. Stage i replaces K by A_i K + F(Y), and then replaces Y by exp(h B_i K) Y."""
 
     A: list[Coefficient]
     B: list[Coefficient]
@@ -239,9 +232,9 @@ class LowStorage(Struct, forbid_unknown_fields=True):
 
 class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
     """The format ``family = "cf"``: a commutator-free method. The file contains either stages and an update,
-    or a low-storage scheme. A low-storage scheme is converted to stages and an update.
+    or a low-storage scheme.
 
-    ``embedded`` is a second update for an error estimate. Both updates use the same stages.
+    ``embedded`` is a second update for an error estimate.
     """
 
     stage: list[StageEntry] = field(default_factory=list)
@@ -288,8 +281,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield "update", self.update
 
     def coefficients(self) -> Places:
-        """Yield the position and the entry of every coefficient. The sequence is the stages, the update, the
-        embedded update. For a low-storage scheme, the sequence is A, B, the embedded update."""
+        """Yield the position and the entry of every coefficient. The embedded update is last."""
         if self.low_storage:
             yield from row_places(self.low_storage.A, "low_storage.A")
             yield from row_places(self.low_storage.B, "low_storage.B")
@@ -322,8 +314,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
-    """Check that the rows of ``entry.exp`` have at most s entries, where s is the number of stages. Check
-    that the key ``from`` is missing or has a value between 1 and ``before``."""
+    """Check that each row of ``entry.exp`` has at most s entries, and that a given ``from`` is between 1 and
+    ``before``."""
     for r, row in enumerate(entry.exp):
         verify_length(row, s, f"{where}.exp[{r + 1}]")
     if entry.start is not None and not 1 <= entry.start <= before:
@@ -360,10 +352,9 @@ FORMATS: dict[str, type[Format]] = {
 
 
 def array_format(names: Collection[str]) -> str:
-    """Return the name of the format of a tableau that is stored as arrays. ``names`` contains the names of
-    the arrays. A format fits if ``names`` contains the ``distinctive_key`` of the format. If several formats
-    fit, the result is the alphabetically first of their names. If no format fits, the result is
-    ``composition``, the default format.
+    """Return the name of the format of a tableau that is stored as arrays with the given ``names``. A format
+    fits if ``names`` contains the ``distinctive_key`` of the format. The result is the alphabetically first
+    format that fits, or ``composition`` if no format fits.
 
     >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])
     ('rk', 'prk', 'composition')

@@ -1,8 +1,6 @@
-"""The grammar of a coefficient. A coefficient is an arithmetic expression of bounded size. A
-recursive-descent parser reads the expression and does not execute it as code.
+"""The grammar of a coefficient, an arithmetic expression of bounded size.
 
-In the grammar, ``x*`` means that x may be repeated or omitted. ``[x]`` means that x is optional. ``x | y``
-means x or y. Text in quotation marks appears literally in a coefficient.
+In the grammar, ``x*`` means that x may be repeated or omitted. ``[x]`` means that x is optional.
 
 ::
 
@@ -14,13 +12,9 @@ means x or y. Text in quotation marks appears literally in a coefficient.
     atom     = number ["~" | "d"] | name | "sqrt" "(" sum ")" | "(" sum ")"
     number   = integer | decimal
 
-The decimal ``0.5`` is exactly 1/2. The rounded decimal ``0.81772~`` denotes a ball (an interval) around
-0.81772. The radius of this ball is 0.00001, one unit of the last digit. The double ``0.3333333333333333d``
-denotes a ball whose radius is defined in :mod:`orderconds.tableau.doubles`. The text ``a^b^c`` is an error,
-because it is ambiguous: it may mean (a^b)^c or a^(b^c).
-
-For each coefficient, this module limits the length of the text, the size of the exponents and the depth of
-the parentheses. The module :mod:`orderconds.tableau.evaluate` limits the size of intermediate results.
+The decimal ``0.5`` is exactly 1/2. The rounded decimal ``0.81772~`` denotes a ball (an interval) whose radius
+is one unit of the last digit, 0.00001. The double ``0.3333333333333333d`` denotes a ball whose radius is
+defined in :mod:`orderconds.tableau.doubles`. The text ``a^b^c`` is an error, because it is ambiguous.
 """
 
 from __future__ import annotations
@@ -71,10 +65,10 @@ class Name(Struct, frozen=True, cache_hash=True):
 
 
 class Chain(Struct, frozen=True, cache_hash=True):
-    """A sum or a product of several operands. A sum has the operators + and -. A product has the operators *
-    and /. The operators are applied from left to right.
+    """A sum (operators + and -) or a product (operators * and /) of several operands. The operators are
+    applied from left to right.
 
-    A sum or product of many operands is a single chain. Therefore a long sum is not deeply nested.
+    A long sum is a single chain and is not deeply nested.
     """
 
     operators: tuple[str, ...]
@@ -126,8 +120,7 @@ SUM, SIGN, PRODUCT, POWER, ATOM = range(5)
 
 
 def _level(x: Expression) -> int:
-    """Return the precedence of an expression, from SUM (lowest) to ATOM (highest). An expression with a lower
-    precedence needs parentheses inside an expression with a higher precedence."""
+    """Return the precedence of an expression, from SUM (lowest) to ATOM (highest)."""
     if isinstance(x, Chain):
         minus = x.operators == ("-",) and x.operands[0] == ZERO
         return SIGN if minus else SUM if x.operators[0] in "+-" else PRODUCT
@@ -162,9 +155,8 @@ def _parts(x: Expression, least: int) -> Iterator[str]:
 
 
 def _constant(x: Constant) -> str:
-    """Return the text of a constant. A double has the suffix ``d``, and a rounded decimal has the suffix
-    ``~``. An exact number with a finite decimal expansion is written as a decimal. Every other exact number
-    is written as a fraction in parentheses."""
+    """Return the text of a constant. An exact number without a finite decimal expansion is written as a
+    fraction in parentheses."""
     if x.is_double:
         return f"{'-' if x.value < 0 else ''}{Decimal(repr(abs(float(x.value)))):f}d"
     unit = x.unit or next(
@@ -326,8 +318,7 @@ class _Parser:
     def double(self, content: str) -> Constant:
         """Round the decimal ``content`` to the nearest double, and return a ball around this double.
 
-        The function :func:`~orderconds.tableau.doubles.radius` defines the radius. For the double 0, the
-        radius is zero. Raises TableauError if the decimal is too large for a double."""
+        Raises TableauError if the decimal is too large for a double."""
         x = float(content)
         if x == inf:
             raise self.error(f"{content[:20]} ... in {self.shown()}", "a number in the range of doubles")

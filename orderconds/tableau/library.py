@@ -12,10 +12,8 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 
 @cache
 def root() -> Path:
-    """Return the folder of tableau files.
-
-    In the source tree of the project, this is the folder ``tableaux``. In an installed package, it is a copy
-    of ``tableaux`` inside the package.
+    """Return the folder of tableau files: ``tableaux`` in the source tree, or its copy in an installed
+    package.
 
     >>> root().is_dir()
     True

@@ -128,9 +128,9 @@ def _tokens(latex: str) -> Iterator[tuple[str, bool]]:
 
 
 def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
-    r"""Yield the lines of an equation for the LaTeX environment ``aligned``. ``left`` is the left-hand side.
-    The strings ``parts`` form the right-hand side. A line break is allowed only between two strings of
-    ``parts``. ``free`` is the available width for the right-hand side, in points.
+    r"""Yield the lines of an equation for the LaTeX environment ``aligned``. The strings ``parts`` form the
+    right-hand side, with line breaks only between two strings. ``free`` is the available width for the
+    right-hand side, in points.
 
     >>> list(lines("x", ["a + b", " + c"], 30))
     ['x &= a + b', '&\\quad  + c']
@@ -147,8 +147,7 @@ def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
 
 
 def separated(entries: Sequence[str], opening: str = "(", closing: str = ")") -> list[str]:
-    """Return one string for each entry of a list. The joined strings form the list with its brackets. A line
-    break is allowed between two strings.
+    """Return one string for each entry of a list. The joined strings form the list with its brackets.
 
     >>> separated(["1", "2"])
     ['(1, ', '2)']

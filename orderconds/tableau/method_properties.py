@@ -1,9 +1,7 @@
-"""Functions that decide whether a method has a property, such as symplecticity. Each function tests
-conditions on the coefficients.
+"""Functions that decide whether a method has a property, such as symplecticity.
 
-The functions return True, False or None. The result None means that the coefficients are balls (intervals),
-and that these balls are too wide for a decision. HLW denotes Hairer, Lubich and Wanner,
-*Geometric Numerical Integration*.
+The result is None if the coefficients are balls (intervals) that are too wide for a decision. HLW denotes
+Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -31,8 +29,7 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
     """Return True if x = y, False if x differs from y, and None if the balls are too wide for a decision.
 
-    If x and y are the same object, the result is True without a subtraction. For a ball x, the difference
-    x - x is a ball around zero and does not prove equality."""
+    For a ball x, the difference x - x is a ball around zero and does not prove equality."""
     return True if x is y else ring.is_zero(x - y)
 
 
@@ -49,8 +46,8 @@ def explicit(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is diagonally implicit. The conditions are that a_ij = 0 for j > i, and that
-    at least one a_ii is not zero. Here a_ij are the entries of the matrix ``A`` of the method.
+    """Return True if the method is diagonally implicit. The conditions on the matrix ``A`` are: a_ij = 0 for
+    j > i, and at least one a_ii is not zero.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))
@@ -65,8 +62,7 @@ def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
 def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
     """Return True if the method is symplectic (HLW Theorem VI.4.3).
 
-    The condition for all i and j is: b_i a_ij + b_j a_ji = b_i b_j. Here a_ij and b_i are the entries of
-    ``A`` and ``b``.
+    The condition on ``A`` and ``b`` is: b_i a_ij + b_j a_ji = b_i b_j for all i and j.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -82,8 +78,8 @@ def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
 def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
     """Return True if a partitioned method is symplectic for separable Hamiltonians H = T(p) + V(q).
 
-    The condition for all i and j is: b_i ahat_ij + bhat_j a_ji = b_i bhat_j (HLW Theorem VI.4.6). Here a_ij,
-    b_i, ahat_ij and bhat_i are the entries of ``A``, ``b``, ``A_hat`` and ``b_hat``.
+    The condition on the tableaux (A, b) and (A_hat, b_hat) is: b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all
+    i and j (HLW Theorem VI.4.6).
 
     >>> from orderconds.ring import QQ
     >>> half, one = QQ.rational(1, 2), QQ.one
@@ -101,9 +97,8 @@ def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
 def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
     """Return True if the method is symmetric (HLW Theorem V.2.3).
 
-    The condition for all i and j is: a_{s+1-i,s+1-j} + a_ij = b_j. Here s is the number of stages, and a_ij
-    and b_j are the entries of ``A`` and ``b``. The condition depends on the numbering of the stages. The
-    function tests only the given numbering.
+    For s stages, the condition on ``A`` and ``b`` is: a_{s+1-i,s+1-j} + a_ij = b_j for all i and j. The
+    function tests only the given numbering of the stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -166,10 +161,8 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
     """Return True if the method is symmetric: a step of size -h undoes a step of size h (HLW V.3).
 
-    - A composition has s pairs of substeps. In pair i, the adjoint of the basic method takes a substep of
-      size beta_i h. Then the basic method takes a substep of size alpha_i h. The composition is symmetric if
-      alpha_{s+1-i} = beta_i for all i.
-    - A splitting is a list of flows with step sizes. A splitting is symmetric if its list is a palindrome.
+    - A composition with s pairs (alpha_i, beta_i) is symmetric if alpha_{s+1-i} = beta_i for all i.
+    - A splitting is symmetric if its list of flows with step sizes is a palindrome.
     - For Magnus methods, see :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ

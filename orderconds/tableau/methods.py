@@ -1,10 +1,9 @@
-"""Classes for the coefficients of a method, and conversions between the classes. The objects are immutable.
-All coefficients of a method are elements of one ring.
+"""Classes for the coefficients of a method, and conversions between the classes. All coefficients of a method
+are elements of one ring.
 
-In this module, stages are counted from 0. In files, stages are counted from 1. A product of exponentials is a
-sequence of rows. Each row contains the coefficients of one exponential. The rightmost factor of the product
-acts first. The first row defines this factor. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
-Integration*.
+In this module, stages are counted from 0, and in files from 1. A product of exponentials is a sequence of
+rows of coefficients. The first row defines the rightmost factor, which acts first. HLW denotes Hairer, Lubich
+and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -49,8 +48,7 @@ class RungeKutta:
         """Return the Crouch-Grossman method that has the coefficients of this tableau.
 
         Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0, where k_j is the vector field at stage j. The
-        update is exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1). An exponential is omitted if its
-        coefficient is provably zero.
+        update is exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1).
         """
 
         def product(row: Row) -> Stage:
@@ -96,9 +94,9 @@ class PartitionedRungeKutta:
 class Stage:
     """A product of exponentials that acts on y0 or on the value of a stage.
 
-    ``start`` is the index of the stage, or None for y0. ``exponentials`` contains one row of coefficients for
-    each exponential. The row beta belongs to exp(h sum_j beta_j k_j), where h is the step size and k_j is the
-    vector field at stage j. The exponential of the first row acts first.
+    ``start`` is the index of the stage, or None for y0. A row beta of ``exponentials`` defines exp(h sum_j
+    beta_j k_j), where h is the step size and k_j is the vector field at stage j. The exponential of the first
+    row acts first.
     """
 
     start: int | None
@@ -135,8 +133,8 @@ class CommutatorFree:
         """Return True if the product ``other`` and the update of this method are provably equal for all
         vector fields.
 
-        The function simplifies both products (:func:`_reduced`) and compares their exponents. If two
-        products are equal for all vector fields, their simplified exponents agree (Chen 1958).
+        If two products are equal for all vector fields, their simplified exponents (:func:`_reduced`) agree
+        (Chen 1958).
         """
         one, two = (_reduced(self.from_start(stage), ring) for stage in (self.update, other))
         return len(one) == len(two) and all(
@@ -158,8 +156,8 @@ class CommutatorFree:
 
 
 def _reduced(rows: tuple[Row, ...], ring: Ring) -> list[Row]:
-    """Simplify a product of exponentials without changing its value. Exponentials with zero exponent are
-    removed. Neighbouring exponentials with proportional exponents commute, so they are combined."""
+    """Simplify a product of exponentials without changing its value. Neighbouring exponentials with
+    proportional exponents commute, so they are combined."""
     kept: list[Row] = []
     for row in rows:
         if kept and _proportional(kept[-1], row, ring):
@@ -180,8 +178,7 @@ class Composition:
     size gamma_1 h is applied first.
 
     The basic method is an arbitrary symmetric method of order 2. The value of ``base`` is always
-    ``"symmetric-2"``. In the conversion to a Runge-Kutta method, the basic method is the implicit midpoint
-    rule.
+    ``"symmetric-2"``.
     """
 
     base: str
@@ -197,8 +194,7 @@ class Composition:
         return Composition(self.base, _converted(self.gamma, convert))
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the composition as a diagonally implicit Runge-Kutta method. The basic method is the
-        implicit midpoint rule.
+        """Return the composition of implicit midpoint rules as a diagonally implicit Runge-Kutta method.
 
         The coefficients are b_i = gamma_i, a_ii = gamma_i/2, and a_ij = gamma_j for j < i (Bogfjellmo and
         Marthinsen 2016, Lemma 3.5.4).
