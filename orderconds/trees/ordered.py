@@ -1,7 +1,6 @@
 """Enumeration of ordered (planar) rooted trees and ordered forests.
 
-An ordered forest is encoded by the levels of its vertices in preorder. The first level is 0. No level exceeds
-the preceding level by more than one. The forest is a tree if level 0 occurs only at the start. The
+An ordered forest is encoded by the levels of its vertices in preorder, where roots have level 0. The
 sequences of levels are enumerated in descending lexicographic order.
 """
 
@@ -39,8 +38,8 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # Compute the next smaller sequence. Find the last level that is greater than ``lowest``, and decrease
-        # this level by one. All later levels become as great as possible.
+        # The next smaller sequence decreases the last level above ``lowest`` and makes all later levels as
+        # great as possible.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

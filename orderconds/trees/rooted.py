@@ -15,8 +15,6 @@ def rooted_trees(vertices: int) -> Iterator[Tree]:
     """Yield the canonical form of every rooted tree with ``vertices`` vertices exactly once
     (:func:`orderconds.trees.levels.canonical`).
 
-    The first tree is a path. In the last tree, all vertices except the root are leaves.
-
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in rooted_trees(4)]
     ['[[[.]]]', '[[..]]', '[[.].]', '[...]']
@@ -26,9 +24,8 @@ def rooted_trees(vertices: int) -> Iterator[Tree]:
     levels = bytearray(range(vertices))
     while True:
         yield bytes(levels)
-        # Compute the next smaller canonical sequence. Let p be the last vertex of level 2 or more, with the
-        # parent q. The levels from q to the vertex before p form a block. Copies of this block replace all
-        # levels from p to the end.
+        # In the next smaller canonical sequence, copies of levels[parent:last] replace all levels from
+        # ``last`` to the end.
         last = len(levels.rstrip(b"\1")) - 1
         if last < 1:
             return

@@ -18,8 +18,7 @@ def article(family: str, by_order: Sequence[Sequence[OrderCondition]], *, explai
     r"""Return the conditions of a family in LaTeX. If ``explain`` is true, LaTeX comments contain the
     elementary differential of each condition.
 
-    The first line is a comment with the names of the required LaTeX packages. The label of condition k of
-    order n is ``FAMILY:n:k``.
+    The label of condition k of order n is ``FAMILY:n:k``.
 
     >>> from orderconds.derivation import derive
     >>> print(article("rk", derive("rk", order=2).by_order).splitlines()[0])
@@ -85,7 +84,7 @@ MEANINGS = {
 
 def _trees(kind: kinds.Kind | None, signs: set[str]) -> str:
     """Return a sentence that explains the column of trees. ``signs`` contains the names of the shapes in this
-    column, see :func:`_signs`. The sentence is empty for a family without drawings of trees."""
+    column, see :func:`_signs`."""
     if kind is None:
         return ""
     words = signs & {"letter", "bracket"}

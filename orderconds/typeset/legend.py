@@ -14,8 +14,7 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
     r"""Return LaTeX text that defines the coefficients in the conditions and states the range of the sums.
     The text is empty if the conditions contain no coefficients.
 
-    Abscissae are sums of other coefficients, for example c_i is the sum of a_ij over j. If the conditions
-    contain abscissae, the text also defines these other coefficients.
+    An abscissa is a sum of other coefficients, and the text also defines these coefficients.
 
     >>> from orderconds.derivation import derive
     >>> print(legend("rk", derive("rk", order=2)).replace("; ", ";\n"))
@@ -38,8 +37,7 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
 
 def _range(indices: set[str]) -> str:
     """Return a sentence about the range of the sums, or an empty text if there are no sums. ``indices``
-    contains the first character of each index in the conditions. A sum runs over an index only if the index
-    is a letter. A digit is a fixed index."""
+    contains the first character of each index in the conditions: a letter, or a digit for a fixed index."""
     if any(index.isupper() for index in indices):
         return " Lower-case indices run over all stages, upper-case indices over all exponentials."
     return " Sums run over all stages." if any(index.isalpha() for index in indices) else ""

@@ -20,7 +20,7 @@ MOST = 300
 """The largest number of conditions in a table or formula. Further conditions are omitted."""
 
 WIDE = 90
-"""The largest width of a line in characters. A longer left-hand side is broken into several lines."""
+"""The largest width of a line in characters."""
 
 
 def formula(conditions: Sequence[OrderCondition]) -> str:

@@ -2,8 +2,7 @@
 
 A word is a tuple of letters. A series is a mapping from words to rational numbers.
 
-There are two conventions for the order of letters. In the Magnus, Fer and Cayley expansions, the first letter
-of a word acts first. In a product of operators, the last factor acts first. Hence a word denotes the product
-of its letters in reverse order. In the modules ``lie``, ``lie_series``, ``hall`` and ``bch``, a word denotes
-the product of its letters in the written order.
+In the Magnus, Fer and Cayley expansions, the first letter of a word acts first. Hence a word denotes the
+product of its letters in reverse order. In the modules ``lie``, ``lie_series``, ``hall`` and ``bch``, a word
+denotes the product of its letters in the written order.
 """

@@ -1,9 +1,8 @@
 """The Baker-Campbell-Hausdorff series log(exp A exp B), from Goldberg's formula for the coefficients.
 
-Goldberg's formula gives the coefficient of each word in closed form (Duke Math. J. 23 (1956) 13). The
-coefficients of Lyndon words determine a Lie element. A bracketed Lyndon word expands to this word plus a
-combination of greater words. Hence the coordinates in the basis of bracketed Lyndon words follow by forward
-substitution (Reutenauer, Free Lie Algebras, Thm 5.1).
+Goldberg's formula gives the coefficient of each word in closed form (Duke Math. J. 23 (1956) 13). A bracketed
+Lyndon word expands to this word plus a combination of greater words. Hence the coordinates in the basis of
+bracketed Lyndon words follow by forward substitution (Reutenauer, Free Lie Algebras, Thm 5.1).
 """
 
 from __future__ import annotations
@@ -30,8 +29,7 @@ Expansion = dict[str, int]
 def bch(length: int) -> dict[Word, Fraction]:
     """Return log(exp A exp B) in the basis of bracketed Lyndon words, up to brackets of ``length`` letters.
 
-    A Lyndon word denotes its standard bracketing. For example, AB denotes [A, B] = A B - B A. Zero
-    coefficients are omitted. Shorter words come first.
+    A Lyndon word denotes its standard bracketing, where [A, B] = A B - B A. Zero coefficients are omitted.
 
     >>> {"".join(word): str(value) for word, value in bch(3).items()}
     {'A': '1', 'B': '1', 'AB': '1/2', 'AAB': '1/12', 'ABB': '1/12'}
@@ -50,12 +48,11 @@ def bch(length: int) -> dict[Word, Fraction]:
 def goldberg(word: str) -> Fraction:
     """Return the coefficient of a non-empty word over A and B in log(exp A exp B).
 
-    Divide the word into runs of equal letters. Let m be the number of runs, and let s_1, ..., s_m be their
-    lengths. The polynomials G_s are defined by G_1 = 1 and G_s = 1/s d/dt (t (t - 1) G_{s-1}) for s > 1. Let
-    [x] be the integer part of x. Integrate t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t) from t = 0 to
-    t = 1. If the first letter is A, the coefficient is this integral. If the first letter is B, the
-    coefficient is (-1)^(n-1) times the integral, where n is the number of letters (Goldberg 1956, Thm 1 and
-    Cor. 2).
+    Let s_1, ..., s_m be the lengths of the runs of equal letters in the word. If the first letter is A, the
+    coefficient is the integral of t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t) from t = 0 to t = 1.
+    Here [x] is the integer part of x, G_1 = 1, and G_s = 1/s d/dt (t (t - 1) G_{s-1}) for s > 1. If the first
+    letter is B, the coefficient is (-1)^(n-1) times the integral, where n is the number of letters (Goldberg
+    1956, Thm 1 and Cor. 2).
 
     >>> str(goldberg("AB")), str(goldberg("BAA")), goldberg("AA") == 0
     ('1/2', '1/12', True)
@@ -83,8 +80,7 @@ def _run_polynomial(s: int) -> UnivariatePolynomial:
 
 def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
     """Return the coordinates of log(exp A exp B) with respect to the bracketed Lyndon words in ``words``. The
-    list ``words`` contains all Lyndon words of one length in ascending order. ``expansions`` contains the
-    shorter bracketed Lyndon words as series of words."""
+    list ``words`` contains all Lyndon words of one length in ascending order."""
     coordinates: dict[str, Fraction] = {}
     of_multidegree: dict[int, list[str]] = {}
     for word in words:

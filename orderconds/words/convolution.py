@@ -1,9 +1,8 @@
 """Convolution of functions on words, and power series of functions on words.
 
-A function on words represents a series. The value of the function on a word is the coefficient of the word.
-The convolution of f and g on a word w is the sum of f(u) g(v) over all divisions of w into a prefix u and the
-rest v. If f is zero on the empty word, its m-fold convolution is zero on words of fewer than m letters. Hence
-a power series of f is a finite sum on each word.
+The values of a function on words are the coefficients of a series. The convolution of f and g on a word w is
+the sum of f(u) g(v) over all divisions of w into a prefix u and the rest v. If f is zero on the empty word,
+its m-fold convolution is zero on words of fewer than m letters.
 """
 
 from __future__ import annotations
@@ -34,19 +33,19 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     """Return the value of sum_{m>=1} scales[m - 1] f^m on a non-empty word, where f^m is the m-fold
     convolution of f.
 
-    The function treats the value of f on the empty word as zero. If the word has n letters, the terms with
-    m > n are zero. Hence n entries of ``scales`` are sufficient. ``zero`` is the zero of the ring of values.
+    The function treats the value of f on the empty word as zero. One entry of ``scales`` for each letter of
+    the word is sufficient. ``zero`` is the zero of the ring of values.
 
     >>> letters = {("A",): Fraction(2), ("B",): Fraction(3)}
     >>> power_series(lambda word: letters.get(word, Fraction(0)), ("A", "B"), exponential_scales(2))
     Fraction(3, 1)
     """
     n = len(word)
-    # powers[end] is the value of the m-fold convolution f^m on the first ``end`` letters. Begin with m = 1.
+    # powers[end] is the value of the m-fold convolution f^m on the first ``end`` letters, first with m = 1.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
-    # tails[end] contains the pairs (start, x), where x is the value of f on word[start:end] and start >= 1.
-    # Pairs with x = 0 are omitted to save time, because most values of f are zero.
+    # tails[end] contains the pairs (start, f(word[start:end])) with start >= 1, without the many pairs where
+    # f is zero.
     tails = [
         [(start, x) for start in range(1, end) if (x := f(word[start:end])) is not zero]
         for end in range(n + 1)
@@ -93,8 +92,8 @@ def cayley_scales(n: int) -> tuple[Fraction, ...]:
 
 
 def inverse_cayley_scales(n: int) -> tuple[Fraction, ...]:
-    """Return (-1)^(m+1)/2^(m-1) for m = 1, ..., n. This is the coefficient of z^m in 2 z/(2 + z). The
-    function 2 z/(2 + z) maps z = cay(x) - 1 to x (see :func:`cayley_scales`).
+    """Return the coefficients (-1)^(m+1)/2^(m-1) of z^m in 2 z/(2 + z) for m = 1, ..., n. The function
+    2 z/(2 + z) maps z = cay(x) - 1 to x (see :func:`cayley_scales`).
 
     >>> [str(q) for q in inverse_cayley_scales(3)]
     ['1', '-1/2', '1/4']

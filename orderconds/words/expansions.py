@@ -2,11 +2,10 @@
 
 The expansions solve Y' = A(t) Y with A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter k denotes X_k and has weight
 k. The first letter of a word acts first. Hence the word k_1 ... k_n denotes the product X_{k_n} ... X_{k_1}.
-The functions return coefficients at t = 1. At another time t, the coefficient of a word of weight
-n is multiplied by t^n.
+The functions return coefficients at t = 1.
 
-The series of dexp, inverse dexp and inverse dcay have the letters U and X. In these series, a word denotes
-the product of its letters in the written order.
+In the series of dexp, inverse dexp and inverse dcay, a word denotes the product of its letters U and X in the
+written order.
 
 Sources: Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas,
 Oteo and Ros, Physics Reports 470 (2009) 151.
@@ -31,7 +30,7 @@ from orderconds.words.shuffle import Series, Word
 
 
 def iterated_integral(word: Word) -> Fraction:
-    """Return the coefficient of the word k_1 ... k_n in Y(1). Letter k denotes X_k.
+    """Return the coefficient of the word k_1 ... k_n in Y(1), where letter k denotes X_k.
 
     Y solves Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The coefficient is the
     integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1. The integral equals the product of
@@ -45,13 +44,11 @@ def iterated_integral(word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def magnus(word: Word) -> Fraction:
-    """Return the coefficient of a word in the Magnus expansion at t = 1. Let Y solve Y' = A(t) Y with
-    Y(0) = I. The Magnus expansion is the Lie element Omega with Y = exp(Omega).
+    """Return the coefficient of a word in the Magnus expansion Omega at t = 1.
 
-    Letter k denotes X_k in A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a word denotes the last
-    factor of a product, which acts first. Hence the word (2, 1) denotes X_1 X_2. For example, Omega contains
-    the term -[X_1, X_2]/12. Hence the word (2, 1) has the coefficient -1/12, and the word (1, 2) has the
-    coefficient 1/12.
+    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... Omega is the Lie element
+    with Y = exp(Omega). The first letter of a word denotes the last factor of a product: (2, 1) denotes
+    X_1 X_2.
 
     >>> str(magnus((1, 2))), str(magnus((2, 1)))
     ('1/12', '-1/12')
@@ -63,9 +60,9 @@ def magnus(word: Word) -> Fraction:
 def cayley(word: Word) -> Fraction:
     """Return the coefficient of a word in the Cayley expansion Omega at t = 1.
 
-    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter k denotes X_k.
-    The first letter of a word denotes the last factor of a product: (2, 1) denotes X_1 X_2. Omega is defined
-    by Y = cay(Omega) with the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2). Omega satisfies the equation
+    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a
+    word denotes the last factor of a product: (2, 1) denotes X_1 X_2. Omega is defined by Y = cay(Omega) with
+    the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2). Omega satisfies the equation
     Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
 
     >>> str(cayley((1, 1))), str(cayley((1, 1, 1)))
@@ -78,11 +75,11 @@ def cayley(word: Word) -> Fraction:
 def fer(n: int, word: Word) -> Fraction:
     """Return the coefficient of a word in the series F_n of the Fer expansion at t = 1.
 
-    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter k denotes X_k. The
-    first letter of a word denotes the last factor of a product: (2, 1) denotes X_1 X_2. The Fer expansion is
-    Y = exp(F_1) exp(F_2) exp(F_3) .... F_n is the integral of a series A_n from 0 to t. The first series is
-    A_1 = A. Then A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. The weight of
-    a word is the sum of its letters. Each word in F_n has weight 2^n - 1 or more.
+    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a
+    word denotes the last factor of a product: (2, 1) denotes X_1 X_2. The Fer expansion is
+    Y = exp(F_1) exp(F_2) exp(F_3) .... F_n is the integral of a series A_n from 0 to t. Here A_1 = A and
+    A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. Each word in F_n has
+    weight (sum of the letters) 2^n - 1 or more.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')
@@ -94,9 +91,7 @@ def fer(n: int, word: Word) -> Fraction:
 def fer_remainder(word: Word) -> Fraction:
     """Return the coefficient of a word in log(exp(-F_1) Y), where F_n and Y are defined in :func:`fer`.
 
-    The logarithm equals F_2 + F_3 + ... plus brackets of the series F_n with n >= 2. The lowest weights in
-    F_2 and F_3 are 3 and 7. Each non-zero bracket contains two different series. Hence the brackets have
-    weight 10 or more.
+    The logarithm equals F_2 + F_3 + ... plus brackets of these series. The brackets have weight 10 or more.
 
     >>> fer_remainder((1, 2)) == fer(2, (1, 2))
     True
@@ -105,10 +100,9 @@ def fer_remainder(word: Word) -> Fraction:
 
 
 def dexp(length: int) -> Series:
-    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! as a series of words in the letters U and X.
+    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! as a series of words of at most ``length`` letters U and X.
 
-    Here ad_U X = U X - X U. A word denotes the product of its letters in the written order. Words have at
-    most ``length`` letters.
+    Here ad_U X = U X - X U, and the word UX denotes the product U X.
 
     >>> {"".join(word): str(value) for word, value in dexp(2).items()}
     {'X': '1', 'UX': '1/2', 'XU': '-1/2'}
@@ -117,17 +111,19 @@ def dexp(length: int) -> Series:
 
 
 def dexp_inverse(length: int) -> Series:
-    """Return dexp_U^{-1}(X) = sum_k B_k/k! ad_U^k X as a series of words in the letters U and X. Here B_k are
-    the Bernoulli numbers with B_1 = -1/2. A word denotes the product of its letters in the written order.
-    Words have at most ``length`` letters.
+    """Return dexp_U^{-1}(X) = sum_k B_k/k! ad_U^k X as a series of words of at most ``length`` letters
+    U and X.
+
+    Here B_k are the Bernoulli numbers with B_1 = -1/2, and ad_U X = U X - X U. The word UX
+    denotes the product U X.
 
     >>> {"".join(word): str(value) for word, value in dexp_inverse(2).items()}
     {'X': '1', 'UX': '-1/2', 'XU': '1/2'}
     """
     numbers = [Fraction(1)]
     for n in range(1, length):
-        # B_n/n! is the coefficient of x^n in x/(e^x - 1). The product of x/(e^x - 1) and (e^x - 1)/x is 1.
-        # Hence sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0.
+        # The product of sum_k B_k/k! x^k = x/(e^x - 1) and (e^x - 1)/x is 1, hence
+        # sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0.
         numbers.append(-sum((q / factorial(n + 1 - k) for k, q in enumerate(numbers)), Fraction(0)))
     return _adjoint_series(length, numbers.__getitem__)
 
@@ -135,8 +131,7 @@ def dexp_inverse(length: int) -> Series:
 def dcay_inverse() -> Series:
     """Return dcay_U^{-1}(X) = X - [U, X]/2 - U X U/4, where dcay is the derivative of the Cayley map.
 
-    The result is a finite series of words in the letters U and X. A word denotes the product of its letters
-    in the written order.
+    The words have the letters U and X, and the word UX denotes the product U X.
 
     >>> {"".join(word): str(value) for word, value in dcay_inverse().items()}
     {'X': '1', 'UX': '-1/2', 'XU': '1/2', 'UXU': '-1/4'}
@@ -168,7 +163,7 @@ def expansion(coefficient: Callable[[Word], Fraction], weight: int) -> Series:
 
 @lru_cache(maxsize=1 << 14)
 def _fer_field(n: int, word: Word) -> Fraction:
-    """Return the coefficient of a word in A_n(t) at t = 1. The series A_n is defined in :func:`fer`."""
+    """Return the coefficient of a word in A_n(t) at t = 1, where A_n is defined in :func:`fer`."""
     if n == 1:
         return Fraction(len(word) == 1)
     result = Fraction(0)
@@ -187,17 +182,15 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
     result = Fraction(0)
     for cut in range(1, len(word)):
         # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. The first letters of a word denote the last
-        # factor of a product. For the product F_n x, ``head`` is hence a word of x, and ``tail`` is a word of
-        # F_n. For the product x F_n, ``head`` is a word of F_n, and ``tail`` is a word of x.
+        # factor of a product.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result
 
 
 def _after_first(word: Word) -> Fraction:
-    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. The first
-    letters of a word denote the last factor of a product. Hence the word consists of a word of Y and a word
-    of exp(-F_1), in this order."""
+    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. The
+    letters of Y come first, because the first letters of a word denote the last factor of a product."""
     result = iterated_integral(word)
     for cut in range(len(word)):
         scale = exponential_scales(len(word) - cut)[-1]

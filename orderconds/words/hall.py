@@ -6,8 +6,7 @@ The brackets [x, y] follow, ordered by x and then by y.
 
 All letters are basis elements. Let x and y be basis elements with x < y. If y is a letter, then [x, y] is a
 basis element. If y is a bracket [u, v] with u <= x, then [x, y] is a basis element (M. Hall, Proc. AMS 1
-(1950) 575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). All other brackets are rewritten by antisymmetry
-and Jacobi's identity.
+(1950) 575; Bourbaki, Lie Groups and Lie Algebras, II.2.11).
 """
 
 from __future__ import annotations
@@ -70,8 +69,8 @@ class HallBasis:
         return self._bracket(self.rewrite(bracket[0]), self.rewrite(bracket[1]))
 
     def coordinates(self, element: Mapping[Word, Fraction]) -> Coordinates:
-        """Return the coordinates of a Lie element. The element is given as a series of words. A word denotes
-        the product of its letters in the written order.
+        """Return the coordinates of a Lie element, a series of words. A word denotes the product of its
+        letters in the written order.
 
         Raises :class:`ValueError` if the series is not a Lie element.
 
@@ -119,10 +118,9 @@ class HallBasis:
         if (x, y) in self._place:
             return {(x, y): Fraction(1)}
         if (x, y) not in self._known:
-            # Let y = [u, v]. Then u < v, because y is a basis element. Also x < u, because otherwise [x, y]
-            # would be a basis element. Use Jacobi's identity [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The
-            # recursion ends: the brackets [x, u] and [x, v] have lower weight. In the outer brackets on the
-            # right, both factors are greater than x.
+            # Jacobi's identity is [x, [u, v]] = [[x, u], v] + [u, [x, v]], where x < u < v. The recursion
+            # ends, because the inner brackets have lower weight, and both factors of the outer brackets are
+            # greater than x.
             u, v = y
             result = self._bracket(self._pair(x, u), {v: Fraction(1)})
             _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))

@@ -1,12 +1,12 @@
 """Free Lie elements and their coordinates in the Lyndon basis.
 
-The standard bracketing of a Lyndon word w expands to w plus a combination of greater words. Hence the system
-of equations for the coordinates is triangular. Forward substitution gives the coordinates from the
-coefficients of Lyndon words (Reutenauer, Free Lie Algebras, Thm 5.1).
+The standard bracketing of a Lyndon word w expands to w plus a combination of greater words. Hence forward
+substitution gives the coordinates from the coefficients of Lyndon words (Reutenauer, Free Lie Algebras, Thm
+5.1).
 
 In this module, a word denotes the product of its letters in the written order. In the Magnus, Fer and Cayley
-expansions, a word denotes the product in reverse order, because its first letter acts first. The function
-:func:`backwards` converts between these conventions.
+expansions, a word denotes the product in reverse order. The function :func:`backwards` converts between these
+conventions.
 """
 
 from __future__ import annotations
@@ -68,9 +68,7 @@ def expand(bracket: Bracket) -> Series:
 def backwards(series: Mapping[Word, Fraction]) -> Series:
     """Reverse every word of a series.
 
-    In one convention, a word denotes the product of its letters in the written order. In the other
-    convention, a word denotes the product of its letters in reverse order. Reversal converts between the two
-    conventions.
+    Reversal converts between words that denote products in the written order and in reverse order.
 
     >>> backwards({("A", "B"): Fraction(1)})
     {('B', 'A'): Fraction(1, 1)}
@@ -83,12 +81,12 @@ def coordinates_from_values(
 ) -> dict[Word, Element]:
     """Return the coordinates of a Lie element in the Lyndon basis, from its coefficients at Lyndon words.
 
-    The Lie element is a series of words. Each word denotes the product of its letters in the written order.
-    ``value`` returns the coefficient of a word in this series. The coefficients may belong to any ring.
+    ``value`` returns the coefficient of a word, an element of any ring. A word denotes the product of its
+    letters in the written order.
 
-    ``words`` contains all Lyndon words of one weight, or all Lyndon words in which each letter has a given
-    multiplicity. The words are in ascending order. ``key`` returns the sort key of a letter. The function
-    does not check that the series is a Lie element.
+    ``words`` contains all Lyndon words of one weight, or with given multiplicities of the letters, in
+    ascending order. ``key`` returns the sort key of a letter. The function does not check that the values
+    belong to a Lie element.
 
     >>> element = expand(("A", ("A", "B")))
     >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])

@@ -1,7 +1,6 @@
 """Named Lie series as sums of brackets: BCH, symmetric BCH, Magnus, dexp and inverse dexp.
 
-The terms are multiples of basis elements of the free Lie algebra. The user can choose the basis of bracketed
-Lyndon words or a Hall basis. The bracket is [x, y] = x y - y x.
+The brackets are bracketed Lyndon words or elements of a Hall basis. The bracket is [x, y] = x y - y x.
 """
 
 from __future__ import annotations
@@ -31,7 +30,6 @@ class LieSeries:
 
     ``coordinates`` returns the coefficients of bracketed Lyndon words up to a given weight. ``letters``
     returns all letters up to a given weight, in ascending order. ``weigh`` returns the weight of a letter.
-    ``summary`` is a one-line description.
 
     >>> SERIES["bch"].letters(5), SERIES["magnus"].letters(3)
     (('A', 'B'), ('X1', 'X2', 'X3'))
@@ -113,8 +111,8 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return a function for the field ``coordinates`` of a :class:`LieSeries`. ``letters`` and ``weigh`` are
-    the fields of the same name. ``value`` returns the coefficient of a word in the series.
+    """Return a function for the field ``coordinates`` of a :class:`LieSeries`. ``value`` returns the
+    coefficient of a word in the series.
     """
 
     def coordinates(weight: int) -> Coordinates:
@@ -165,8 +163,8 @@ def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int
     """Return the function that is stored in :attr:`LieSeries.coordinates` for a series
     sum_k c_k ad_U^k X with numbers c_k.
 
-    ``expand(n)`` maps the words with at most n letters to their coefficients in the series. U and X are
-    letters with U < X. Hence the Lyndon words in the series are X, UX, UUX, and so on.
+    ``expand(n)`` maps the words with at most n letters to their coefficients in the series. The Lyndon
+    words are X, UX, UUX, and so on, because U < X.
     """
 
     def coordinates(weight: int) -> Coordinates:

@@ -20,8 +20,7 @@ def lyndon_words(
 ) -> Iterator[tuple[Letter, ...]]:
     """Yield the Lyndon words of a given weight, in lexicographic order.
 
-    ``letters`` are in ascending order. ``weigh`` returns the weight of a letter, a positive integer. The
-    weights need not be in ascending order.
+    ``letters`` are in ascending order. ``weigh`` returns the weight of a letter, a positive integer.
 
     >>> ["".join(word) for word in lyndon_words("AB", 4)]
     ['AAAB', 'AABB', 'ABBB']
@@ -32,9 +31,7 @@ def lyndon_words(
     if any(w < 1 for w in weights):
         raise ValueError("every letter must have a positive weight")
     # The algorithm is that of K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of
-    # lengths. A word is built letter by letter. The word repeats its first p letters, where p is its period.
-    # The new letter is compared with the letter p positions before it. If both are equal, p does not change.
-    # If the new letter is greater, p becomes the length of the extended word.
+    # lengths. A word repeats its first ``period`` letters.
     places: list[int] = []
 
     def extend(period: int, left: int) -> Iterator[tuple[Letter, ...]]:

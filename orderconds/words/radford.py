@@ -1,11 +1,11 @@
 """Words as polynomials in Lyndon words, with the shuffle product as multiplication (Radford 1979).
 
-Every word is a concatenation of Lyndon words l_1 > ... > l_k, where l_j occurs i_j times. Take the shuffle
-product of all these factors. Divide this product by i_1! ... i_k!. The result is the word plus a combination
-of smaller words (Reutenauer, Free Lie Algebras, Thm 6.1).
+Every word is a concatenation of Lyndon words l_1 > ... > l_k, where l_j occurs i_j times. The shuffle product
+of all these factors, divided by i_1! ... i_k!, is the word plus a combination of smaller words (Reutenauer,
+Free Lie Algebras, Thm 6.1).
 
 In a group-like series, the coefficient of a shuffle product is the product of the coefficients of the
-factors. Hence the polynomial of a word expresses the coefficient of the word by coefficients of Lyndon words.
+factors.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from orderconds.words.lyndon import lyndon_factors
 from orderconds.words.shuffle import Word, shuffle
 
 Monomial = tuple[Word, ...]
-"""The factors of a shuffle product of Lyndon words. The factors are in non-increasing order."""
+"""The factors of a shuffle product of Lyndon words, in non-increasing order."""
 
 
 @lru_cache(maxsize=1 << 14)

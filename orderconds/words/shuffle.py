@@ -10,8 +10,7 @@ from math import factorial
 from typing import Any
 
 Letter = Any
-"""A letter is a hashable value. Functions that compare letters use the operator ``<``. If a key function is
-given, the functions compare keys instead."""
+"""A letter is a hashable value. Functions without a key function compare letters by the operator ``<``."""
 
 Word = tuple[Letter, ...]
 Series = dict[Word, Fraction]
@@ -59,7 +58,6 @@ def concatenate(
     weigh: Callable[[Letter], int] = lambda a: 1,
 ) -> Series:
     """Return the product of two series by concatenation. Words of weight above ``weight`` are omitted.
-    ``weigh`` returns the weight of a letter.
 
     >>> concatenate({("A",): Fraction(2)}, {("B",): Fraction(3), ("B", "B"): Fraction(1)}, 2)
     {('A', 'B'): Fraction(6, 1)}
