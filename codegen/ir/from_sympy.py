@@ -135,7 +135,7 @@ class _Reader:
 
         If x is constant or ``guard`` is None, x is returned.
         """
-        # In a branch that is not selected, a root, a quotient or a derivative could be a NaN at x.
+        # In a branch that is not selected, a root or a quotient of x could be a NaN.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))

@@ -40,7 +40,7 @@ REPORT_HAMILTONIANS = {
 }
 """The default methods that the command ``report`` runs with equal steps, and their orders.
 
-If a method has another order on the scene than in this list, the report omits the method.
+The report of a scene omits a method if its order on the scene differs from the order in this list.
 """
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")

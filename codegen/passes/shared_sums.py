@@ -12,7 +12,7 @@ from codegen.passes import dead
 from codegen.passes.rewrite import Rewriter, rewrite
 
 Key = tuple[Operation, tuple[Var, ...]]
-"""A linear map, given by an operation and all its arguments except the last."""
+"""An operation and all its arguments except the last. The operation is linear in the last argument."""
 
 Share = tuple[tuple[Var, Coefficient], ...]
 """A linear combination of values L(x_k) of one linear map L, as pairs (value, coefficient).

@@ -141,6 +141,6 @@ class Interface:
 
 def _order_of_extension(kernel: Kernel) -> int:
     """Return the order of the continuous extension of a kernel, or 0 if there is none."""
-    # Only a run to a given end time (``kernel.observed``) uses the continuous extension.
+    # ``kernel.observed`` describes a run to a given end time. Only such a run uses the extension.
     extension = None if kernel.observed is None else kernel.observed.extension
     return 0 if extension is None else extension.order

@@ -167,8 +167,8 @@ class _Exponential:
     ) -> list[Statement]:
         """Return the statements that compute ``entry``, an entry of the product of the jets ``a`` and ``b``.
 
-        Matrix ``part`` of the product is the sum of a_p b_q over all pairs (p, q) in ``factors``, where a_p
-        is matrix p of ``a``, and b_q is matrix q of ``b``.
+        A jet is a list of matrices. The entry belongs to the matrix with the index ``part``. This matrix is
+        the sum of the products a_p b_q over all pairs (p, q) in ``factors``.
         """
 
         def terms(k: Term) -> list[Term]:

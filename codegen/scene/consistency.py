@@ -25,9 +25,9 @@ ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1,
 """The hint for an initial state that is wrong by a rounding error."""
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
-"""Pairs of formulas that must be equal, with the names of the pairs in messages.
+"""A map from names to pairs of formulas. The two formulas of a pair must be equal. Messages use the name.
 
-If the second formula is None, the first formula must be equal to the velocity y' = f.y, where f is the field.
+If the second formula is None, the first formula must be the velocity: the action f.y of the field f on y.
 """
 
 

@@ -73,8 +73,7 @@ class ActionSeries(ABC):
         ``row``. The letter x is added to the velocity of the stage with index ``stage``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
-        """Return one number for each stage i: the coefficient of a word of trees in the group element of
-        stage i."""
+        """Return the coefficient of ``word`` in the group element of each stage."""
         return [self.coefficient(i, word) for i in range(self.stages)]
 
     def tau(self, tree: Velocity) -> Stages:

@@ -57,7 +57,7 @@ class Recipe:
 
     @property
     def label(self) -> str:
-        """The name of the recipe in tables."""
+        """The text that tables show for this recipe."""
         form = "" if self.form == PRINTED else f" ({self.form})"
         return f"{'adaptive ' * self.adaptive}{self.method}{form}"
 

@@ -390,7 +390,7 @@ def widths_of_inputs(program: Program, problem: Problem) -> dict[Var, int]:
 
 
 def amounts(roots: Sequence[Expr]) -> Amounts:
-    """Return the numbers of arithmetic operations, divisions and calls in expressions.
+    """Count the operations in expressions: calls, divisions, and all other arithmetic operations.
 
     >>> from codegen.ir.expr import Space
     >>> x, y = map(Space().sym, "xy")

@@ -121,10 +121,7 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
 
 def _formula(problem: Problem, quantity: Quantity) -> Any:
-    """Return the quantity, or raise SceneError if it is the name of an invariant.
-
-    The mean of an invariant is constant in time.
-    """
+    """Return ``quantity`` if it is a formula. SceneError is raised for the name of an invariant."""
     if isinstance(quantity, str):
         raise SceneError(
             f"the quantity {quantity!r} is not a formula", where=problem.name, expected="a sympy formula"
