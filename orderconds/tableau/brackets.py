@@ -2,9 +2,8 @@
 
 The number i denotes the vector field at node i of a quadrature formula. A name denotes an element whose
 definition precedes it in the file. The commutator ``[x,y]`` is the product ``x*y`` minus the product ``y*x``.
-The last factor of a product acts first. Products such as ``S*S`` are allowed only with the Cayley map. Such a
-method is meant for all quadratic Lie groups, for example SO(n) and Sp(2n). Each exponent must lie in the Lie
-algebra of the group.
+The last factor of a product acts first. Products such as ``S*S`` are allowed only if the method uses the
+Cayley map. Every argument of the Cayley map must be in the Lie algebra, also if it contains products.
 """
 
 from __future__ import annotations
