@@ -48,8 +48,8 @@ class Artifact:
         replaced.
 
         InputError is raised if the folder cannot be written to, or if the old module belongs to another scene
-        or method. If the name of the old or the new module was chosen with the option ``--prefix``, the old
-        module is replaced without an error.
+        or method. In the second case, no error is raised if the option ``--prefix`` set the name of the old
+        or the new module.
         """
         folder = Path(directory)
         try:
@@ -71,7 +71,7 @@ class Artifact:
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
         """Raise InputError if this module would replace the module ``entry`` of another scene or method.
 
-        If the name of one module was chosen with the option ``--prefix``, no error is raised.
+        If the option ``--prefix`` set the name of this module or of ``entry``, no error is raised.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))

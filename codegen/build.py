@@ -161,7 +161,7 @@ def compile_files(
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    # The caller of this function removes ``directory`` with the temporary files of the compiler.
+    # The compiler writes its temporary files to ``directory``. The caller removes ``directory``.
     environment = {**os.environ, "TMPDIR": str(directory)}
     try:
         answer = _finished(command, directory, environment, seconds)

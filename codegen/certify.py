@@ -33,8 +33,8 @@ class CertifiedOrder:
     - ``failing`` contains order conditions of order ``order`` + 1 that the method violates.
     - ``bound`` is true if the conditions of order ``order`` + 1 were not all checked. The order of the method
       is then at least ``order``.
-    - ``classical``: if the group is abelian and ``order`` is the order in a classical family, this is the
-      name of the classical family.
+    - ``classical`` is the name of the classical family whose conditions were checked, or ''. These
+      conditions are used only on abelian groups.
     - If the uncertainty of the coefficients exceeds the rounding error of a double, ``radius`` is this
       uncertainty and the certificate is "none".
     """

@@ -151,7 +151,9 @@ class CompiledIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Yield the arguments of a C function for the run-time inputs and for the iteration counts.
+        """Yield two lists of arguments for a C function.
+
+        The first list is for the run-time inputs, and the second list is for the iteration counts.
 
         An error of the callback for run-time inputs is raised at the end of the ``with`` block.
         """

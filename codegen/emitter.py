@@ -267,7 +267,7 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
         what = f"{refused[0]} is not available on {kind}"
         raise MethodError(what, where=scene.name, expected=f"a module without {refused[0]}")
     if scene.semilinear is not None:
-        # The closed form in ``scene.coordinates`` would replace the truncated series of dexp^{-1}.
+        # Without ``coordinates``, dexp^{-1} is computed by its truncated series, not by a closed form.
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
         modes = mode_method(scene, method)
         return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
@@ -316,7 +316,7 @@ def emit(
     - ``precision``: ``double`` or ``single``. ``frame``: the frame of momenta, ``space`` or ``body``.
     - ``solver``: the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point`` or
       ``auto``. With ``auto``, the compiler selects the solver.
-    - ``form``: the key of a classical form, by default the form in which the scene states its equations.
+    - ``form``: ``printed`` (the equations of the scene), or another form, such as ``quaternion``.
     - ``adaptive``: add a run with step-size control.
     - ``batch``: add a C function for many systems (:meth:`codegen.integrator.Integrator.run_batch`).
     - ``integrate``: add a run to a given end time.
@@ -362,7 +362,8 @@ def emit_compiled(
 ) -> Artifact:
     """Return a compiled method as a module in a target language.
 
-    The header of the module shows a command with the names ``named["scene"]`` and ``named["method"]``.
+    The header of the module shows the shell command that emits the module. In this command,
+    ``named["scene"]`` is the name of the scene, and ``named["method"]`` is the name of the method.
     ``order`` is the result of :func:`certified_order`.
     """
     scene, method = compiled.scene, compiled.method
@@ -411,7 +412,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    # A run-time argument p with a new default value needs ``--parameter p`` and ``--parameter p=value``.
+    # For a run-time argument p, ``--parameter p=value`` sets the default value.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 

@@ -26,7 +26,7 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""The smaller step size for the measurement of orders is T times 10^(-SMALLEST / (p + 2)).
+"""Orders are measured with the step sizes h and RATIO h, where h = T 10^(-SMALLEST / (p + 2)).
 
 Here T is the length of the time span of the scene, and p is the order of the method.
 """
@@ -36,7 +36,7 @@ ROUNDING = 1e-90
 
 RATIO = 8
 HIGHER = 0.5
-"""An estimate is blind if its order exceeds the order of the local error by more than HIGHER."""
+"""A tolerance: measured orders count as equal if they differ by at most HIGHER."""
 
 LARGEST_CUTOFF = 12
 
@@ -46,15 +46,14 @@ State = tuple[Scalar, ...]
 def order_of_estimate(method: Method, scene: Problem) -> int:
     """Return the order p of the error estimate of a method. For the step size h, the estimate is O(h^p).
 
-    :class:`MethodError` is raised if there is no embedded method, or if the estimate has a higher order than
-    the local error on this scene.
+    :class:`MethodError` is raised if there is no embedded method, or if the estimate is blind on this scene
+    (:func:`is_blind`).
     """
     embedded = method.embedded()
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # If the field depends on the time alone, the estimate can be blind even if the two methods have
-    # different orders.
+    # If the field depends only on the time, methods of different orders can give the same result.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
             f"no error estimate for {method.label}: the field does not depend on the state, so the method "
@@ -103,7 +102,7 @@ def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], floa
 
     The function takes a state, the time since the start of the time span, and the step size.
     """
-    # ``lower`` computes all stages by iteration, and ``blocks.run`` changes explicit stages to assignments.
+    # The program from ``lower`` iterates on all stages. ``blocks.run`` makes explicit stages assignments.
     problem, program = problem_for(scene, method), blocks.run(lower(scene, method))
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:
@@ -136,7 +135,7 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 def _hint(method: Method, scene: Problem) -> str:
     """Return a hint for a user whose method has a blind error estimate (:func:`is_blind`).
 
-    The cut-off of a method is the number of brackets in the series of dexp^{-1}.
+    If possible, the hint names a method with more brackets in the series of dexp^{-1}.
     """
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):

@@ -22,7 +22,7 @@ class MethodError(InputError):
 class UnclaimedTableau(MethodError):
     """Raised if a tableau is not suitable for the families that are considered.
 
-    Either these families cannot use the format of the tableau, or the tableau states no order in these
+    Either these families cannot use the format of the tableau, or the tableau file gives no order for these
     families. ``claimed`` contains the families in which the tableau states an order.
     """
 

@@ -104,5 +104,5 @@ class EventValues:
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)
-        # Emitted code reads ``size`` values, and the constant function 1 has no zero.
+        # Emitted code reads ``size`` values. Each unused value is always 1 and causes no event.
         return values + [1.0] * (self.size - len(values))

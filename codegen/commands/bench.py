@@ -40,8 +40,9 @@ if TYPE_CHECKING:
     "--form",
     "forms",
     multiple=True,
-    help="A form of the equations for peers and for the methods ambient:TABLEAU: printed (the equations of "
-    "the scene), body-matrix or quaternion. The option may be repeated. Default: all forms.",
+    help="A form of the equations for peers and for the methods ambient:TABLEAU. Examples are 'printed' "
+    "(the equations of the scene), 'body-matrix' and 'quaternion'. The option may be repeated. Default: all "
+    "forms.",
 )
 @click.option("--budget", default=1.0, show_default=True, help="The longest CPU time of one run, in seconds.")
 @click.option(

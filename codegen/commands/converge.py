@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="With 'strict', measure the order with 50 digits on built-in scenes, and omit SCENE.",
+    help="The protocol 'strict' uses 50 digits and built-in scenes. It cannot be used with SCENE.",
 )
 @click.option(
     "--stated",

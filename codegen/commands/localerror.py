@@ -55,7 +55,7 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
 
 
 def show(result: ExactLocalError | NotExact, first: bool) -> None:
-    """Print the leading coefficients of the local error, and whether the method has its order.
+    """Print the leading coefficients of the local error, and the verdict on the method's order.
 
     If the local error cannot be computed exactly, print the reason instead.
     """

@@ -44,7 +44,7 @@ class Kick(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """If the formula depends on the momentum, return None. Otherwise return the part with a :class:`Kick`."""
+    """Return a part with the flow :class:`Kick`. If the formula depends on the momentum, return None."""
     if not formula.orbit.vanish(formula.by_mu):
         return None
     n = force(formula.root.space, formula.problem.group, formula.qs, formula.by_q)

@@ -21,7 +21,7 @@ from orderconds.ring.protocol import Element
 Matrix = list[list[Fraction]]
 
 CONSTANTS = SeriesDomain(QQ, 0)
-"""Exact arithmetic with rational numbers. A number is a power series of degree 0."""
+"""Exact arithmetic with rational numbers."""
 
 
 @dataclass(frozen=True)

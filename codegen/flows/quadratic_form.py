@@ -49,10 +49,10 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 
 
 def isotropic_part(B: Matrix) -> Fraction:
-    """Return a number a for which :func:`squares` returns few pairs for the matrix B - a I.
+    """Return a number a such that ``squares(shifted(B, a))`` is a short list.
 
-    Here I is the identity matrix. If B is diagonal, the result is a diagonal entry that occurs more than
-    once. If all diagonal entries are different, the result is the middle entry in ascending order.
+    If B is diagonal, the result is a diagonal entry that occurs more than once. If all diagonal
+    entries are different, the result is the middle entry in ascending order.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)

@@ -16,7 +16,7 @@ from codegen.scene.hamiltonian_scene import TAU
 
 @dataclass(frozen=True)
 class Stated(Flow):
-    """The flow of a part of the Hamiltonian, given by the user's formulas for (q, mu) after the time tau.
+    """The flow of a part of the Hamiltonian. The scene gives formulas for (q, mu) after the time tau.
 
     When the scene is defined, the formulas are checked. If the formulas do not satisfy the equations of
     motion of the part, :class:`codegen.errors.SceneError` is raised.
@@ -43,9 +43,9 @@ class Stated(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """If the scene gives formulas for the flow of the part, return the part with this flow.
+    """Return a part with the flow :class:`Stated`.
 
-    Otherwise return None.
+    If the scene gives no formulas for this flow, return None.
     """
     formulas = formula.problem.stated.get(formula.name)
     return None if formulas is None else formula.whole(Stated(formulas))

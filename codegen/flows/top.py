@@ -85,7 +85,7 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
         number = str(k + 1) if len(turns) > 1 else ""
         flows.append([(f"{formula.name}.turn{number}" if several else formula.name, turn)])
     if mean:
-        # The rotation about the momentum commutes with all turns.
+        # The flow of ``Isotropic`` commutes with the flows in ``turns``.
         flow = (f"{formula.name}.mean" if several else formula.name, Isotropic(mean))
         flows = [[flow, *(flows[0] if flows else [])], *flows[1:]]
     return [Summand(tuple(f)) for f in flows]
@@ -100,7 +100,10 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Add w.P to the Hamiltonian of the turns, and return the new turns. Here P is the momentum."""
+    """Return the turns of the Hamiltonian H + w.P, where H is the sum of the Hamiltonians of ``turns``.
+
+    Here P is the momentum.
+    """
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)
         ratio = w[i] / turn.axis[i]

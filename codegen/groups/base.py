@@ -36,7 +36,7 @@ class LieGroup(ABC):
     - ``dim`` is the dimension of the algebra.
     - ``size`` is the number of coordinates of an element.
     - If ``abelian`` is true, all brackets vanish.
-    - ``layout`` is a text about the order of the coordinates, such as ``, row by row``.
+    - ``layout`` describes the order of the coordinates, with a comma or a colon at the beginning.
     """
 
     name: str
@@ -47,7 +47,7 @@ class LieGroup(ABC):
     coordinates: ClassVar[str] = "coordinates"
     """A noun for the coordinates of an element, such as ``unit quaternion``."""
     provides: ClassVar[str] = "group operations"
-    """A noun for the operations of a class in error messages, such as ``coadjoint action``."""
+    """Error messages use this name for the operations of the class, for example ``coadjoint action``."""
 
     @abstractmethod
     def identity(self, d: Domain) -> Vector[S]:

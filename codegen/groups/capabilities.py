@@ -112,7 +112,7 @@ class Coadjoint(LieGroup):
 
 
 class RightTrivialisation(LieGroup):
-    """A group with a method that computes x from x.g. The Jacobian of a step needs this method."""
+    """A group with the method :meth:`rate`. The Jacobian of a step needs this method."""
 
     provides: ClassVar[str] = "right trivialisation of tangent vectors"
 
@@ -122,7 +122,7 @@ class RightTrivialisation(LieGroup):
 
 
 class LeftTranslation(Coadjoint):
-    """A group with left-translated velocities g.x, the inverse of Ad_g, and replacement rules.
+    """A group with the methods :meth:`relations`, :meth:`left_velocity` and :meth:`Adinv`.
 
     Scenes with velocities or momenta in the body frame need this capability.
     """
@@ -184,8 +184,8 @@ class ClosedFormSeries(Coadjoint):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        If ``dual`` is true, ad*_x replaces ad_x. For a tuple of indices of terms, the optional function
-        ``total`` returns the sum of f v over these terms.
+        If ``dual`` is true, ad*_x replaces ad_x. The optional function ``total`` returns sums of f v (without
+        W). Its argument is the tuple of the indices of the terms in the sum.
         """
 
 
@@ -342,7 +342,7 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element y of the Lie algebra of the cover that satisfies dp(y) = x.
+        """Return the element y of the cover's Lie algebra with dp(y) = x.
 
         Here dp is the derivative of the covering map at the neutral element.
         """

@@ -74,8 +74,8 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
         """Return (b, ad*_b mu - a) for a covector (a, b) at the point z = (q, mu).
 
-        The map of covectors (a, b) is the right-trivialised canonical bivector (eq. 2.26 of Marthinsen's
-        thesis).
+        The result is the right-trivialised canonical bivector, applied to the covector (eq. 2.26 of
+        Marthinsen's thesis).
         """
         mu = self._split(z)[1]
         a, b = tuple(covector[: self.base.dim]), tuple(covector[self.base.dim :])

@@ -14,7 +14,7 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The function dexp of ad_x as a word. A word is a product of functions (:mod:`codegen.ir.ad_series`)."""
+"""A product of functions of ad_x with the single factor dexp (see :mod:`codegen.ir.ad_series`)."""
 
 
 class CubicAd(ClosedFormSeries):
@@ -53,7 +53,8 @@ class CubicAd(ClosedFormSeries):
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
         In each triple, f is a number, and W is a product of functions. If ``dual`` is true, ad*_x replaces
-        ad_x. If the function ``total`` is given, it computes the sum of f v from the indices of all terms.
+        ad_x. The optional function ``total`` returns the sum of f v (without W). Its argument is the tuple of
+        the indices of all terms.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim

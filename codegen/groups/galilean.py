@@ -29,7 +29,7 @@ class Galilean(Semidirect):
         self.layout = ": rotation, row by row; velocity; position; time"
 
     def with_linear(self, linear: LieGroup) -> Semidirect:
-        """Return the Galilean group that computes rotations and boosts by the group ``linear``."""
+        """Return the Galilean group with ``linear`` as the group of rotations and boosts."""
         return Semidirect(linear, _Events(), self.name)
 
 
@@ -43,10 +43,11 @@ class _Events(MatrixColumns):
         return (*(a for row in rows for a in row), zero, zero, zero, one)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return the translation (dexp_w p + r psi(w) b, r) of exp(x, u) for x = (w, b) and u = (p, r).
+        """Return (dexp_w p + r psi(w) b, r), the translation of exp(x, u).
 
-        Let z = |w|^2, and let c_2 and c_3 be Stumpff functions. The matrix psi(w) is
-        1/2 + c_3(z) W + (c_2'(z) + c_3(z)/2) W^2, where W a = w cross a for all vectors a.
+        Here x = (w, b) and u = (p, r) with vectors w, b, p and a number r. Let z = |w|^2, and let c_2 and c_3
+        be Stumpff functions. The matrix psi(w) is 1/2 + c_3(z) W + (c_2'(z) + c_3(z)/2) W^2, where
+        W a = w cross a for all vectors a.
         """
         w, b, position, time = x[:3], x[3:], u[:3], u[3]
         z, half = dot(w, w), d.rational(1, 2)

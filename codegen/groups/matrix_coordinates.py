@@ -31,8 +31,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def _contains_cubes(self) -> bool:
         """True if the cube of every element of the algebra is in the algebra.
 
-        Only one element x is tested. For random coordinates below 2^61, a wrong result True would have a
-        probability of about 3/2^61 or less.
+        Only one element x is tested. For random integer coordinates below 2^61, the probability of a
+        wrong result is less than 3/2^60.
         """
         # Powers of 37 modulo a prime look random, but they are equal in every run.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))

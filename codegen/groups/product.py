@@ -59,13 +59,13 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         Otherwise return None.
         """
         own = super().offers(capability)
-        # A product of arbitrary groups has the operations of LieGroup and DirectProduct.
+        # The operations of LieGroup and DirectProduct need no capability of the factors.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 
     def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:
-        """Call ``operation`` for each factor and its parts of ``args``, and join the results to one tuple."""
+        """Apply ``operation`` to ``args`` factor by factor, and join the results to one tuple."""
         rows = zip((f.require(capability) for f in self.factors), *map(self.parts, args), strict=True)
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
 
@@ -171,7 +171,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 def labels(count: int) -> Iterator[str]:
     """Yield labels of equal length for the factors: a to z for up to 26 factors, then aa to zz, and so on.
 
-    If the first factor is itself a product, labels of different lengths would be ambiguous.
+    With labels of different lengths, two coordinates of nested products could have the same name.
 
     >>> list(labels(3)), list(labels(28))[-3:]
     (['a', 'b', 'c'], ['az', 'ba', 'bb'])

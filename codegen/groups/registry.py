@@ -33,7 +33,7 @@ class Registry(Generic[T]):
     def add(self, cls: type[T]) -> None:
         """Add a class under its own name.
 
-        If the registry contains an added class with the name of ``cls``, ``cls`` replaces that class.
+        ``cls`` replaces a class of the same name that was added earlier.
         :class:`SceneError` is raised if a built-in class has the name of ``cls``, or if ``cls`` has abstract
         methods.
         """

@@ -29,19 +29,20 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain, FloatDomain
 
 Pair = tuple[Vector[S], Vector[S]]
-"""An element of the group's algebra and a vector, or an element of the algebra's dual and a covector."""
+"""Either (element of the algebra, vector) or (element of the dual of the algebra, covector)."""
 
 
 class Representation(ABC):
-    """A representation of a group on ``copies`` copies of a space.
+    """A representation of a group on one or more copies of a vector space V.
 
-    A vector of the whole space lists its components copy by copy. Each method of this class acts on the
-    vectors of one copy. ``needs`` is the capability that the group must have.
+    ``copies`` is the number of copies. A vector of the whole space lists its components copy by copy. Each
+    method of this class acts on the vectors of one copy. ``needs`` is the capability that the group must
+    have.
     """
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad."""
+    """True if the group acts on its Lie algebra by Ad."""
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:
@@ -50,7 +51,7 @@ class Representation(ABC):
 
     @abstractmethod
     def dim(self, group: LieGroup) -> int:
-        """Return the dimension of one copy of the space."""
+        """Return the dimension of the vector space V (see :class:`Representation`)."""
 
     @abstractmethod
     def act(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
@@ -104,7 +105,8 @@ class Representation(ABC):
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
-        Each of x and v is a pair: an element of the group's algebra, and a vector of one copy of the space.
+        Each of x and v is a pair: an element of the group's algebra, and a vector of V (see
+        :class:`Representation`).
         """
         raise self._missing("series")
 
@@ -113,8 +115,8 @@ class Representation(ABC):
     ) -> Pair[S]:
         """Apply ``word``, a product of functions of ad*_x, to p.
 
-        p is a pair: an element of the dual of the group's algebra, and a covector of one copy of the space.
-        For x see :meth:`series`.
+        p is a pair: an element of the dual of the group's algebra, and a covector of V (see
+        :class:`Representation`). For x see :meth:`series`.
         """
         raise self._missing("dual_series")
 
@@ -127,8 +129,8 @@ class Representation(ABC):
         )
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group if each element acts on vectors by multiplication with its matrix. Otherwise
-        return None.
+        """Return ``group`` as a matrix group if its elements act by multiplication with their matrices.
+        Otherwise return None.
         """
         return None
 
@@ -200,8 +202,8 @@ class AlgebraVectors(Representation):
         """Apply ``word``, a product of functions of ad*_x, to p.
 
         The method evaluates the group's formula for ``word`` with dual numbers, where e^2 = 0. The vector
-        y + v e represents x = (y, v), and q + m e represents p = (m, q). The coefficient of e in
-        <q + m e, y + v e> is <m, y> + <q, v>, the value of p at x.
+        y + v e represents x = (y, v). In reverse order, q + m e represents p = (m, q). The coefficient of e
+        in <q + m e, y + v e> is <m, y> + <q, v>, the value of p at x.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
@@ -210,7 +212,7 @@ class AlgebraVectors(Representation):
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
         """Return the group if its elements are the rotation matrices of R^3. Otherwise return None.
 
-        For a rotation matrix g of R^3, Ad_g v = g v.
+        On this group, Ad_g is the multiplication with the matrix g.
         """
         rotations = group.offers(Rotations)
         return rotations if rotations is not None and rotations.order == rotations.dim else None
@@ -296,7 +298,10 @@ class MatrixColumns(Representation):
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group. Each element acts on columns by multiplication with its matrix."""
+        """Return ``group`` as a matrix group.
+
+        Each element acts on columns by multiplication with its matrix.
+        """
         return self._matrices(group)
 
 
@@ -325,7 +330,7 @@ class PlaneVectors(MatrixColumns):
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True, because ad_x^3 = -w^2 ad_x for x = (w, u) with a number w and a vector u."""
+        """Return True: the equation ad_x^3 = -w^2 ad_x for x = (w, u) gives a closed form."""
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:

@@ -48,7 +48,7 @@ class Semidirect(
     Inverse,
     CayleyMap,
 ):
-    """The semidirect product of a group G, the linear factor, and a vector space V on which G acts.
+    """The semidirect product of a group G and a vector space V. G acts on V and is called the linear factor.
 
     The argument ``representation`` is the representation rho of G on V. V consists of one or more copies of
     one space. An element is (g, a): the coordinates of g in G, followed by the components of a, copy by copy.
@@ -93,18 +93,18 @@ class Semidirect(
         return tuple(g[: self.linear.size]), tuple(g[self.linear.size :])
 
     def _copies(self, v: Vector[S]) -> Iterator[Vector[S]]:
-        """Split the vector v of V into one tuple for each copy (see :class:`Semidirect`)."""
+        """Split v into one tuple for each copy of the space (see :class:`Semidirect`)."""
         return (tuple(v[i : i + self.width]) for i in range(0, len(v), self.width))
 
     def _each(self, operation: Callable[..., Vector[S]], *vectors: Vector[S]) -> Vector[S]:
-        """Apply ``operation`` to the vectors of V copy by copy, and join the results."""
+        """Split ``vectors`` with :meth:`_copies`, apply ``operation`` to each copy, and join the results."""
         rows = zip(*map(self._copies, vectors), strict=True)
         return tuple(chain.from_iterable(operation(*row) for row in rows))
 
     def offers(self, capability: type[C]) -> C | None:
         """Return this product if it has the operations of the class ``capability``. Otherwise return None.
 
-        For most capabilities, the linear factor must have this capability, too.
+        In most cases, the linear factor must have these operations, too.
         """
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
@@ -166,7 +166,7 @@ class Semidirect(
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return cay(x) = (cay y, (1 - Y/2)^-1 u) for x = (y, u). Here Y is the linear map v -> y.v.
 
-        The vector (1 - Y/2)^-1 u is computed as (u + C u)/2 with C = rho(cay y) and the representation rho.
+        Let C = rho(cay y) for the representation rho. Then (1 - Y/2)^-1 u = (u + C u)/2.
         """
         y, u = self._split(x)
         half: S = d.rational(1, 2)
@@ -181,7 +181,7 @@ class Semidirect(
         """
         (a, u), (b, v) = self._split(x), self._split(y)
         first = self.point_velocity(d, y, u, translated=False)
-        # The form t - (a.t)/2 with t = v + (b.u)/2 needs two actions instead of three.
+        # The second part of the result equals t - (a.t)/2 with t = v + (b.u)/2.
         half: S = d.rational(1, 2)
         moved = _sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)
@@ -210,13 +210,16 @@ class Semidirect(
         return self.linear.require(BodyFrame).mulexp(d, q, y) + _sum(a, ahead)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return [x, y] = ([a, b], a.v - b.u) for x = (a, u), y = (b, v) and the action a.v of a on v."""
+        """Return [x, y] for x = (a, u) and y = (b, v).
+
+        The result is ([a, b], a.v - b.u), where a.v is the action of a on v.
+        """
         (a, u), (b, v) = self._split(x), self._split(y)
         turned = self._each(lambda p, q: self._difference(d, a, q, b, p), u, v)
         return self.linear.ad(d, a, b) + turned
 
     def _difference(self, d: Domain, a: Vector[S], v: Vector[S], b: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return a.v - b.u for vectors u and v of one copy, where a.v is the action of a on v."""
+        """Return a.v - b.u, where a.v is the action of a on a vector v in one copy of the space."""
         velocity = self.representation.velocity
         pairs = zip(velocity(d, self.linear, a, v), velocity(d, self.linear, b, u), strict=True)
         return tuple(p - q for p, q in pairs)
@@ -280,7 +283,7 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        Let J be the momentum map, t = phi(y) u with phi(y) from :meth:`exp`, and f(y, u) = <p, t>. The result
+        Let J be the momentum map, and let t = phi(y) u (see :meth:`exp`). Let f(y, u) = <p, t>. The result
         is (dexp*_y (m - J(t, p)) + D_y f, D_u f) with the partial derivatives D_y f and D_u f.
         """
         if self.representation.closed(self.linear):
@@ -303,8 +306,7 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # If ``dual`` is true, ``first`` is a sum over all copies. The part that depends on w must be
-            # added once.
+            # If ``dual`` is true, ``first`` is a sum over all copies. Only the first summand contains w.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -364,7 +366,7 @@ class Semidirect(
         return self.linear.require(Projection).project(d, q) + a
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the linear factor with their residuals at q, for g = (q, a)."""
+        """Return ``laws(d, q)`` of the linear factor for g = (q, a)."""
         return self.linear.laws(d, self._element(g)[0])
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -386,7 +388,7 @@ class Semidirect(
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return the matrix [[R, A], [0, I]] for g = (q, a). R is the matrix of q, and I is a unit matrix.
 
-        Each column of A contains the components of a in one copy (see :class:`Semidirect`).
+        Column k of A contains the components of a in copy k of the space (see :class:`Semidirect`).
         """
         q, a = self._element(g)
         return self._bordered(d, self._matrices().matrix(d, q), a, d.rational(1))
@@ -394,7 +396,7 @@ class Semidirect(
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return the matrix [[Y, U], [0, 0]] for x = (y, u), where Y is the matrix of y.
 
-        Each column of U contains the components of u in one copy (see :class:`Semidirect`).
+        Column k of U contains the components of u in copy k of the space (see :class:`Semidirect`).
         """
         y, u = self._split(x)
         return self._bordered(d, self._matrices().hat(d, y), u, d.rational(0))
@@ -426,7 +428,7 @@ class Semidirect(
 
     @property
     def cover(self) -> LeftTranslation:
-        """The covering group: this product with the covering group of the linear factor in place of G."""
+        """The covering group: the semidirect product of the cover of G and the vector space V."""
         return Semidirect(self._covered().cover, self.representation)
 
     def _covered(self) -> Covered:
@@ -438,7 +440,7 @@ class Semidirect(
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return (s, a) for q = (r, a), where the covering map of the linear factor maps r to s."""
+        """Return (s, a) for q = (r, a). The covering map of the linear factor maps r to s."""
         g, a = self._over(q)
         return self._covered().covering(d, g) + a
 
@@ -448,12 +450,12 @@ class Semidirect(
         return self._covered().projected_covering(d, g) + a
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element of the cover's algebra that the derivative of :meth:`covering` maps to x."""
+        """Return z in the cover's algebra with dp(z) = x (see :meth:`Covered.lifted_velocity`)."""
         y, u = self._split(x)
         return self._covered().lifted_velocity(d, y) + u
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the pivots of the linear factor at q for g = (q, a) (see :meth:`Covered.pivots`)."""
+        """Return ``pivots(d, q)`` of the linear factor for g = (q, a) (see :meth:`Covered.pivots`)."""
         return self._covered().pivots(d, self._element(g)[0])
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:

@@ -24,5 +24,5 @@ class AdjointAction(Action):
         return group.require(Coadjoint).Ad(d, g, y)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return [x, y]."""
+        """Return the bracket [x, y]."""
         return group.ad(d, x, y)

@@ -70,7 +70,7 @@ class Action(ABC):
         """Return an approximate projection of y onto the orbit of ``start``.
 
         If the distance of y from the orbit is eps, the distance of the projection from the orbit is O(eps^2).
-        By default, the result is y.
+        The method of this base class returns y.
         """
         return y
 

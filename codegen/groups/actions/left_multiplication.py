@@ -20,7 +20,7 @@ class LeftMultiplication(Action):
         return group.size
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the group as pairs (name, residual)."""
+        """Return pairs (name, residual at y) for the defining equations of the group."""
         return group.laws(d, y)
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
