@@ -1,7 +1,7 @@
 """The content of the header of an emitted module.
 
-The header states facts about the method and the scene. The header also lists operations and arguments that
-the module does not need.
+The header states facts about the method and the scene. The header line ``left out`` names omitted operations
+and arguments with the reasons.
 """
 
 from __future__ import annotations

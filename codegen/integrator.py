@@ -413,7 +413,7 @@ class Integrator(RunToEnd):
 
     @abstractmethod
     def _derive(self, begun: Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
-        """Return the rows of the Jacobian matrix of one step. ``held`` are the values of the inputs."""
+        """Return the rows of the Jacobian matrix of one step. ``held`` contains the run-time inputs."""
 
     @abstractmethod
     def _adapt(

@@ -180,8 +180,8 @@ class SO3(
         Here f is a scalar, W is a product of functions of ad_x, and v is a vector. If ``dual`` is true,
         ad*_x = -ad_x replaces ad_x.
 
-        If the function ``total`` is given, it computes sums of the vectors f v. The argument of ``total``
-        contains the indices of the summed terms.
+        The optional function ``total`` returns the sum of f v over some of the terms. The argument of
+        ``total`` contains the indices of the summed terms.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -215,7 +215,7 @@ class SO3(
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x). The rows of the result are exp(-x) r for the rows r of g."""
+        """Return g exp(x). Each row r of g becomes exp(-x) r, because exp(-x) is the transpose of exp(x)."""
         back = tuple(-a for a in x)
         return tuple(a for i in (0, 3, 6) for a in self.rotate(d, back, g[i : i + 3]))
 
@@ -263,10 +263,7 @@ class SO3(
         return tuple(columns[i % 3][i // 3] for i in range(9))
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return exp(x) mu + dexp_x n.
-
-        If a column is dependent (see :meth:`variants`), the method does not compute the matrix exp(x).
-        """
+        """Return exp(x) mu + dexp_x n."""
         if self.dependent is None:
             return super().transport(d, x, n, mu)
         z = dot(x, x)
@@ -294,7 +291,7 @@ class SO3(
     def determined(self) -> tuple[tuple[int, ...], ...]:
         """Return six tuples: the indices of the entries of each row and of each column, rows first.
 
-        Each row is the cross product of the other two rows, and each column of the other two columns.
+        A row (column) is the cross product of the other two rows (columns).
         """
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))

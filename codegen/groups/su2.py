@@ -41,7 +41,7 @@ class SU2(S3):
         return tuple(d.rational(2) * a for a in S3.dcayinv(self, d, _half(d, x), _half(d, y)))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x, computed as twice the result of :meth:`S3.sandwich` for x/2 and y/2."""
+        """Return w with (0, w/2) = X Y X for the quaternions X = (0, x/2) and Y = (0, y/2)."""
         return tuple(d.rational(2) * a for a in S3.sandwich(self, d, _half(d, x), _half(d, y)))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -26,8 +26,8 @@ class Unitary(RotationGroup):
     def _generate(self, name: str, n: int, diagonal: Sequence[dict[tuple[int, int], int]]) -> None:
         """Compute the basis of the algebra, and initialise the group with this basis.
 
-        Each table in ``diagonal`` maps (row, column) to the imaginary parts of the non-zero entries of a
-        diagonal matrix.
+        Each table in ``diagonal`` describes a diagonal matrix. The table maps the place (row, column) of a
+        non-zero entry to the imaginary part of the entry.
         """
         pairs = [(j, k) for j in range(n) for k in range(j + 1, n)]
         basis = []

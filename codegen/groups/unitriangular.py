@@ -24,7 +24,7 @@ class Unitriangular(MatrixGroup):
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return a pair (name, residual) for each constant entry of g.
 
-        The constant entries are 1 on the diagonal, and 0 elsewhere.
+        A constant entry is 1 on the diagonal, and 0 off the diagonal.
         """
         fixed = [(i, j) for i in range(self.n) for j in range(self.n) if (i, j) not in self.places]
         unit: Vector[S] = self.identity(d)

@@ -54,7 +54,7 @@ def simplified(word: Word) -> Word:
     'dexp(-t)'
     """
     # For dexp and dexpinv, ``powers`` maps (function, scale, order) to the exponent. The product of all
-    # factors exp is exp(``rate`` t).
+    # exponential factors is exp(``rate`` t).
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:

@@ -14,8 +14,8 @@ from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
 
 ROW, COLUMN = "row.index", "column.index"
-"""The names of the symbols for the row index and the column index of an entry. A user cannot choose names
-with a dot.
+"""The names of the symbols for the row index and the column index of an entry. The dot prevents a
+collision with a name of a user.
 """
 
 Arrays = MutableMapping[str, list[Scalar]]
@@ -43,7 +43,7 @@ class Matrix:
         return self.stride or self.columns
 
     def place(self, row: int, column: int) -> int:
-        """Return the index in the array ``name`` of the entry (``row``, ``column``) of this matrix."""
+        """Return the index of the entry (``row``, ``column``) in the array of this matrix."""
         return self.start + row * self.step + column
 
     def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
@@ -82,7 +82,8 @@ class Diagonal:
 class ConstantMatrix:
     """A constant matrix. ``diagonals`` contains the entries of a banded matrix.
 
-    For other matrices, ``full`` is a tuple of numbers, row by row, or one formula for all entries.
+    For other matrices, ``full`` is a tuple of numbers, row by row, or a formula in :data:`ROW` and
+    :data:`COLUMN`.
     """
 
     name: str
@@ -93,8 +94,8 @@ class ConstantMatrix:
 
     @property
     def entries(self) -> tuple[Entry, ...]:
-        """The formula or the numbers of each diagonal. If there are no ``diagonals``, the tuple contains only
-        ``full``.
+        """The ``entry`` of each diagonal: a formula or a tuple of numbers. If there are no ``diagonals``, the
+        tuple contains only ``full``.
         """
         return tuple(d.entry for d in self.diagonals) or (self.full,)
 
@@ -134,11 +135,11 @@ def _valued(
         yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
         return
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
-    # The first evaluation replaces only the symbols ``ROW`` and ``COLUMN`` by numbers.
+    # In the first call of ``evaluate``, only ``ROW`` and ``COLUMN`` become numbers.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # Indices are exact here: a formula may compare indices, and power series in ``domain`` cannot always
-        # be compared.
+        # A formula may compare indices. The indices are numbers here, because power series cannot always be
+        # compared.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -319,14 +320,14 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
-        # For the product M C (:class:`Apply`), a times column ``row`` of M is added to column ``column``.
+        # The entry C[row, column] is ``a``. For M C, M[b, row] C[row, column] is added to target[b, column].
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
-            # For the product C M, a times row ``column`` of M is added to row ``row``.
+            # For C M, C[row, column] M[column, b] is added to target[row, b].
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values
@@ -363,8 +364,8 @@ def operations(statement: ArrayStatement) -> dict[str, int]:
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)
-            # A sum of k > 0 products needs k - 1 additions. If many entries are zero, ``products - size``
-            # is negative.
+            # A sum of k > 0 products needs k - 1 additions. An entry of the target may have no products,
+            # so ``products - size`` may be negative.
             return {"add": max(0, products - size), "mul": products}
         case Combination(terms=terms):
             sizes = [term.matrix.size for term in terms]

@@ -51,8 +51,8 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """A statement that moves a point X to the new point exp(B S B^T) X = X_0 + B D. The statement assigns the
-    displacement D of the new point to ``target``.
+    """A statement that computes the new point exp(B S B^T) X for a point X. The statement
+    assigns the displacement D of the new point X_0 + B D to ``target``.
 
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).
@@ -74,8 +74,8 @@ class Move:
         """
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        # The four summands of ``products`` are the multiplications for G S, for the norm of B S B^T, for G C,
-        # and for S phi(G S) G C.
+        # Let X = B C, and let G be ``gram``. The summands of ``products`` are the multiplications for
+        # G S, the norm of B S B^T, G C, and S phi(G S) G C, in this order.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 

@@ -44,7 +44,8 @@ GUARD = 32
 
 
 class BallDomain:
-    """An arithmetic with ``digits`` decimal digits. The scalars are midpoints of Arb balls.
+    """An arithmetic with ``digits`` decimal digits. The scalars are Arb balls, but only their midpoints are
+    used.
 
     The step size ``h`` is an mpmath number, a float or a Fraction. Let n be
     :data:`codegen.ir.domain.LARGEST_BITS`. If an argument of a function such as exp has an absolute value of
@@ -55,7 +56,7 @@ class BallDomain:
         self.digits = digits
         self.bits = math.ceil(digits * BITS_PER_DIGIT) + GUARD
         with self.precision():
-            # The guard bits are excluded, so eps is about 10^-``digits``.
+            # ``eps`` is the requested precision, about 10^-``digits``.
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
         # If a fixed-point method has not converged after this number of iterations, Newton's method is used.
@@ -103,7 +104,7 @@ class BallDomain:
         if function == "quotient":
             return args[0] / args[1] if args[1].mid() != 0 else args[0] * 0
         if selects(function):
-            # A ball that contains zero has no definite sign.
+            # The centres are compared, because a ball around zero has no sign.
             centres = tuple(x.mid() for x in args)
             value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
             return value.mid()
@@ -131,7 +132,7 @@ class BallDomain:
         if isinstance(called, MatrixExponential):
             return exponential(called.n, called.level, self.bits, numbers)
         if isinstance(called, ExponentialAction):
-            # To compute exp(A) y, this domain forms the matrix exp(A), unlike emitted code.
+            # This domain computes exp(A) y from the matrix exp(A).
             entries = called.matrix(numbers, arb(0))
             rows = self.vector(f"expm{called.n}", entries)
             y = numbers[-called.n :]

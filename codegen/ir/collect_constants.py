@@ -24,7 +24,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
 
     If this does not reduce the number of operations, ``roots`` is returned unchanged.
 
-    The expressions in ``kept`` are not rewritten, apart from their numeric factors.
+    Expressions in ``kept`` are not rewritten, but their numeric factors are combined with other constants.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -71,22 +71,21 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # Each argument is paired with its node, and each root with None.
+    # ``used`` contains (argument, parent node) for each argument, and (root, None) for each root.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
-            # For each node c y^n with a number c and y = 1/sqrt x, ``ranks`` contains the pair (node number
-            # of y, n).
+            # Let c be a number and y = 1/sqrt x. ``ranks`` maps a node c y^n to (node number of y, n).
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # ``read`` contains the pairs (node number of y, n) of the powers that are used outside powers of y.
+    # ``read`` contains the pairs of roots, and the pairs of arguments of nodes that have no pair.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # ``bases`` contains the node numbers of those y whose powers are not rewritten.
+    # If y or an even power of y is in ``read``, no power of y is rewritten.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -94,14 +93,14 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
     """Return True if a node equals c y^n, where c is a number and y is an inverse root.
 
-    ``inside`` contains one pair (node number of y, n) for each argument of the form c y^n.
+    ``inside`` contains the pair (node number of y, n) for each argument c y^n of the node.
     """
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
 
 
 def _is_inverse(node: Expr) -> bool:
-    # A space contains only one object for the number 1, so ``is`` is sufficient.
+    # In a :class:`Space`, all constants 1 are one object, so ``is`` is sufficient.
     return node.op == "div" and node.args[0] is node.space.one
 
 
@@ -122,7 +121,7 @@ class _Gathering:
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return the linear combination of a node as an expression."""
+        """Convert the linear combination ``self.sums[node.id]`` to an expression."""
         if node.id not in self.written:
             # A node may occur in several expressions.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
@@ -132,7 +131,7 @@ class _Gathering:
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
         """Return the term c times ``atom`` as a pair (number, expression).
 
-        For an inverse 1/y the pair is (c/e, e/y), where the first call for 1/y sets e = |c|.
+        If ``atom`` is 1/y, the pair is (c/e, e/y). The first call for 1/y sets e = |c|. Later calls reuse e.
         """
         if not _is_inverse(atom):
             return c, atom
@@ -179,7 +178,7 @@ class _Gathering:
         return {atom.id: (one, atom)}
 
     def _power(self, node: Expr) -> Sum:
-        """Return the linear combination of a node c y^n, where c is a number and y = 1/sqrt x.
+        """Convert a node c y^n to the term c times y^n with a number c and y = 1/sqrt x.
 
         Here y^(2 m) = 1/x^m and y^(2 m + 1) = 1/(x^m sqrt x).
         """
@@ -191,7 +190,7 @@ class _Gathering:
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
-        # The quotient 1/(x^m sqrt x) is fast, because a processor can compute x^m and sqrt x in parallel.
+        # A processor can compute x^m and sqrt x in parallel, unlike 1/sqrt x and its powers.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}
@@ -215,7 +214,7 @@ def _size(c: Number) -> Number:
 
 
 def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
-    """Return the linear combination with the terms ``total`` as an expression."""
+    """Return the sum of c times x over the pairs (c, x) in ``total``."""
     # Terms with the same |c| form a group, which needs only one product.
     groups: dict[object, list[tuple[bool, Expr]]] = {}
     sizes: dict[object, Number] = {}
@@ -230,6 +229,6 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
         for minus, atom in terms[1:]:
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # The factor of a group is never negative, so emitted code does not need both constants c and -c.
+        # The factors ``sizes[key]`` are positive. Thus emitted code does not contain both c and -c.
         result = result - part if first else result + part
     return result

@@ -35,7 +35,7 @@ def negation(condition: Condition) -> Condition:
 
 def both(a: Condition, b: Condition) -> Condition:
     """Return the conjunction of the conditions a and b."""
-    # If condition a is true, condition b selects ``yes`` or ``no``.
+    # If a is true, b selects ``yes`` or ``no``. If a is false, the result is ``no``.
     return lambda yes, no: a(b(yes, no), no)
 
 

@@ -70,7 +70,7 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
             result = component(node.payload)
             if result is None:
                 return _derivatives(node)
-            # The derivative of a vector function consists of many expressions.
+            # Derivatives of vector functions are long, so only the wanted derivatives are computed.
             wanted = [moving is None or a.id in moving for a in node.args]
             return [partial(node, *result, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:
@@ -143,7 +143,7 @@ def _selection(node: Expr) -> list[Expr]:
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # The derivative with respect to a constant a or b is not needed, so 0 is returned for it.
+    # If ``a`` or ``b`` is a constant, the derivative with respect to it is not needed and set to 0.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

@@ -189,8 +189,9 @@ class FloatDomain:
         # with the largest unknown.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # The next change, about ``change``^2/``before``, must be smaller than the rounding error of the
-        # largest unknown. As this estimate is inaccurate, ``change`` itself must also be small.
+        # ``before`` is the previous change. The next change is about ``change``^2/``before``. This estimate
+        # must not exceed the rounding error of the largest unknown. As this estimate is inaccurate,
+        # ``change`` itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Small changes that no longer decrease are rounding errors.
@@ -198,7 +199,7 @@ class FloatDomain:
 
     def increment(self, x: float) -> float:
         """Return the increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
-        # For abs(x) <= 1, the rounding error 2^-53/d is about equal to the truncation error d if d is 2^-26.
+        # For abs(x) <= 1, d = 2^-26 balances the rounding error 2^-53/d and the truncation error d.
         return math.ldexp(max(1.0, abs(x)), -26)
 
 
@@ -299,8 +300,11 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the pair (converged, change), see :meth:`Domain.settled`. The iteration has converged if
-        the change is zero, or if it is at most 2^12 rounding units and no longer decreases."""
+        """Return the pair (converged, change), see :meth:`Domain.settled`.
+
+        ``converged`` is true if the change is zero, or if a change of at most 2^12 rounding units does not
+        decrease.
+        """
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
         # While the change decreases from sweep to sweep, a further sweep gives more correct digits.
@@ -414,7 +418,7 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return the series a/b, or 0 if b is zero. If a/b has a pole at h = 0, ArithmeticError is raised."""
+        """Return the series a/b, with a/0 = 0. If a/b has a pole at h = 0, ArithmeticError is raised."""
         # ``power`` is the exponent of the lowest power of h in b.
         power = self.ring.valuation(b)
         if power > self.order:
@@ -445,14 +449,14 @@ class SeriesDomain:
 
 
 class ExprDomain:
-    """The arithmetic of symbolic expressions. The step size ``h`` is a symbol. This domain does not execute
-    iterations.
+    """The arithmetic of symbolic expressions. The step size ``h`` is a symbol. Iterations cannot be
+    executed: :meth:`settled` raises :class:`NotConverged`.
     """
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The keys are the node numbers of times.
+        # ``samples`` maps the node number of a time t to t and the symbols for this time.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:
@@ -468,8 +472,8 @@ class ExprDomain:
         return self.space.call(function, *args)
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function as expressions. If the function has no scalar formulas for
-        its results, the expressions are calls of the function."""
+        """Return the results of a vector function as expressions. If no simpler expressions are known, the
+        results are calls of the function."""
         expanded = named(function).expanded(args)
         return self.space.vector(function, args) if expanded is None else expanded
 
@@ -477,7 +481,7 @@ class ExprDomain:
         """Return a dictionary from the function names ``names`` to symbols. The symbols denote the values of
         the functions at the time t.
         """
-        # Stages at equal times use the same symbols, so emitted code needs only one value of each function.
+        # Stages at equal times use the same symbols, so each function is evaluated once for each time.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}

@@ -33,7 +33,7 @@ class Elementary:
 
 
 def _of_cosine(x: Expr, f: Expr) -> Expr:
-    # The value f = sinh x is not used, because cosh x is not a polynomial in sinh x.
+    # This is the derivative of sinh.
     return x.space.call("cosh", x)
 
 
@@ -66,7 +66,7 @@ def _cubed(slope: Callable[[Expr, Expr], Expr]) -> Callable[[Expr, Expr], Expr]:
     return lambda x, f: x * slope(x, f) ** 3
 
 
-# ``raising`` is true for sinh and cosh because of large x, and for asin and acos because of abs(x) > 1.
+# Python raises an exception for sinh and cosh of large x, and for asin and acos of x with abs(x) > 1.
 ELEMENTARY = {
     function.name: function
     for function in (

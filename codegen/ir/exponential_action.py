@@ -96,12 +96,12 @@ class ExponentialAction(VectorFunction):
 
     @property
     def places(self) -> tuple[int, ...]:
-        """The indices, counted row by row, of those entries of A that are arguments."""
+        """The indices n i + j of the entries A_ij that are arguments of the function."""
         return tuple(k for k in range(self.n**2) if not self.pattern or self.pattern >> k & 1)
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """For each row of A, a tuple of pairs (k, j). Argument k is the entry in this row and in column j."""
+        """For each row of A, a tuple of pairs (k, j). Argument k of the function is the entry in column j."""
         entries = list(enumerate(self.places))
         return tuple(
             tuple((k, place % self.n) for k, place in entries if place // self.n == i) for i in range(self.n)
@@ -148,7 +148,7 @@ class ExponentialAction(VectorFunction):
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
         both = (*block, *v, *y)
-        # If the block matrix is small, its zero entries are not arguments of the call.
+        # If the block matrix has at most :data:`SPARSE` rows, ``expanded`` omits its zero entries.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
         return tuple(results[:n])
@@ -162,7 +162,7 @@ class ExponentialAction(VectorFunction):
           non-zero entries of A.
         - If A has more rows, the result is None.
         """
-        # If ``pattern`` is not 0, the zero entries of A are not arguments.
+        # If ``pattern`` is not 0, this function already omits the zero entries of A.
         if self.pattern:
             return None
         size = self.n**2
@@ -206,9 +206,9 @@ class ExponentialAction(VectorFunction):
             for k in range(degree, 1, -1):
                 # With m = ``degree``, the next line changes ``weight`` from m!/k! to m!/(k - 1)!.
                 weight *= k
-                # The next line is a step of Horner's rule without a division.
+                # The factor ``weight`` avoids the division by k in Horner's rule.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
-            # Now ``weight`` is m!, so the product of the Taylor polynomial and y is y + A (p/``weight``).
+            # The last step of Horner's rule divides p by ``weight`` = m!.
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
         return tuple(y)
 
@@ -248,8 +248,7 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # If the matrix A_0 of constant terms is nilpotent, A^(n (p + 1)) = 0 with p = ``ring.order``. Each
-        # product in this power contains A_0^n or more than p factors A - A_0.
+        # If the matrix A_0 of constant terms is nilpotent, A^(n (p + 1)) = 0 with p = ``ring.order``.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)
@@ -271,7 +270,7 @@ def _product(
     result = []
     for row in rows:
         terms = [a[k] * y[j] for k, j in row]
-        # If no entry of the row is in ``a``, ``terms`` is empty.
+        # If ``row`` is empty, ``terms`` is empty.
         total = terms[0] if terms else zero
         for x in terms[1:]:
             total = total + x

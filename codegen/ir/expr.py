@@ -38,7 +38,7 @@ FUNCTIONS = (
     "stumpff1",
     "stumpff2",
     "stumpff3",
-    # The functions c_k for positive and negative z.
+    # Stumpff functions c_k(z) for all real z.
     "signed_stumpff0",
     "signed_stumpff1",
     "signed_stumpff2",
@@ -117,7 +117,7 @@ class Space:
     """
 
     def __init__(self) -> None:
-        # The number of a new node is the length of the table, so nodes are never removed from the table.
+        # Nodes are never removed, because the length of the table is the number of the next node.
         self._table: dict[tuple[object, ...], Expr] = {}
         self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
         """A cache: the derivatives of calls of vector functions (see
@@ -195,7 +195,7 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # With a = -x, a later sum y + (-(x + b)) becomes y - (x + b), without a negation.
+            # The difference (-x) - b becomes -(x + b). A later sum y + (-(x + b)) becomes y - (x + b).
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
@@ -219,7 +219,7 @@ class Space:
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
-            # With b = -y, other expressions can share the node a y. A constant a includes the sign instead.
+            # The product a (-y) becomes -(a y), or (-a) y for a constant a.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)

@@ -13,18 +13,17 @@ from codegen.ir.vector_calls import named
 class Formulas(ExprDomain):
     """A domain of expressions in which products and commutators of matrices become scalar formulas.
 
-    The compiler computes the time derivatives of states in this domain, because other libraries need scalar
-    formulas.
+    The compiler computes the time derivatives of states in this domain.
     """
 
     def __init__(self, domain: ExprDomain) -> None:
         super().__init__(domain.space)
-        # This domain and ``domain`` use the same symbols for the values of functions of time.
+        # Functions of time have the same symbols here as in ``domain``.
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function. The results of products and commutators of matrices are
-        scalar formulas.
+        """Return the results of a vector function. For a product or commutator of matrices, each entry is
+        a scalar formula.
         """
         called = named(function)
         if isinstance(called, BilinearFunction):

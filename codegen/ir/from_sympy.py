@@ -34,8 +34,7 @@ JUMPING = ("floor", "ceiling", "frac", "Mod")
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
 """The safe argument of each function, at which the function is finite.
 
-In a branch of a Piecewise formula that is not selected, the safe argument replaces the argument of the
-function.
+If a branch of a Piecewise formula is not selected, its functions are evaluated at their safe arguments.
 """
 
 
@@ -71,7 +70,7 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Convert a sympy expression to a node."""
-        # Each result in ``known`` depends on the guard, so the guard is part of the key.
+        # The result depends on ``guard``, so the key contains the node number of ``guard``.
         key = e, -1 if self.guard is None else self.guard.id
         if key not in self.known:
             self.known[key] = self._read(e)
@@ -96,7 +95,7 @@ class _Reader:
         name = e.func.__name__
         if isinstance(e, sympy.Function) and name in CALLS:
             argument = self.node(e.args[0])
-            # A function that is not in ``SAFE`` needs no guard: it is finite for every finite double.
+            # In ``CALLS``, only the functions in ``SAFE`` can be infinite or undefined at a finite double.
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
@@ -135,7 +134,7 @@ class _Reader:
 
         If x is constant or ``guard`` is None, x is returned.
         """
-        # In a branch that is not selected, a root or a quotient of x could be a NaN.
+        # If the branch is not selected, ``safe`` avoids a NaN, for example from the root of a negative x.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
@@ -169,8 +168,7 @@ class _Reader:
                 where=self.where,
                 expected="a last branch (formula, True)",
             )
-        # ``rest`` is true if the outer branch (if it exists) is selected and all earlier conditions of ``e``
-        # are false.
+        # ``rest`` means: the outer branch is selected, and all earlier conditions of ``e`` are false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
         for formula, condition in e.args:
@@ -183,7 +181,7 @@ class _Reader:
         self.guard = outer
         # The last branch is the default, because its condition is ``True``.
         (_, total) = branches.pop()
-        # In sympy, the first true condition selects the branch, so the loop adds the first choice last.
+        # The first true condition selects the branch, so the first condition is the outermost choice.
         for holds, formula in reversed(branches):
             total = holds(formula, total)
         return total
@@ -215,7 +213,7 @@ class _Reader:
             # A negative power is infinite for the base 0.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # The root and its derivative are finite at the safe base 1.
+            # At the base 1, the root and its derivative are finite.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
             # For odd n > 0, the power x^(n/2) is x^m sqrt(x) with m = (n - 1)/2.
