@@ -42,9 +42,7 @@ class Precision:
 
     @property
     def digits(self) -> int:
-        """The smallest number of significant decimal digits with which different numbers of the format have
-        different decimal texts.
-        """
+        """The smallest number of significant decimal digits that distinguishes all numbers of the format."""
         return 1 + math.ceil(self.bits * math.log10(2))
 
     def scaled(self, tolerance: float) -> float:

@@ -104,7 +104,7 @@ the time t + theta h.
 
 
 SPACE, BODY = "space", "body"
-"""The values of :attr:`Program.frame`, the frame of the momentum in the statements of a program."""
+"""The possible values of :attr:`Program.frame`: the space frame and the body frame."""
 
 
 @dataclass(frozen=True)
@@ -264,7 +264,7 @@ class Builder:
         return self.add(Advance(coefficient), target, t)
 
     def hamilton(self, xi: str, n: str, q: Var, mu: Var, *time: Var) -> tuple[Var, Var]:
-        """Append the assignment of the two derivatives of the Hamiltonian at (q, mu), or at (q, mu, t).
+        """Append the evaluation of the derivatives xi and n of H(q, mu), or of H(q, mu, t).
 
         See :class:`HamiltonianDerivatives`.
         """

@@ -96,7 +96,7 @@ class BodyForce(OfScene):
 class Legendre(OfGroup):
     """The momentum P as a function of the velocity W, both in the body frame."""
 
-    # P is a constant matrix times W, so this operation has no time argument.
+    # The momentum is a constant matrix times the velocity. The matrix does not depend on time.
     name = "legendre"
     takes, gives = A, D
     noun = "Legendre transform{s}"
@@ -133,7 +133,7 @@ class Secant(OfGroup):
     <c, x> = H1 - H0 that is closest to g in the Euclidean norm.
     """
 
-    # The result g + x (H1 - H0 - <g, x>)/<x, x> is one operation, because a program has no branch for x = 0.
+    # The result is g + x (H1 - H0 - <g, x>)/<x, x>. For x = 0, the result is g.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -147,7 +147,7 @@ class Bivector(OfGroup):
     the differential of the energy at y to the vector field f(y) of the problem.
     """
 
-    # For alpha = c beta with a number c, compiler passes may compute c times the result for beta.
+    # The operation is linear in alpha: the result for c alpha is c times the result for alpha.
     name = "bivector"
     linear_in_last = True
     takes, gives = P + D, A
@@ -158,8 +158,8 @@ class Bivector(OfGroup):
 class TaylorStep(Operation):
     """The Taylor polynomial of the solution about the time t, evaluated at t + h.
 
-    The arguments are the state y at the time t and, if ``timed`` is true, t. The result has the coordinates
-    of :mod:`codegen.scene.evolution`.
+    The arguments are the state y at the time t and, if ``timed`` is true, t. The result and y may
+    have different coordinates (:mod:`codegen.scene.evolution`).
     """
 
     degree: int

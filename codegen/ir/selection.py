@@ -4,8 +4,8 @@
 - ``fabs(x)`` is the absolute value of x.
 - A :class:`codegen.ir.table.PiecewisePolynomial` at x selects the polynomial of the interval that contains x.
 
-The argument x may be a power series in the step size. :class:`Kink` is raised if the selected formula
-changes, or may change, at the constant term of the series.
+The argument x may be a power series in the step size. :class:`Kink` is raised if the constant term of the
+series is, or may be, a boundary between two formulas.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 CHOOSE, ABSOLUTE = "choose", "fabs"
 
 SELECTING = (CHOOSE, ABSOLUTE)
-"""The names of the functions that select a formula, without the piecewise polynomials."""
+"""The names of the functions that select a formula by the sign of x."""
 
 
 class Kink(ArithmeticError):
-    """Raised if x is a power series, and the selected formula changes at the constant term of x."""
+    """Raised if the constant term of a power series x is, or may be, a boundary between two formulas."""
 
 
 def selects(function: str) -> bool:

@@ -86,8 +86,8 @@ class Corrected(Operation):
 class Wedge(Operation):
     """The vector (p f - q gamma)/s for a covector gamma, a vector f and numbers p, q and s.
 
-    For s = 0 the result is zero. If p = <gamma, alpha>, q = <f, alpha> and s = |gamma|^2, the bivector
-    (gamma wedge f)/s is applied to the covector alpha (:mod:`codegen.kernel.site_sums`).
+    For s = 0 the result is zero. Let alpha be a covector. For p = <gamma, alpha>, q = <f, alpha> and
+    s = |gamma|^2, the result is the bivector (gamma wedge f)/s times alpha (:mod:`codegen.kernel.site_sums`).
     """
 
     name = "wedge"
@@ -96,6 +96,6 @@ class Wedge(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return (p f - q gamma)/s, where ``args`` is (gamma, f, p, q, s). For s = 0, return zero."""
         gamma, f, p, q, s = args
-        # The quotients p/s and q/s do not depend on the component.
+        # The quotients p/s and q/s are the same for all components of the result.
         along, across = (domain.call("quotient", x, s) for x in (p, q))
         return (tuple(along * a - across * b for a, b in zip(f, gamma, strict=True)),)

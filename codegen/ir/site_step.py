@@ -65,10 +65,10 @@ class Sweep:
 
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
-    - ``outside`` is a kernel for sites at the boundary of the lattice. If the neighbour of load
-      ``read_outside[k]`` does not exist, output k of ``outside`` is used in place of the load.
+    - ``outside`` is a kernel for sites at the boundary of the lattice. If a neighbour does not exist, output
+      k of ``outside`` replaces the number of the load ``read_outside[k]``.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
-      single sites, ``axis`` is :data:`OWN`. The second site of a pair is neighbour 0 of the first site. The
+      single sites, ``axis`` is :data:`OWN`. The second site of a pair is the neighbour with the index 0. The
       second half of ``stores`` contains the rows for the second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
       values g(u). Newton's method stores g(u) - u.
@@ -89,7 +89,7 @@ class Sweep:
 
     @property
     def neighbours(self) -> tuple[int, ...]:
-        """The indices of the neighbours whose numbers the sweep reads, sorted."""
+        """The sorted indices of the neighbours from which the sweep reads numbers."""
         # A site is not its own neighbour.
         return tuple(sorted({load.neighbour for load in self.loads} - {OWN}))
 
@@ -101,7 +101,7 @@ class Sweep:
     @property
     def rows_read(self) -> tuple[Row, ...]:
         """The rows that the sweep reads, without duplicates."""
-        # The numbers of the array ``EXISTS`` are computed, so they are not read from memory.
+        # Numbers with the array name ``EXISTS`` are computed. They are not in memory.
         return tuple(dict.fromkeys(load.row for load in self.loads if load.row.array != EXISTS))
 
     @property
@@ -118,7 +118,8 @@ class SiteNewton:
     has ``size`` unknowns. For each site, ``kernel`` computes three square blocks: the derivatives with
     respect to the unknowns of the left neighbour, of the site, and of the right neighbour.
 
-    In an open chain, the symbol with the name ``exists[k]`` is 1 if neighbour k exists, and 0 otherwise.
+    In an open chain, the symbol with the name ``exists[k]`` is 1 if the neighbour with the index k in
+    :attr:`SiteStep.offsets` exists, and 0 otherwise.
 
     ``matrix``, ``residual`` and ``border`` are indices of rows in the workspace:
 
@@ -148,7 +149,7 @@ class SiteNewton:
         # The matrix of a periodic chain is not block-tridiagonal, because the last site is a neighbour of the
         # first site.
         if periodic:
-            # Linear equations are solved with each of the n columns of the border as right-hand side.
+            # Linear equations are solved for n right-hand sides: the columns for the last site's unknowns.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written
@@ -161,7 +162,7 @@ class SiteNewton:
         n = self.size
         # The linear equations of Newton's method have the residuals as right-hand side.
         read, written = self._substituted()
-        # The solution of these linear equations is added to the unknowns.
+        # The solution of the linear equations is added to the unknowns.
         read, written = read + 2 * n, written + n
         return (read + n * n + n, written + n) if periodic else (read, written)
 
@@ -215,7 +216,7 @@ class SiteStep:
 
     - ``dimension`` is the dimension of the lattice. ``offsets[k]`` is the position of neighbour k relative to
       a site.
-    - ``sweeps`` are the loops over all sites. If ``flows`` is empty, ``sweeps`` has the order of execution.
+    - ``sweeps`` are the loops over all sites. Without ``flows``, they are executed in this order.
     - ``size`` is the number of rows of the state.
     - ``rows`` is the number of rows of the workspace for intermediate results.
     - ``flows`` are the exact flows of a splitting method, in the order of execution. The first flow reads the
@@ -240,7 +241,7 @@ class SiteStep:
 
     @property
     def passes(self) -> tuple[Sweep, ...]:
-        """The sweeps of a step in the order of execution. A sweep of several flows occurs several times."""
+        """The sweeps of a step in the order of execution. A sweep occurs once for each flow that uses it."""
         # A step without flows executes each sweep once.
         return tuple(self.sweeps[flow.sweep] for flow in self.flows) or self.sweeps
 
@@ -307,7 +308,7 @@ class SiteStep:
                 names = ", ".join(name for name, _ in sweep.sums)
                 lines.append(f"  computes the sums over all sites: {names}")
         for block in self.blocks:
-            # The lines number the loops from 1.
+            # In the text, the first loop has the number 1.
             loops = f"loops {block.first + 1} to {block.last + 1} are"
             if block.first == block.last:
                 loops = f"loop {block.last + 1} is"
@@ -336,7 +337,7 @@ def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     If a sweep reads a number several times, the number counts once, because it remains in the cache.
     """
     listed = list(sweeps)
-    # The stopping test reads the rows ``measured``, and each sum over all sites reads one row.
+    # The stopping test reads the rows ``measured``. Each sum in ``sums`` reads the row of its terms.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 

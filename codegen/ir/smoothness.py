@@ -33,8 +33,8 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     """Replace each selection in ``roots`` by one of its formulas.
 
     ``sides[k]`` is the index of the formula that replaces the selection ``nodes[k]``. The result is a pair of
-    lists: the new expressions and the margins. If all margins are positive, the new expressions have the same
-    values as ``roots``.
+    lists: the new expressions, and expressions called margins. If all margins are positive, the new
+    expressions have the same values as ``roots``.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -44,7 +44,7 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
-            # ``args`` contains no selections, so ``value`` and ``more`` contain none.
+            # The selections in the arguments of the node are already replaced.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:
@@ -59,9 +59,9 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return formula ``side`` of the selection ``function(*args)``, and a list of margins.
+    """Return one formula of the selection ``function(*args)``, and a list of expressions called margins.
 
-    If all margins are positive, the selection selects this formula.
+    ``side`` is the index of the formula. If all margins are positive, the selection selects this formula.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
@@ -111,7 +111,7 @@ SHOWN = 3
 
 
 def _argument(node: Expr) -> str:
-    """Return the text of the first argument of a selection, without a minus sign."""
+    """Return the text of the first argument of ``node``. A minus sign before the argument is omitted."""
     x = node.args[0]
     if x.op == "neg":
         (x,) = x.args

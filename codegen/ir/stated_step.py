@@ -32,7 +32,7 @@ class StatedStep(Operation):
         return f"{self.name}({self.step})"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the point M y after the step. ``args`` is the pair (y, t)."""
+        """Return the point after the step. ``args`` is the pair (y, t)."""
         y, t = args
         scene = cast("Problem", problem)
         return (scene.stated_step(domain, self.step, y, t),)

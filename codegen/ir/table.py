@@ -1,7 +1,7 @@
 """Piecewise polynomials of one variable, for functions that the user defines by a table.
 
-Expressions call a piecewise polynomial like the function ``sin``. The name of the function contains a hash of
-the knots and the coefficients.
+In expressions, a piecewise polynomial is a function with a name, as ``sin`` is. The name of the function
+contains a hash of the knots and the coefficients.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ PREFIX = "table_"
 
 
 class PiecewisePolynomial(str):
-    """A piecewise polynomial in x. The object is a string: the name of the polynomial in expressions.
+    """A piecewise polynomial in x. The string itself is the function name in expressions.
 
     The increasing numbers ``knots`` divide the real line into intervals. Interval k begins at
     ``knots[k - 1]`` and ends before ``knots[k]``. On interval k, the polynomial is the sum over j of

@@ -46,7 +46,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 together[key] = function.tangent(node.args, rates)
             known[node.id] = together[key][index]
             continue
-        # ``partials`` is not called for constant arguments, because a function may have no derivative.
+        # If the function has no derivative, ``partials`` raises an error.
         slopes = partials(node)
         total = node.space.zero
         # By the chain rule, the tangent is the sum of partial derivatives times tangents of the arguments.

@@ -35,12 +35,12 @@ from codegen.ir.taylor_series import (
 )
 
 ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
-"""The names of the symbols for n, 1/n, 1/(n + 1) and coefficient n of the time in the loop over n.
-Coefficient n of the time is 1 for n = 1, and 0 for n > 1.
+"""The names of four symbols in the loop over n. They denote n, 1/n, 1/(n + 1), and Taylor coefficient n of
+the time. Coefficient n of the time is 1 for n = 1, and 0 for n > 1.
 """
 
 PROBED = 3
-"""If coefficients 1, ..., ``PROBED`` - 1 of a series are identically zero, the series is constant in time."""
+"""A series counts as constant in time if its coefficients 1, ..., ``PROBED`` - 1 are identically zero."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
 
 def coordinate_names(count: int) -> tuple[str, ...]:
-    """Return ``count`` symbol names, one for coefficient n of each coordinate."""
+    """Return ``count`` symbol names. In the loop over n, name i denotes coefficient n of coordinate i."""
     return tuple(f"coefficient.{i}" for i in range(count))
 
 
@@ -130,7 +130,7 @@ class _Loop:
     positions: dict[int, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # Pass n of the emitted loop computes coefficient n + 1 of each coordinate, so coefficient n is known.
+        # In pass n of the emitted loop, coefficient n of each coordinate is already known.
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
@@ -157,12 +157,12 @@ class _Loop:
         return self.known[id(root)]
 
     def constant(self, series: Series) -> bool:
-        """Return True if a series is constant in time (:data:`PROBED`)."""
+        """Return True if coefficients 1, ..., :data:`PROBED` - 1 of a series are identically zero."""
         # None represents a coefficient that is identically zero.
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return a symbol for ``x``, and add ``x`` to ``first``. If ``x`` is a number, return ``x``."""
+        """Return ``x`` if ``x`` is a number, otherwise a symbol. ``x`` is computed before the loop."""
         if x.op == "const":
             return x
         if x.id not in self.positions:
@@ -172,7 +172,7 @@ class _Loop:
 
     def inner(self, a: Series, b: Series) -> Expr:
         """Return the symbol for the inner sum of a and b, the sum of a_j b_{n-j} over 0 < j < n."""
-        # The inner sum is symmetric in a and b.
+        # The pairs (a, b) and (b, a) have the same inner sum.
         key = min(id(a), id(b)), max(id(a), id(b))
         if key not in self.places:
             self.places[key] = len(self.pairs)
@@ -201,7 +201,7 @@ class _Loop:
             case Sum(a=a, b=b, minus=minus):
                 x, y = (self.known[id(s)] for s in (a, b))
                 if x is None or y is None:
-                    # If an operand is constant in time, its coefficient n is zero.
+                    # If an operand is constant in time, its coefficient n is zero for n > 0.
                     return _known(x) if y is None else -y if minus else y
                 return x - y if minus else x + y
             case Multiple(number=number, a=a):
@@ -226,15 +226,16 @@ class _Loop:
                 return self.function(series)
 
     def function(self, series: Series) -> Expr:
-        """Return coefficient n of ``series``, which is a function of a series, for example its sine."""
+        """Return coefficient n of ``series``, for example of a root, a power or a sine."""
         space = self.space
         match series:
             case Root(a=a):
-                # For the root s with s^2 = a, 2 s_0 s_n is a_n minus the sum of s_j s_{n-j} over 0 < j < n.
+                # For the root s of a, s_n = (a_n - z)/(2 s_0), where z is the sum of s_j s_{n-j} over
+                # 0 < j < n.
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # For p = a^e, a_0 p_n is (e + 1)/n times the sum of j a_j p_{n-j}, minus the sum of
-                # a_j p_{n-j}, both over 0 < j <= n.
+                # For the power p = a^e, p_n = ((e + 1) u/n - v)/a_0. The sums over 0 < j <= n are u and v: u
+                # has the terms j a_j p_{n-j}, and v has the terms a_j p_{n-j}.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -246,12 +247,12 @@ class _Loop:
                 mean = space.sym(INVERSE) * self.beyond(slope, other)
                 return -mean if minus else mean
             case Chosen(test=test, a=a, b=b):
-                # The sign of ``test`` at the beginning of the step selects a or b for all orders.
+                # For all n, a is selected if ``test`` is positive at the beginning of the step, otherwise b.
                 pair = (space.zero if x is None else x for x in (self.known[id(a)], self.known[id(b)]))
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
                 pairs = zip(slopes, rates, strict=True)
-                # The derivative of the angle is p y' - q x', where p and q are the two ``rates``.
+                # The angle of the point (x, y) has the derivative p y' - q x'. The ``rates`` are p and q.
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
@@ -268,7 +269,7 @@ class _Loop:
 
 
 def _operands(series: Series) -> Sequence[Series]:
-    """Return the series whose coefficient n occurs in the formula for coefficient n of ``series``."""
+    """Return the series a for which a_n occurs in the formula for coefficient n of ``series``."""
     match series:
         case Sum(a=a, b=b) | Convolution(a=a, b=b) | Quotient(a=a, b=b):
             return a, b
@@ -282,7 +283,7 @@ def _operands(series: Series) -> Sequence[Series]:
         case Angle(slopes=slopes):
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
-            # The formula for a logarithm contains coefficient j of the series ``slope`` only for j < n.
+            # Coefficient n of a logarithm depends only on lower coefficients of ``slope``.
             return (a,)
         case Given() | Start():
             return ()

@@ -78,7 +78,7 @@ class _Builder:
     def operands(self, node: Expr) -> tuple[Expr, ...]:
         """Return the expressions whose series must exist before the series of ``node`` can be built."""
         _, base, _ = self.monomial(node)
-        # If the node was rewritten as c x^e, its series is built from the series of ``base`` = x.
+        # If the node was rewritten as c x^e, only the series of x is needed. Here x is ``base``.
         if base is not node:
             return (base,)
         if node.op == "div":
@@ -115,7 +115,7 @@ class _Builder:
                 return constants[0] / c, x, -e
             case "pow":
                 ((c, x, e),) = parts
-                # For e = 1, an integer power of c x^e is computed by repeated squaring.
+                # For e = 1, the node is not rewritten. The power is computed by repeated squaring.
                 if e == 1:
                     return plain
                 for _ in range(node.payload - 1):
@@ -129,7 +129,7 @@ class _Builder:
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # If the exponent is 0, 2, 3, ..., the node is not rewritten as one power.
+        # If the exponent is zero or an integer > 1, the node is not rewritten as c x^e.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:
@@ -277,9 +277,8 @@ class Recurrence:
     Coefficient n belongs to s^n in the power series of y(t + s * ``scale``).
 
     - ``symbols`` are the names of the coordinates y, and ``state`` contains their values at the time t.
-    - ``roots`` are the expressions of the derivatives of the coordinates. If there are only m derivatives,
-      they are the derivatives of the first m coordinates. The caller must then use :meth:`append` in place of
-      :meth:`extend`.
+    - ``roots`` are the expressions of the derivatives of the coordinates. The derivatives of the last
+      coordinates may be omitted. The caller must then use :meth:`append` in place of :meth:`extend`.
     - ``values`` are the values of all other symbols, including the time ``t``.
     """
 
@@ -313,14 +312,14 @@ class Recurrence:
         return [coordinate.terms for coordinate in self.coordinates]
 
     def following(self, n: int) -> list[Coefficient]:
-        """Return coefficient n + 1 of each coordinate whose derivative is given in ``roots``. All
+        """Return Taylor coefficient n + 1 of each coordinate with a derivative in ``roots``. All
         coefficients up to n must be known.
         """
         factors: dict[object, Scalar] = {}
         new = []
         for number, slope in self.slopes:
             number = number * Number.rational(1, n + 1)
-            # Coordinates with the same ``number`` share the product of ``number`` and ``scale``.
+            # The product of ``number`` and ``scale`` is computed once for each value of ``number``.
             if number.key not in factors:
                 factors[number.key] = self.domain.number(number) * self.scale
             new.append(multiplied(factors[number.key], slope.term(n)))

@@ -59,7 +59,7 @@ class Given(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return None. All nonzero coefficients of a ``closed`` series are already in ``terms``."""
-        # For a coordinate, ``closed`` is false, because the coefficients are appended one by one.
+        # The series of a coordinate is not ``closed``: its coefficients are appended one by one.
         assert self.closed, f"coefficient {n} is unknown"
         return None
 
@@ -157,7 +157,7 @@ class Power(Series):
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self._first(self.a.term(0))
-        # The recurrence follows from the differential equation a p' = e a' p.
+        # The power p = a^e satisfies the differential equation a p' = e a' p.
         terms = []
         for j in _late_last(n, range(1, n + 1)):
             # The factor can be zero, for example for e = 1/2, n = 3 and j = 2.
@@ -200,7 +200,7 @@ class Slope(Series):
         self.a = a
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n: the product n a_n, or None for n = 0."""
+        """Return n a_n, where a_n is coefficient n of the series a. For n = 0, return None."""
         return _scaled(self.domain, Number.rational(n), self.a.term(n)) if n else None
 
 
@@ -225,7 +225,7 @@ class Logarithm(Series):
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
         self.a = a
-        # The recurrence follows from a l' = a', where l is the logarithm.
+        # The logarithm l of a satisfies the differential equation a l' = a'.
         self.slope = Slope(domain, self)
         self.inverse: Scalar = None
 
@@ -258,11 +258,11 @@ class Antiderivative(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of f(a).
 
-        For n > 0, coefficient n is the sum of j a_j r_{n-j}/n over 0 < j <= n.
+        Let r be the series ``rate``. For n > 0, the result is the sum of j a_j r_{n-j}/n over 0 < j <= n.
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # The sum contains only the coefficients 0, ..., n - 1 of ``rate``, so ``rate`` may depend on f(a).
+        # The series ``rate`` may depend on f(a). Only its coefficients 0, ..., n - 1 are needed.
         return _mean(self.domain, self.slope, self.rate, n)
 
 
@@ -309,7 +309,7 @@ class Angle(Series):
         """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
-        # The first mean is the sum with y_j, and the second mean is the sum with x_j.
+        # The ``means`` are the sums of j y_j p_{n-j}/n and of j x_j q_{n-j}/n over 0 < j <= n.
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
         return _subtract(*means)
 

@@ -1,4 +1,4 @@
-"""The operation that updates the momentum conjugate to the time after a linear step y -> M(t) y."""
+"""The update of the momentum conjugate to the time, for a linear step y -> M(t) y."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class TimeMomentum(Operation):
     noun = "evaluation{s} of the momentum conjugate to the time"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return Y with the new value of u."""
+        """Return the point (Y, u) with the new value of the momentum u."""
         start, end, t = args
         # Only expressions can be differentiated.
         if isinstance(domain, ExprDomain):
@@ -44,7 +44,7 @@ class TimeMomentum(Operation):
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
         """Return the increase of the momentum u as a scalar of ``domain``."""
-        # The step is computed with symbols for y and t, because Y is differentiated with respect to t.
+        # The point after the step is differentiated with respect to t. Hence y and t are symbols.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")

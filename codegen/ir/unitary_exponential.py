@@ -37,10 +37,10 @@ parts of all entries, followed by the imaginary parts.
 """
 
 PLACES = ((0, 1), (0, 2), (1, 2))
-"""The indices (j, k) of the entries above the diagonal, in the order of the coordinates of X."""
+"""The indices (j, k) of the entries above the diagonal of a 3 x 3 matrix, row by row."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real 6 x 6 matrices, for mpmath numbers and power series."""
+"""The exponential of a 6 x 6 matrix. The entries are mpmath numbers or power series."""
 
 
 def most_squarings(bits: int) -> int:
@@ -91,7 +91,7 @@ class SpecialUnitaryExponential(VectorFunction):
         ``args`` are the coordinates of X, and ``rates`` are their derivatives.
         """
         zero = args[0].space.zero
-        # ``embedded`` is linear.
+        # ``embedded`` is linear in the coordinates, so ``embedded`` of ``rates`` is the derivative.
         both = (*embedded(args, zero), *embedded(rates, zero))
         # ``MatrixExponential(n, 1)`` returns the entries of the exponential, then the entries of its first
         # derivative.
@@ -203,8 +203,8 @@ def determinant(x: Sequence[Any]) -> Any:
     middle = x[7] - x[6]
     # The determinant contains the product H_12 H_23 H_31 and its complex conjugate.
     product = (b * f - a * e) * d + (a * f + b * e) * c
-    # The other terms are d_1 d_2 d_3 - d_1 |H_23|^2 - d_2 |H_13|^2 - d_3 |H_12|^2 with the diagonal entries
-    # d_j of H.
+    # Let d_j be the diagonal entries of H. The remaining terms of the determinant are
+    # d_1 d_2 d_3 - d_1 |H_23|^2 - d_2 |H_13|^2 - d_3 |H_12|^2.
     diagonal = first * (middle * last - (e * e + f * f)) - middle * (c * c + d * d)
     return (product + product) + (diagonal - last * (a * a + b * b))
 
@@ -243,7 +243,7 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         # The entries (j, k) of the two linear combinations are p + i q and r + i s.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
-        # Both linear combinations are Hermitian, so their entries (k, j) are p - i q and r - i s.
+        # Both matrices are Hermitian. Their entries (k, j) are p - i q and r - i s.
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
         real[ROWS * k + j], imaginary[ROWS * k + j] = p + s, r - q
     return [*real, *imaginary]

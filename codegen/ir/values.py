@@ -43,8 +43,7 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # If the interval that contains a number does not decide the question, ``is_zero`` and ``is_one`` are
-    # False.
+    # If it is unknown whether ``value`` is 0, ``is_zero`` is False. The same holds for 1 and ``is_one``.
     @property
     def is_zero(self) -> bool:
         """True if the coefficient is provably zero."""
@@ -52,7 +51,7 @@ class Coefficient:
 
     @property
     def is_one(self) -> bool:
-        """True if the coefficient is provably 1, without a power of h."""
+        """True if ``value`` is provably 1 and ``power`` is 0."""
         return self.power == 0 and self.value.is_one
 
     def text(self) -> str:

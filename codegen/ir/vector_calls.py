@@ -32,7 +32,7 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
     "commutator": MatrixCommutator,
     "expsu": SpecialUnitaryExponential,
 }
-# If bit k of the hexadecimal number 1f in ``expmv5_1f`` is 0, entry k of the matrix is zero.
+# In ``expmv5_1f``, 1f is a hexadecimal number. If its bit k is 0, entry k of the matrix (row by row) is zero.
 _ACTION = re.compile(r"expmv(\d+)(?:_([0-9a-f]+))?")
 # In ``expm3_d1``, the number after ``_d`` is the level: the highest order of the derivatives in the result.
 _NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
@@ -73,7 +73,7 @@ def component(payload: str) -> tuple[VectorFunction, int] | None:
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)
     """
-    # Names of other functions contain no dot.
+    # Only the name of a result of a vector function contains a dot.
     name, dot, index = payload.partition(".")
     function = vector_function(name) if dot else None
     return None if function is None else (function, int(index))

@@ -91,7 +91,7 @@ def compiled(
     The function ``refusal`` returns the error that is raised for a method with implicit stages.
     """
     lowered = lower(model, method)
-    # ``blocks.run`` replaces the blocks of explicit stages by assignments.
+    # ``blocks.run`` replaces explicit stages by assignments. Other statements are implicit stages.
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
         expected = "an explicit method for a scene with large matrices"
         raise refusal(scene, f"{method.label} has implicit stages", expected)
@@ -246,7 +246,7 @@ class _Builder:
             self.body.append(Multiplication(target, columns, displacement, added=True))
 
     def evaluated(self, target: Var, point: Var, *time: Var) -> Matrix:
-        """Append the evaluation of the field at ``point``, and return the core of the field value."""
+        """Append statements for the field value B S B^T at ``point``. Return the matrix S, called core."""
         n, k, name = self.matrices.rows, self.k, target.name
         displacement, x = self.points[point], self.argument
         if displacement is not None:
@@ -273,13 +273,13 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append the computation of the core S of the field at a point X, and return S.
+        """Append the computation of the matrix S in the field value B S B^T at a point X, and return S.
 
         The point is X = X_0 + B D with the ``displacement`` D. If D is zero, ``displacement`` is None. The
         matrix W consists of the k columns of B that begin at the index ``first``. The field at X is the
         element W X^T - X W^T of the algebra.
 
-        The matrices J and E select columns of the basis: X_0 = B J and W = B E. With C = J + D, the core of
+        The matrices J and E select columns of B: X_0 = B J and W = B E. With C = J + D, the core of
         the field is S = E C^T - C E^T.
         """
         k = self.k
@@ -289,7 +289,7 @@ class _Builder:
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
-            # The matrix E D^T - D E^T consists of D^T in the last k rows and -D in the last k columns.
+            # D contributes two separate blocks: D^T in the last k rows, and -D in the last k columns.
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
@@ -297,7 +297,7 @@ class _Builder:
         return core
 
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
-        """Return ``statement`` with the values of the time ``t`` and of the fixed parameters inserted."""
+        """Return ``statement`` at the time ``t``. The values of the fixed parameters are inserted, too."""
         values = {**self.scene.scalars(self.domain, t)}
         # The symbols ROW and COLUMN are not replaced, because they are loop variables in the emitted code.
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
@@ -314,7 +314,7 @@ class _Builder:
             case Apply(constant=constant):
 
                 def entry(given: Entry) -> Entry:
-                    # A tuple contains only numbers, so nothing is inserted.
+                    # A tuple contains only numbers. It is not changed.
                     return given if isinstance(given, tuple) else now(given)
 
                 diagonals = tuple(replace(d, entry=entry(d.entry)) for d in constant.diagonals)
@@ -325,17 +325,16 @@ class _Builder:
                 return statement
 
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
-        """Append the computation of a linear combination of cores, and return the result.
+        """Append the computation of a linear combination of the matrices in ``terms``, and return the result.
 
-        The result has the size of the largest core.
+        The result has the size of the largest matrix.
         """
         # A smaller core S is extended by zero rows and columns, which do not change the element B S B^T.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
-        """Append the computation of the bracket of the elements with the cores ``x`` and ``y``, and return
-        its core.
+        """Append the computation of S in the bracket [B x B^T, B y B^T] = B S B^T, and return S.
 
         With the Gram matrix G = B^T B and N = x G y, the core of the bracket is S = N - N^T.
         """
@@ -365,7 +364,7 @@ class _Builder:
         return self.combination(name, terms)
 
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
-        """Append the computation of the point exp(B S B^T) X, and return the displacement of this new point.
+        """Append the computation of the point exp(B S B^T) X = X_0 + B D, where ``core`` is S. Return D.
 
         ``start`` is the displacement of X, or None if the displacement is zero.
         """
