@@ -66,7 +66,7 @@ class Assignments:
             # If ``remembers`` is true, the start statement has already set the first values.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # If ``block.leading`` is true, Newton's matrix must not use names from the loop body.
+            # If ``block.leading`` is true, Newton's matrix is computed before the first sweep.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
             # Values in ``block.kept`` that no later expression reads are skipped.
@@ -77,8 +77,8 @@ class Assignments:
                     inside.append(Let(name, value))
             # If ``block.leading`` is false, Newton's matrix can use names from the loop body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # In the last sweep, Newton's method changes the unknowns after the loop body. For equations of
-            # the form u = g(u), the values of the body are computed again only if the cost is low.
+            # In the last sweep, Newton's method changes the unknowns after the loop body. If ``recomputed``
+            # is true, the values of the body are computed again after the loop.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -123,25 +123,25 @@ class Assignments:
 
     def _start(self) -> Start:
         """Return the statement that sets the first values of all unknowns."""
-        # If solutions of earlier steps are stored, a step skips the assignments in the start statement.
+        # ``later`` contains the subexpressions that the loops and the outputs use.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
         # All first values are set before the first loop, so no first value may depend on an unknown.
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a first value depends on the unknowns of a loop")
         for node in walk(values):
-            # If other statements read a value, it is assigned before the start statement.
+            # A step can skip the start statement, so the values in ``later`` are assigned before it.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
-        # No other statement may use the names in the start statement, so ``done`` must not contain them.
+        # The start statement can be skipped, so the loops and the outputs must not use its names.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 
     def _newton(self, block: Block) -> Newton:
         """Return the matrix of Newton's method for ``block``, and the assignments that compute it."""
-        # Not every sweep computes the matrix, so other statements must not use the names in ``own``.
+        # ``done`` is restored below, so no other statement uses the names in ``own``.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
@@ -159,8 +159,8 @@ class Assignments:
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
-        """Return the cost of the operations in ``roots`` with the level k (:meth:`_prepare`)."""
-        # Values with a higher level are always computed after loop k, so they cause no additional cost.
+        """Return the cost of the level-k operations in ``roots`` (:meth:`_prepare` defines the level)."""
+        # Operations with a higher level depend on later loops and are not counted.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 

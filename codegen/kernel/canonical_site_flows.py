@@ -31,8 +31,8 @@ Word = Sequence[tuple[Summand, Number]]
 COPY = "the state is copied"
 """The description of a sweep that copies the state.
 
-A copy is added before the first or after the last sweep of a step, if this sweep reads neighbours or visits
-pairs of sites.
+A copy is added before the first sweep if the first sweep reads neighbours or visits pairs of sites. By the
+same rule, a copy is added after the last sweep.
 """
 
 
@@ -45,7 +45,7 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
-        # The time advances after the last flow of a summand, so all flows of the summand start at one time.
+        # All flows of a summand start at the same time. Only the flows of ``carrier`` advance the time.
         elapsed = elapsed + duration if summand is carrier else elapsed
     # Except for kicks, no exact flow of a time-dependent summand is known.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
@@ -72,7 +72,7 @@ def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteF
     """
     assert scene.sites is not None
     ends = [k for k in (0, -1) if not flows or not _over_sites(sweeps[flows[k].sweep])]
-    # A step consists of flows, so the copy of the state is represented by a flow with duration zero.
+    # A copy of the state is represented by a flow with duration zero.
     if ends:
         sweeps = [*sweeps, _copy(scene, label)]
         copied = SiteFlow(len(sweeps) - 1, 0, Number.rational(0))
@@ -102,7 +102,7 @@ def _copy(scene: Problem, label: str) -> Sweep:
 def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
     """Return the sweep for flows that act on each site separately.
 
-    In the kernel of the sweep, h is the duration of the first flow.
+    In the kernel of the sweep, all durations are multiples of the first duration h.
     """
     ends = _moved(scene, SharedArguments(), run)
     loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))
@@ -111,7 +111,10 @@ def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
 
 
 def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
-    """Return the sweep for successive kicks. In its kernel, h is the duration of the first kick."""
+    """Return the sweep for successive kicks.
+
+    In the kernel of the sweep, all durations are multiples of the first duration h.
+    """
     sites = scene.sites
     assert sites is not None
     domain = SharedArguments()

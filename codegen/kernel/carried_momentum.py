@@ -1,9 +1,9 @@
 """Conversion of the momentum between the space frame and the body frame.
 
-If only the emitted code uses the body frame, each step converts the momentum. If only the program of a step
-uses the body frame, a run of several steps converts the momentum at its beginning and at its end
-(:class:`codegen.ir.kernel.Carried`). In this case, the option ``whole`` makes each step convert the momentum
-instead.
+Emitted code is compiled from a program. If only the emitted code uses the body frame, each step converts the
+momentum. If only the program uses the body frame, the momentum is converted before the first step and after
+the last step (:class:`codegen.ir.kernel.Carried`). In this case, the option ``whole`` makes each step convert
+the momentum instead.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ State = tuple[Expr, ...]
 class Frames:
     """The frames of the momentum in a program and in emitted code.
 
-    ``whole`` is used if only the program uses the body frame. If ``whole`` is true, each step converts the
-    momentum.
+    ``whole`` matters only if the program uses the body frame and the emitted code uses the space frame. If
+    ``whole`` is true, each step converts the momentum.
     """
 
     scene: Problem
@@ -35,7 +35,7 @@ class Frames:
 
     @property
     def _alike(self) -> bool:
-        """True if the program and the emitted code use the same frame for momenta."""
+        """True if ``program`` and the emitted code use the same frame for momenta."""
         # If the scene has a body group, the emitted code stores the momentum in the body frame.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
@@ -53,7 +53,7 @@ class Frames:
         if self.scene.body_group is not None:
             # The body momentum mu is converted to the space momentum Ad*_{q^-1} mu.
             return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
-        # If ``whole`` is false, the momentum was converted before the first step of the run.
+        # If ``whole`` is false, the momentum in ``state`` is already in the body frame.
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
@@ -62,7 +62,7 @@ class Frames:
         ``state`` is the old state in the frame of the emitted code. ``start`` is the old state in the frame
         of the program.
         """
-        # For a method without an embedded solution, ``new`` can be empty.
+        # ``new`` is the new state or the embedded solution, and is () if no embedded solution exists.
         if self._alike or not new:
             return new
         # The group element q does not depend on the frame, so only the momentum is converted.
@@ -71,8 +71,8 @@ class Frames:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
         if not self.whole:
             return new
-        # ``outward`` adds the difference of two converted momenta, in which the rounding errors of q nearly
-        # cancel.
+        # ``outward`` converts the momenta in ``start`` and ``new`` to the space frame. The difference of
+        # the results is added to the old momentum.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 

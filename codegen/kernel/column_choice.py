@@ -22,8 +22,8 @@ from codegen.scene.problem import Problem
 CALL = 10
 """The cost of a function call, relative to an arithmetic operation.
 
-The number was chosen with ``benchmarks/emitted.py``. The value 20 changes no emitted file, and the value 5
-changes the code of five explicit methods (``orderconds regenerate --check``).
+The number was chosen with ``benchmarks/emitted.py``. With the value 20, the emitted files are the
+same. With the value 5, the code of five explicit methods changes (``orderconds regenerate --check``).
 """
 
 WIDTH = 8
@@ -35,23 +35,21 @@ changes the code of ``rkmk:rk4`` on free_rigid_body and of one splitting (``orde
 
 
 def fastest(program: Program, scene: Problem) -> Kernel:
-    """Return the kernel of a program for the variant of the group with the fastest step.
+    """Return the kernel of ``program`` for the fastest variant (implementation) of the group.
 
     Variants are compared only for explicit programs that contain flows or integrate a field on T*G.
     """
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # Without flows and without a cotangent bundle, all variants of the group give the same kernel.
+    # Without flows and T*G, the kernel is the same for all implementations of the group.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # If the scene has run-time inputs, no flow is deferred, because each step samples the inputs.
+    # A deferred flow cannot sample the run-time inputs of each step.
     parted = None if scene.inputs else part(program, scene)
-    # Deferred flows are applied once in a run of many steps, so the variants are compared without these
-    # flows.
+    # Deferred flows are applied once in a run of many steps, so their cost is neglected.
     core = program if parted is None else parted.core
-    # The formulas of the group and of the scene can share subexpressions, so the cost of a step is not the
-    # sum of their costs.
+    # The group and the scene can share subexpressions, so the costs of whole steps are compared.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice, with and without shortening of the critical path.
     for group in scene.group.variants():
@@ -80,7 +78,7 @@ def time(kernel: Kernel) -> tuple[float, int]:
     A function call counts as :data:`CALL` operations.
     """
     nodes = walk(kernel.expressions())
-    # A change of sign is usually combined with an addition.
+    # Changes of sign are not counted: they are usually combined with additions.
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
     # The estimate is the length of the critical path, plus the number of operations divided by the
     # throughput.

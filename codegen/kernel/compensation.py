@@ -1,7 +1,7 @@
 """Compensated steps: the state together with the rounding error of each coordinate (Kahan summation).
 
-Compensation stores the rounding error of each sum y0 + d, called the carry. A step with the increment d
-computes s = d + carry, y1 = y0 + s and the new carry s - (y1 - y0).
+The carry is the stored rounding error of the sum y0 + d. A step with the increment d computes s = d + carry,
+y1 = y0 + s and the new carry s - (y1 - y0).
 
 The increment of a step exp(x) y0 of a group action is (exp(x) - 1) y0, and exp(x) - 1 is computed without
 cancellation.
@@ -48,7 +48,7 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
 
 
 def with_carries(kernel: Kernel) -> Kernel:
-    """Return a kernel with a carry, the stored rounding error, for each coordinate."""
+    """Return ``kernel`` extended by the carry (rounding error) of each coordinate."""
     space = kernel.outputs[0].space
     increments = Increments(kernel)
     symbols = [s for field in kernel.state for s in field.symbols]
@@ -69,7 +69,7 @@ def with_carries(kernel: Kernel) -> Kernel:
             Let(f"added_{name}", added + space.sym(CARRY + name)),
             Let(f"sum_{name}", old + space.sym(f"added_{name}")),
         ]
-        # If ``total`` were the formula of the sum, ``total - old`` would be simplified to the increment.
+        # ``total`` is a symbol, because the formula (old + d) - old would be simplified to d.
         total = space.sym(f"sum_{name}")
         sums.append(total)
         carries.append(space.sym(f"added_{name}") - (total - old))
@@ -82,7 +82,7 @@ def with_carries(kernel: Kernel) -> Kernel:
         state=(*kernel.state, *fields),
         body=_live(body, (*sums, *carries)),
         outputs=(*sums, *carries),
-        # No flow is deferred, because a deferred flow would change the state without updating the carries.
+        # A flow outside of the steps would not update the carries, so no flow is deferred.
         deferred=None,
         estimate=None,
         vary=None,

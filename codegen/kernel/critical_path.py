@@ -31,22 +31,22 @@ ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
 
 SLACK = 1
-"""The largest difference between the longest chain and a rewritten chain, in latencies of an addition.
+"""A chain of operations is rewritten if the longest chain exceeds it by at most this limit.
 
-The limits 0, 2 and 4 give the same emitted files. Without a limit, the emitted splittings for fast_heavy_top
-differ.
+The unit is the latency of an addition. The limits 0, 2 and 4 give the same emitted files. Without a limit,
+the code of the splitting methods on fast_heavy_top changes.
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
 """A sum of products, each with at most one late factor (a factor that depends on a slow operation).
 
-The keys are the late factors, or None for the product without a late factor. A value contains a sign, the
+The key of a product is its late factor, or None if it has no late factor. A value contains a sign, the
 product of the factors that are constant in a run, and the product of the other factors.
 """
 
 
 def chain(kernel: Kernel) -> int:
-    """Return the length of the critical path in latencies of an addition."""
+    """Return the length of the critical path. The unit is the latency of an addition."""
     # A symbol is ready when its assigned value is ready.
     ready: dict[int, int] = {}
     for let in kernel.lets():
@@ -65,14 +65,14 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     for let in lets:
         times.append(_measured(let.value, ready))
         ready[let.value.space.sym(let.name).id] = times[-1]
-    # Assignments with equal times keep their order, so each name is assigned before it is read.
+    # A value is never ready before its arguments. Assignments with equal times keep their order.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 
 def _measured(root: Expr, ready: dict[int, int]) -> int:
     if root.id in ready:
         return ready[root.id]
-    # ``walk`` also yields the nodes with known times at which the walk stops.
+    # ``walk`` stops at nodes with known times, and also yields these nodes.
     for node in walk([root], lambda n: n.id in ready):
         if node.id not in ready:
             ready[node.id] = max((ready[a.id] for a in node.args), default=0) + TIMES[node.op]
@@ -83,7 +83,7 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
     """Shorten the longest chains of operations in ``roots``, and return the new expressions.
 
     ``invariant`` names the symbols that are constant in a run. Products of these symbols are formed first. If
-    ``spread`` is false, no other operations are rewritten.
+    ``spread`` is true, the longest chains are also rewritten as sums of products.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 
@@ -130,12 +130,12 @@ class _Chains:
         self.fixed[node.id] = all(self.fixed[a.id] for a in node.args) if node.args else own
 
     def rewritten(self) -> tuple[Expr, ...]:
-        """Return the expressions ``roots`` with shortened chains."""
-        # If ``spread`` is false, only constant factors are combined.
+        """Return ``roots`` with shortened chains of operations."""
+        # If ``spread`` is false, no node is expanded to a sum of products.
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # A simplification would change the rounding errors, so ``_make`` is called.
+            # ``_make`` does not simplify, because a simplification would change the rounding errors.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
@@ -152,26 +152,24 @@ class _Chains:
         ends = set()
         for node in self.nodes:
             for arg in node.args:
-                # The chains through ``arg`` and ``node`` are too short to be rewritten.
+                # A chain is not rewritten if it is much shorter than the longest chain.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
                 # For a square ``arg * arg``, ``others`` is empty.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # If the other factor of a product has a lower level, the product is linear in the late
-                # factors of ``arg``.
+                # A product counts as linear in ``arg`` if the other factor has a lower level.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # A linear ``node`` of the level ``late`` is expanded together with ``arg``.
+                # If ``node`` is linear and has the same level, its expansion includes ``arg``.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a :data:`Sum` whose late factors have the given ``level``."""
-        # The key contains the id of ``self.new[node.id]``, because this entry changes when ``node`` is
-        # expanded.
+        """Return ``node`` as a :data:`Sum`. The late factors are nodes with the given ``level``."""
+        # When ``node`` is expanded, ``self.new[node.id]`` changes. Therefore its id is part of the key.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -179,7 +177,7 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # A node with a lower level contains no late factor.
+        # A node with a level below ``level`` contains no late factor.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
@@ -189,12 +187,12 @@ class _Chains:
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
-                # For a late factor c, c x + c y = c (x + y).
+                # Products with the same late factor c are added: c x + c y = c (x + y).
                 total[atom] = self._joined(total[atom], term) if atom in total else term
             return total
         if node.op == "mul":
             a, b = node.args
-            # The product is expanded if one of its arguments, called ``a``, contains no late factor.
+            # A product is expanded if the level of one argument, called ``a``, is below ``level``.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
@@ -203,11 +201,11 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # A node that cannot be expanded is itself a late factor.
+        # Each other node is a late factor of the :data:`Sum`.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Return the sum of two values of a :data:`Sum`, both with the same late factor."""
+        """Return the sum of ``a`` and ``b``. These values of a :data:`Sum` have the same key."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
@@ -231,7 +229,7 @@ class _Chains:
         return value if sign > 0 else self._known(-value)
 
     def _combined(self, node: Expr) -> Expr:
-        """Return ``node`` with the factors that are constant in a run multiplied first."""
+        """Return ``node``. In a product, the factors that are constant in a run are multiplied first."""
         if node.op != "mul":
             return node
         # For fixed c1 and c2, c1 (c2 x) becomes (c1 c2) x.

@@ -26,7 +26,7 @@ from codegen.scene.problem import Problem
 class Parted:
     """The three programs for the beginning, the steps and the end of a run.
 
-    - ``begin`` is executed before the first step, and is None if no flows are joined.
+    - ``begin`` is executed before the first step. It is None if no flows of successive steps are joined.
     - ``core`` is executed in each step. The duration of a joined flow in ``core`` is the variable
       :data:`LEAD`.
     - ``last`` * h is the value of LEAD in the last step of a run, and ``later`` * h in all other steps.
@@ -53,7 +53,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # ``commute`` uses sample points, because the symbolic Lie bracket of commuting flows does not always
     # simplify to zero.
     commute = commuting(scene)
-    # If a flow reads a stage time or has a duration other than h, all flows of its part remain in the steps.
+    # A part is not deferred if one of its flows reads a stage time or has a duration other than h.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     kept = [letter for letter in letters if letter.part not in free]
@@ -63,15 +63,14 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # The two durations are equal in all entries of ``joined``.
+    # All entries of ``joined`` have the same two durations.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
-    # Each flow in ``tails`` follows a leading flow of its own part, so no flow is in both sets.
+    # ``heads`` are the indices of the leading flows, and ``tails`` are those of the final flows.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
-    # The core omits the flows in ``heads``, because the flows in ``tails`` of the previous step include them.
+    # The previous step has already applied the flows in ``heads``, so the core omits them.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
-    # For the vector field X of a part in ``free``, one flow replaces the flows of n steps: exp(h X)^n =
-    # exp(n h X).
+    # One flow replaces the flows of a part in n steps: exp(h X)^n = exp(n h X) for a vector field X.
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
     return Parted(
         verify(_program(program, first)) if first else None,
@@ -101,7 +100,7 @@ def _is_h(letter: Letter) -> bool:
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow with the variable that replaces its duration, or with None."""
+"""A flow, and the variable that replaces its duration. None keeps the duration."""
 
 JoinedFlows = tuple[int, int, Number, Number]
 """A leading flow of a step and a final flow of the previous step, which are joined into one.
@@ -114,8 +113,8 @@ of both durations.
 def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
-    """Return the pairs of flows that are joined into one flow (:data:`JoinedFlows`)."""
-    # The time t + h of a step is the time t of the next step, so flows at these times can be joined.
+    """Return pairs of flows. Each pair is joined into one flow (:data:`JoinedFlows`)."""
+    # The time t + h at the end of a step is the time t of the next step.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
     pairs: list[JoinedFlows] = []
@@ -152,11 +151,11 @@ def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     # ``body`` begins with the assignments of all stage times.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
-    # All inputs except t and h, which have the kind REAL, form the state.
+    # The inputs t and h have the kind REAL. All other inputs form the state.
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)
     for number, (letter, duration) in enumerate(letters):
         targets = tuple(Var(f"{v.name}{number + 1}", v.kind) for v in first)
-        # The duration of FlowOf is c h with a number c, so a variable duration needs FlowFor.
+        # FlowOf has the duration c h with a number c. FlowFor reads its duration from a variable.
         operation: Operation = FlowOf(letter.part, letter.duration, bool(letter.time))
         args = (*state, *letter.time)
         if duration is not None:

@@ -23,15 +23,15 @@ from codegen.passes.rewrite import uses
 MANY = 12
 """The largest number of unknowns for which all products of sums in Newton's matrix are expanded.
 
-For few unknowns, the values of unexpanded sums would occupy registers that the sweeps need. The kernel of
-vcf:cf4 on dipole (12 unknowns) has 472 assignments with the expanded matrix, and 439 without the expansion.
+An unexpanded sum is computed before the loop and occupies a register in all sweeps. For vcf:cf4 on dipole
+(12 unknowns), the expansion increases the number of assignments from 439 to 472.
 """
 
 LONGEST_MATRIX = 1500
 """The largest number of operations for the exact matrix of Newton's method. A matrix with more operations is
 replaced by its expansion to first order in h.
 
-A limit of 6000 gives the same emitted kernels.
+The limit 6000 does not change the emitted kernels.
 """
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
@@ -46,8 +46,9 @@ class Block:
     - ``images`` are the values g(u), or the residuals r(u) if the equations are r(u) = 0.
     - ``matrix`` is Newton's matrix, or its inverse if ``inverted`` is true.
     - ``leading`` is true for the simplified Newton method, which computes the matrix before the first sweep.
-    - ``changes`` has one name for each unknown: the variable for the change of the unknown in the last sweep.
-    - ``kept`` contains names, and expressions that each sweep computes for the statements after the loop.
+    - ``changes`` are the names of the changes of the unknowns in the last sweep.
+    - ``kept`` contains pairs (name, expression). Each sweep assigns the expression to the name. Statements
+      after the loop read the name.
     """
 
     label: str
@@ -68,7 +69,7 @@ class Block:
 def compared(
     block: Solve, entered: Block, env: dict[Var, Any], name: Callable[[str], str], program: Program
 ) -> Block | None:
-    """Return the block ``entered`` with residuals r(u) in place of the images g(u), and with Newton's matrix.
+    """Return ``entered`` with Newton's matrix. The images g(u) are replaced by the residuals r(u).
 
     The matrix is -r'(u), expanded to first order in h. The result is None if ``block`` has no residuals, or
     if the residuals cannot be expanded in h.
@@ -96,7 +97,7 @@ def compared(
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
-        # Corrections are added to values in vector spaces only.
+        # A correction is a sum, so only values in vector spaces are corrected.
         if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
@@ -127,7 +128,7 @@ def compared(
 
 
 def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
-    """Return the sums and differences in ``env``, without the values of the variables in ``inside``."""
+    """Return the sums and differences in ``env``. The variables in ``inside`` are skipped."""
     values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
     return [x for x in values if x.op in ("add", "sub")]
 
@@ -157,11 +158,11 @@ def with_matrix(block: Block, solver: str) -> Block:
     """Return the block with the matrix of Newton's method.
 
     The matrix is expanded to first order in h if ``solver`` is SIMPLIFIED_NEWTON, or if the exact matrix has
-    more than LONGEST_MATRIX operations of its own.
+    more than LONGEST_MATRIX operations. Operations that also occur in g(u) are not counted.
     """
     leading = solver == SIMPLIFIED_NEWTON
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
-    # With the first-order matrix the iteration needs more sweeps, but a sweep is much shorter.
+    # The expansion requires more sweeps, but each sweep has far fewer operations.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:
         rows = newton.leading_matrix(block.images, block.unknowns)
     # A small matrix is inverted by formulas, and a larger matrix by elimination at run time.
@@ -172,7 +173,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
-    """Return the number of operations in the matrix ``rows`` that do not occur in ``images``."""
+    """Count the operations in the matrix ``rows``, except the operations in ``images``."""
     # Each sweep computes the images g(u) anyway, so their operations are not counted.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
@@ -190,7 +191,7 @@ class Solved:
                 self.known[image.id] = self.space.sym(name)
 
     def value(self, value: Any) -> Any:
-        """Return ``value`` with the components of g(u) replaced by the components of u."""
+        """Return ``value`` with each g_i(u) replaced by the unknown u_i."""
         return tuple(map(self._one, value)) if isinstance(value, tuple) else self._one(value)
 
     def _one(self, root: Expr) -> Expr:

@@ -63,7 +63,7 @@ def _model(timed: bool) -> Problem:
     from sympy import Rational, Symbol
 
     t = Symbol(TIME) if timed else Rational(1, 3)
-    # The values of A at different times do not commute, so the verification covers the brackets, too.
+    # The values of A at different times do not commute, so their commutators are not zero.
     A = SquareMatrix(3, 3, lambda i, j: Rational(i + 1, j + 2) * t + Rational(i * j - 1, 3) + (i - j) * t**2)
     return LinearScene(group=GL(3), action=LinearMaps(), A=A, y0=[1, 0, 0], span=(0, 1))
 
@@ -137,7 +137,7 @@ class _Builder:
             for var in _needed(x, statements):
                 self.run(statements[var])
             value = self.values[x]
-            # An exponent is a combination of the matrices h A(t_i) without a further power of h.
+            # The exponents of a step have the power p = 0 (:class:`_Value`).
             if value.power:
                 raise AssertionError(value.power)
             if not value.is_zero:
@@ -176,7 +176,7 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # The value A(t) = (h A(t))/h^p has the power p = 1.
+            # A(t) is h A(t) divided by h, so its power is 1 (:class:`_Value`).
             case Field():
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
                 self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
@@ -226,8 +226,8 @@ class _Builder:
     def bracket(self, x: _Value, y: _Value) -> _Value:
         """Return [x, y].
 
-        If x and y contain no commutators, :func:`_difference` usually decreases the bound of the norm
-        of [x, y].
+        If x and y contain no commutators, the equal bracket [x - c y, y] is computed (:func:`_difference`).
+        The bound of its norm is usually smaller.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
@@ -304,12 +304,12 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
 
 
 def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
-    """Return x - c y and y for a number c.
+    """Return x - c y and y. The function chooses the number c.
 
-    If possible, the coefficients of x - c y add up to zero.
+    If possible, the coefficients of x - c y add up to zero. Otherwise, c is 0.
     """
     totals = [_total(x), _total(y)]
-    # If the coefficients of x or of y add up to zero, c is 0.
+    # If the coefficients of x or of y add up to zero, x is returned unchanged.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
     ratio = totals[0] / totals[1]

@@ -10,8 +10,8 @@ b is a linear combination of values of N. The coefficients of b are functions of
 - Let a be nonzero, x = h (a, b) and beta = a z/(exp(a z) - 1). Then dexp^{-1}_x (c, d) is the pair
   (c, beta d + (1 - beta) c b/a).
 
-The third formula is the case f(w) = w/(exp(w) - 1) of a rule for power series f. Let ad be the linear map
-y -> [x, y]. Then ad^2 = a z ad, so f(ad) = f(0) + (f(a z) - f(0))/(a z) ad.
+Let ad be the linear map y -> [x, y]. Then ad^2 = a z ad, so f(ad) = f(0) + (f(a z) - f(0))/(a z) ad for a
+power series f. The third formula is the case f(w) = w/(exp(w) - 1).
 """
 
 from __future__ import annotations
@@ -76,7 +76,10 @@ ZERO = Number.rational(0)
 
 @dataclass(frozen=True)
 class _Element:
-    """The element h^power (a, b) of the algebra, where b is a linear combination of values of N."""
+    """The Lie algebra element h^power (a, b).
+
+    ``b`` contains the coefficients of a linear combination of values of the nonlinearity N.
+    """
 
     a: Number
     b: Sum
@@ -176,7 +179,7 @@ class _Execution:
                 # Times are in units of h, and the step begins at time 0.
                 self.times[var] = ZERO
             else:
-                # The point at the beginning of the step is 1 times the old state.
+                # The step begins at the old state, which has the coefficient 1.
                 self.points[var] = {STATE: _constant(ONE)}
         for assign in program.assigns():
             self._execute(assign)
@@ -247,7 +250,7 @@ class _Execution:
 
     def _combination(self, assign: Assign) -> _Element:
         parts = [(c, self.elements[v]) for c, v in assign.terms]
-        # The power of h is arbitrary for zero elements, so they are removed.
+        # A zero element can have any power of h, so zero elements are removed.
         parts = [(c, x) for c, x in parts if not x.is_zero]
         powers = {c.power + x.power for c, x in parts}
         if not powers:
@@ -263,12 +266,12 @@ class _Execution:
         """Record an evaluation of N at ``point`` and ``time``."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # With the new value N_j of N, the pair (1, N_j) denotes the vector field u -> lambda u + N_j.
+        # N_j is the new value of N. The pair (1, N_j) denotes the vector field u -> lambda u + N_j.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
         assert x.is_zero or x.power == 1
-        # The exponential maps u to exp(a z) u + h phi_1(a z) b.
+        # The exponential of x = h (a, b) maps u to exp(a z) u + h phi_1(a z) b.
         return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
 
     def _product(self, g: _Map, k: _Map) -> _Map:
@@ -308,13 +311,13 @@ class _Execution:
             half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
             return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
         beta = Multiplier.of(BERNOULLI, x.a)
-        # The case x.a = 0 returned above, so the division by x.a is possible.
+        # Here x.a is not zero, so the division by x.a is possible.
         rest = (_constant(ONE) + beta.scaled(Number.rational(-1))).scaled(y.a / x.a)
         return _Element(y.a, _sum([(beta, y.b), (rest, x.b)]), y.power)
 
     def _terms(self, point: Sum) -> tuple[Term, ...]:
         """Return a linear combination as a sequence of terms."""
-        # As in a ``_Map``, the values of N have a factor h.
+        # The values of N are multiplied by h. The old state is not.
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
 
     def _table(self, multiplier: Multiplier, power: int) -> int | None:
