@@ -56,8 +56,8 @@ def interpret(
     - ``near`` contains one list of scalars for each block. If ``near`` is given, only Newton's method is
       used, and it begins at these scalars. After the step ``near`` contains the solutions.
 
-    If ``domain`` has a method ``computed``, each computed value x is replaced by ``computed(name, x)``, where
-    ``name`` is the name of the variable with the value x.
+    If ``domain`` has a method ``computed``, the assignment of x to a variable ``name`` stores
+    ``computed(name, x)``.
 
     :class:`NotConverged` is raised if the iteration of a block does not converge.
     """
@@ -129,9 +129,9 @@ def outward(
     """Return the momentum in the space frame after a step that was computed in the body frame.
 
     ``state`` contains the space momentum mu before the step. ``ends`` are two states with body momenta: the
-    state before the step and the state after the step. The result is mu plus the increase of the momentum
-    converted to the space frame. Rounding errors make the configuration slightly non-orthogonal, but the
-    resulting errors nearly cancel in the increase.
+    state before the step and the state after the step. Both body momenta are converted to the space frame.
+    The result is mu plus the difference of the converted momenta. The errors of the two conversions nearly
+    cancel.
     """
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
@@ -237,12 +237,11 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # If no change exceeds ``increment``, a single further Newton step is enough, because this step
-            # about squares the error.
+            # If no change exceeds ``increment``, one more Newton step is enough (quadratic convergence).
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
-            # This call writes the solution and all values computed from the solution to ``env``.
+            # This call updates the unknowns and all other variables of ``block`` in ``env``.
             images(now)
             if sharp:
                 return now
@@ -251,7 +250,7 @@ def _correct(
 
 
 def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
-    """Return the error message for an iteration of ``block`` with the last change ``change``."""
+    """Return the message of :class:`NotConverged` for ``block``. ``change`` is the last change."""
     # The message shows only two digits, so the change is converted to a double.
     last = f"{float(change):.1e}" if isinstance(change, SupportsFloat) else str(change)
     return f"{block.label} did not converge in {limit} sweeps; the last change was {last}"

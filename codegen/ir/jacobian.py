@@ -66,7 +66,8 @@ class _Graph:
                     self._add(arg.id, node.id, factor)
         for i, root in enumerate(roots):
             self.before[-1 - i] = {}
-            # Result i has the vertex -1 - i and the derivative 1 with respect to its node ``root``.
+            # The vertex number -1 - i represents result i. The edge from ``root`` to this vertex has the
+            # label 1.
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
@@ -84,7 +85,7 @@ class _Graph:
             self.before[v][u] = self.after[u][v] = total
 
     def _cost(self, v: int) -> int:
-        """Return the number of products for the elimination of v."""
+        """Return the number of incoming edges of the vertex v times the number of outgoing edges."""
         return len(self.before[v]) * len(self.after[v])
 
     def eliminate(self) -> None:
@@ -109,7 +110,7 @@ class _Graph:
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
-                # Variables are not in ``before``, and results are not in ``after``.
+                # Only inner vertices are in both tables. Variables and results are never eliminated.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 

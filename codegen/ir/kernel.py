@@ -23,7 +23,7 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""In a splitting method, the name of the symbol for the duration of the last flow of a step.
+"""The name of a symbol in splitting methods: the duration of the last flow.
 
 In a run of several steps, the last flow of a step includes the first flow of the next step. The dot
 distinguishes the name from all names that a user can choose.
@@ -85,10 +85,10 @@ class Newton:
     - Simplified Newton (``leading`` is true): the equations are u = g(u). The matrix is 1 - g'(u), expanded
       to first order in h. Each step computes and inverts the matrix.
     - Residuals (``residuals`` is true): the equations are r(u) = 0, and the ``images`` of the loop are the
-      residuals r(u). The matrix is -r'(u), expanded to first order in h. One inverse of this matrix is used
-      for :attr:`period` steps.
+      residuals r(u). The matrix is -r'(u), expanded to first order in h. The matrix is inverted again after
+      :attr:`period` steps.
 
-    If ``inverted`` is true, ``matrix`` is the inverse of the matrix above. ``changes`` are the names of the
+    In all three forms, ``matrix`` is the inverse if ``inverted`` is true. ``changes`` are the names of the
     variables for the changes of the unknowns in a sweep.
     """
 
@@ -121,14 +121,14 @@ class Loop:
     the first values of the unknowns, or empty if a :class:`Start` computes the first values.
 
     In fixed-point iteration the change in a sweep is g(u) - u, and the last change is not added to the
-    unknowns. With ``newton``, the change is the inverse of Newton's matrix times g(u) - u or r(u), and every
-    change is added.
+    unknowns. With ``newton``, the change is the inverse of Newton's matrix times g(u) - u. For equations
+    r(u) = 0, r(u) replaces g(u) - u. Every change is added.
 
     ``limit`` is the largest number of sweeps. The stopping rule (:mod:`codegen.run.stopping`) ends the loop
     in two main cases:
     - The change no longer decreases, and it is at most ``tolerance`` times the largest unknown.
     - The predicted next change is at rounding level, and the change is at most ``close`` times the largest
-      unknown. For equations r(u) = 0, the bounds of the second case are different.
+      unknown. For equations r(u) = 0, the second case is different.
 
     ``only_unknowns_read`` is true if the code after the loop uses no values of ``body``.
     """
@@ -153,17 +153,18 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """The bound of the last change in the stopping rule (:class:`Loop`), divided by the largest unknown.
+        """The largest permitted change in the stopping rule (:class:`Loop`), relative to the largest unknown.
 
         In Newton's method, the values of ``body`` are computed before the last change is added to the
-        unknowns. If h L is the Lipschitz constant of g, the error of these values is about h L times the last
-        change.
+        unknowns. For equations u = g(u), the error of these values is about the last change times the
+        Lipschitz constant of g.
         """
-        # If only the unknowns are used later, a larger change is accepted, because the error of the unknowns
-        # is smaller than the last change.
+        # The error of the unknowns is smaller than the last change. If no other values are used later, the
+        # bound is larger.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # Convergence implies small h L only with Newton's matrix to first order in h.
+        # If Newton's matrix is expanded to first order in h, convergence implies a small Lipschitz constant.
+        # Otherwise the bound is smaller.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -178,13 +179,13 @@ class Start:
     2 u1 - u2 and 3 u1 - 3 u2 + u3.
 
     The degree d is adapted to the sizes of the backward differences u1 - u2 (order 1), u1 - 2 u2 + u3
-    (order 2), and so on. If the estimated error of an extrapolation exceeds ``ROUGH`` times the change of the
-    unknowns in the step, all solutions except u1 are discarded.
+    (order 2), and so on. Let c be the change of the unknowns from one step to the next. If the estimated
+    error of the first values exceeds ``ROUGH`` c, only u1 is kept.
 
     A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then
     the step size grows to h. Each solution provides the first values for the next larger step size. The
-    continuation fails if the growth factor of the step size is at most 1 + ``SHORTEST``, or after ``TRIES``
-    attempted steps.
+    continuation fails after ``TRIES`` attempts, or if the step size would grow by at most the factor
+    1 + ``SHORTEST``.
     """
 
     unknowns: tuple[str, ...]
@@ -192,11 +193,12 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # The error of the first value u1 is the change of the unknowns in the step.
+    # The extrapolation u1 of degree 0 has the error c (see the docstring).
     ROUGH: ClassVar[float] = 0.5
-    # A continuation that succeeds tries far fewer steps.
+    # Successful continuations need far fewer than 100 attempts.
     TRIES: ClassVar[int] = 100
-    # Nine successive failures reduce a growth factor of 4 to 4^(1/2^9) < 1 + 2^-8.
+    # After the first success, each failure replaces the growth factor by its square root. Nine failures
+    # reduce the factor 4 to less than 1 + 2^-8.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -289,13 +291,15 @@ class Expansion:
     then of order 2, and so on to the order ``degree``.
 
     With ``following``, a loop over the order n computes the coefficients
-    (:class:`codegen.ir.taylor_loop.OrderLoop`). The first outputs of the kernel ``coefficients`` are
-    constants of the loop. The other outputs are the coefficients of order 1.
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). The loop uses the first outputs of the kernel
+    ``coefficients`` for every n. The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
-    The loop computes ``sums`` inner sums, one for each product. The outputs of the kernel ``following`` are
-    the coefficients a_n for all products, then b_n for all products, and then the Taylor coefficients of
-    order n + 1.
+    The loop computes ``sums`` inner sums, one for each product. The kernel ``following`` has these outputs,
+    in this order:
+    - a_n for each product,
+    - b_n for each product,
+    - the Taylor coefficients of order n + 1.
     """
 
     degree: int
@@ -312,9 +316,9 @@ class Continuous:
     """A continuous extension (dense output) of order ``order``.
 
     The solution at the time t + theta h is the action of exp(sigma(theta)) on the state at the time t. Here
-    sigma(theta) is a polynomial with values in the Lie algebra. The outputs of the kernel ``coefficients``
-    are the coefficients of theta, theta^2, ..., theta^``degree``, in this order. The kernel ``moved``
-    computes the action of exp(x) on a state, where x are the coordinates of an element of the Lie algebra.
+    sigma(theta) is a polynomial with values in the Lie algebra. The kernel ``coefficients`` computes the
+    coefficients of theta, theta^2, ..., theta^``degree``, in this order. The kernel ``moved`` computes the
+    action of exp(x) on a state, where x are the coordinates of an element of the Lie algebra.
     """
 
     coefficients: Kernel
@@ -366,7 +370,7 @@ class Kernel:
     - ``batch`` is true if emitted code also contains a function that steps many independent systems.
     - ``observed`` is given if emitted code also contains a function that integrates to a given end time.
 
-    A kernel without ``outputs`` has one of four other descriptions of the step: ``expansion`` (a Taylor
+    If a kernel has no ``outputs``, one of four attributes describes the step: ``expansion`` (a Taylor
     polynomial), ``arrays`` (large matrices), ``sites`` (a lattice) or ``modes`` (Fourier modes).
     """
 
@@ -457,6 +461,6 @@ class Kernel:
             # The kernels of the deferred flows may use other scalars.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
-            # The kernel of the Taylor coefficients may use other scalars.
+            # The kernel of the Taylor coefficients may use additional scalars.
             read |= set(self.expansion.coefficients.used_scalars())
         return tuple(s for s in self.scalars if s in read)

@@ -76,7 +76,7 @@ class TimeMatrix:
 
 @dataclass(frozen=True)
 class Element:
-    """The sum of a letter and multiples of commutators, for example the exponent of an exponential.
+    """A linear combination of matrices h A(t_i) and of commutators, for example an exponent.
 
     A letter is a linear combination of the matrices h A(t_i). ``letter`` is an index in
     :attr:`LinearArrayStep.letters`, or None if the sum contains no letter. ``commutators`` contains pairs of

@@ -35,7 +35,7 @@ class NotLinearised(ArithmeticError):
 
 @dataclass(frozen=True)
 class _Dual:
-    """The expansions of an expression and of its derivatives with respect to the unknowns.
+    """The expansions in h of an expression and of its derivatives with respect to the unknowns.
 
     ``slopes`` maps the index of an unknown to the expansion of the derivative with respect to this unknown.
     Derivatives that are zero are omitted.
@@ -92,7 +92,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             if node.payload == STEP:
                 # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
-            # A symbol u other than h has the expansion u + 0 h.
+            # Every other symbol u has the expansion u + 0 h. If u is an unknown, its derivative is 1 + 0 h.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":
@@ -229,5 +229,5 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
 
 
 def _trimmed(slopes: dict[int, Pair]) -> dict[int, Pair]:
-    # Without derivatives that are zero, later products and sums have fewer terms.
+    # Zero derivatives are dropped to shorten later products and sums.
     return {k: x for k, x in slopes.items() if not (x[0].is_zero and x[1].is_zero)}

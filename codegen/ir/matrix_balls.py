@@ -59,8 +59,8 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
 
     ``jet`` contains the entries of an n x n matrix A, followed by the entries of its derivatives.
 
-    The bounds of the errors contain the largest absolute values of entries: M for exp(A), e for all
-    derivatives of A, and m for a derivative D of exp(A). The error of an entry is at most:
+    The largest absolute value of an entry is M in exp(A), e in all derivatives of A, and m in a derivative D
+    of exp(A). The error of an entry is at most:
     - 2^-``bits`` M in exp(A),
     - 2^-``bits`` max(m, M (e + e^2)) in D.
 
@@ -86,7 +86,7 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
 
 
 def _is_accurate(size: int, bits: int, jet: Sequence[arb], result: Sequence[arb]) -> bool:
-    """Return True if the radii in ``result`` are within the error bounds of :func:`exponential`."""
+    """Return True if no radius in ``result`` exceeds the bounds in the docstring of :func:`exponential`."""
     if not all(x.is_finite() for x in result):
         return False
     unit, largest = arb((1, -bits)), _largest(result[:size])
@@ -115,7 +115,7 @@ def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
     """
     if level == 0:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]
-    # The halves of ``numbers`` are a jet A of level ``level`` - 1 and the derivative of A.
+    # The first half of ``numbers`` is a jet of the next lower level. The second half is its derivative.
     half = len(numbers) // 2
     a, e = (block_matrix(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
     zeros = [arb(0)] * len(a)

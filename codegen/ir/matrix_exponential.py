@@ -7,9 +7,10 @@ A jet of level l contains l symbols d_0, ..., d_(l-1) with d_k^2 = 0. The jet is
 for m = 0, ..., 2^l - 1. Here A_m is a matrix, and e_m is the product of the symbols d_k for which bit k of m
 is 1. The matrices are stored in the order A_0, A_1, ..., and each matrix is stored row by row.
 
-In doubles the algorithm is scaling and squaring (N. J. Higham, *Functions of Matrices*, SIAM 2008, ch. 10). A
-Taylor polynomial of degree 4, 8, 12 or 16 is evaluated by the method of Paterson and Stockmeyer. Emitted code
-executes the same operations in the same order (:mod:`codegen.run.matrix_functions`).
+In double precision the exponential is computed by scaling and squaring (N. J. Higham, *Functions of
+Matrices*, SIAM 2008, ch. 10). A Taylor polynomial of degree 4, 8, 12 or 16 is evaluated by the method of
+Paterson and Stockmeyer. Emitted code executes the same operations in the same order
+(:mod:`codegen.run.matrix_functions`).
 """
 
 from __future__ import annotations
@@ -38,13 +39,14 @@ Pairs = tuple[tuple[tuple[int, int], ...], ...]
 def pairs(level: int) -> Pairs:
     """Return the pairs of indices that define the product of two jets of level ``level``.
 
-    Let A and B be two jets with the matrices A_j and B_k. Matrix m of the product A B is the sum of A_j B_k
-    over the pairs (j, k) in entry m of the returned tuple.
+    Let the jets A and B consist of the matrices A_j and B_k. Matrix m of the product A B is the sum of
+    A_j B_k over the pairs (j, k) in entry m of the returned tuple.
 
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
     """
-    # If j and k have a common bit, the product e_j e_k is zero. Otherwise e_j e_k = e_(j + k).
+    # For e_m in the module docstring, e_j e_k = 0 if j and k have a common bit. Otherwise
+    # e_j e_k = e_(j + k).
     masks = range(2**level)
     return tuple(tuple((a, m ^ a) for a in masks if a & m == a) for m in masks)
 
@@ -110,7 +112,8 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                # Entry (i, j) is the sum of row i of x times column j of y over the pairs (x, y).
+                # For each pair (x, y), row i of x is multiplied by column j of y. Entry (i, j) is the sum of
+                # these products.
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
@@ -130,14 +133,14 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
     The norm ``norm`` of the first matrix of ``b1`` determines the degree of the polynomial
     (:func:`largest_norms`).
     """
-    # The degree of the polynomial is 4 ``groups``. For g < ``groups``, the terms of degrees 4 g to 4 g + 3
-    # form group g.
+    # The degree of the polynomial is 4 * ``groups``. Group g contains the terms of degrees 4 g to 4 g + 3.
+    # The term of the highest degree is in no group.
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
     # In Horner's rule, each pass multiplies ``total`` by the power ``b4`` and adds a polynomial of degree 3.
-    # Before the first pass ``total`` already contains the factor ``b4``.
+    # The first pass omits the multiplication, because ``total`` begins with the factor ``b4``.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group
@@ -147,7 +150,7 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
         terms = zip(total, b3, b2, b1, strict=True)
         total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
         for i in range(n):
-            # The constant term c[k] times the unit matrix changes only the diagonal of the first matrix.
+            # The constant term, c[k] times the unit matrix, is added to the matrix A_0 of the jet.
             total[(n + 1) * i] += c[k]
     return total
 
@@ -176,17 +179,18 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
     """Return the jet that results from ``squarings`` squarings of the jet ``total``.
 
-    ``growth`` is a bound of the spectral norm of the first matrix of ``total``. If the error bound of the
-    first matrix of the result is too large (:data:`LEAST_DIGITS`), all entries of the result are NaN.
+    The first matrix of ``total`` (its first n^2 entries) has a spectral norm of at most ``growth``. If the
+    error bound of the first matrix of the result is too large (:data:`LEAST_DIGITS`), all entries of the
+    result are NaN.
 
     Let E be a computed n x n matrix with the spectral norm |E|, and let e be a bound of its error. The error
     of the computed square of E is at most about 2 |E| e + n^2 u |E|^2, where u is the unit roundoff.
     """
     size, unit = n * n, 2.0**-53
-    # ``error`` is a bound of the error of the first matrix of ``total``, here before the first squaring.
+    # Before the first squaring, this number bounds the error of the first matrix of ``total``.
     error = (n + 8) * unit * n
     for _ in range(squarings):
-        # The spectral norm of the first matrix is at most ``growth``, and at most the Frobenius norm.
+        # Both ``growth`` and the Frobenius norm are bounds of the spectral norm of the first matrix.
         bound = min(growth, _norm(total[:size]))
         error = 2.0 * bound * error + n * n * unit * (bound * bound)
         # The norm of the squared matrix is at most the square of ``growth``.
@@ -201,7 +205,7 @@ def in_digits(context: Any, n: int, level: int, a: Sequence[Scalar]) -> tuple[Sc
     """Return the exponential of the jet ``a``, a matrix of mpmath numbers with its derivatives.
 
     The error is about one rounding unit of ``context`` times the norm of the exponential. OverflowError is
-    raised by :func:`codegen.ir.matrix_balls.exponential`.
+    raised in the same cases as in :func:`codegen.ir.matrix_balls.exponential`.
     """
     # Eight additional bits make the error of the exponential much smaller than the rounding unit.
     result = matrix_balls.exponential(n, level, context.prec + 8, [matrix_balls.ball(x) for x in a])
@@ -209,7 +213,7 @@ def in_digits(context: Any, n: int, level: int, a: Sequence[Scalar]) -> tuple[Sc
 
 
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exact exponential of the jet ``a``, a matrix of power series with its derivatives.
+    """Return the exact exponential of the jet ``a``. The entries of the jet are power series.
 
     If the constant terms of the first matrix of the jet form a nilpotent matrix, the exponential is a finite
     sum. If the sum has more than ``longest`` terms, ArithmeticError is raised.

@@ -25,8 +25,8 @@ class MatrixExponential(VectorFunction):
     """The exponential of an n x n matrix, and its derivatives (:mod:`codegen.ir.matrix_exponential`).
 
     For ``level`` = 0 the function maps a matrix A to exp(A). For ``level`` = 1 the arguments are A and a
-    derivative of A, and the results are exp(A) and the derivative of exp(A). Each further level adds the
-    derivatives of all arguments and of all results.
+    derivative of A, and the results are exp(A) and the derivative of exp(A). Each further level doubles both
+    lists: a derivative of each entry is appended.
     """
 
     n: int
@@ -39,7 +39,7 @@ class MatrixExponential(VectorFunction):
 
     @property
     def size(self) -> int:
-        """The number of arguments. The number of results is equal."""
+        """The number of arguments, equal to the number of results."""
         return (1 << self.level) * self.n**2
 
     @property
@@ -65,7 +65,7 @@ class MatrixExponential(VectorFunction):
         """
         # A zero entry of the k-th power of ``pattern`` is always a zero entry of A^k.
         pattern = power = [int(not x.is_zero) for x in args]
-        # If a power of the first matrix is zero, a power of the jet is zero.
+        # A jet is nilpotent if its matrix (without the derivatives) is nilpotent.
         if not is_nilpotent(self.n, pattern):
             return None
         # ``count`` is the number of terms 1, A, A^2/2, ... before the first term that is always zero.
@@ -100,9 +100,9 @@ class MatrixExponential(VectorFunction):
         ``args`` contains A, followed by its derivatives. The matrix of the constant terms of A must be
         nilpotent.
         """
-        # In a non-zero product of terms of the jet, at most ``ring.order`` factors contain h and at most
-        # ``level`` contain a symbol d_k. Fewer than n successive factors are the nilpotent matrix of the
-        # constant terms of A.
+        # The matrix C of the constant terms of A satisfies C^n = 0. A power of the jet is a sum of products.
+        # A non-zero product has fewer than n successive factors C. At most ``ring.order`` of its factors
+        # contain h, and at most ``level`` of its factors are derivatives.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -120,7 +120,7 @@ class MatrixInverse(VectorFunction):
 
     @property
     def size(self) -> int:
-        """The number of arguments. The number of results is equal."""
+        """The number of arguments, equal to the number of results."""
         return self.n**2
 
     @property
@@ -169,7 +169,7 @@ class MatrixInverse(VectorFunction):
 
 
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
-    """Return True if every n x n matrix with the zeros of ``pattern`` is nilpotent.
+    """Return True if the zeros of ``pattern`` make an n x n matrix nilpotent, whatever its other entries are.
 
     Each non-zero entry (i, j) of ``pattern`` is an edge from i to j of a graph. The function returns True if
     this graph has no cycle.
@@ -177,11 +177,11 @@ def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)
     """
-    # Each pass of the loop removes vertices that are in no cycle from ``left``.
+    # Each pass of the loop removes vertices from ``left``. The removed vertices are in no cycle.
     left = set(range(n))
     while left:
-        # A vertex without an edge to a vertex in ``left`` is in no cycle. If no such vertex exists, the graph
-        # has a cycle.
+        # Edges to removed vertices are ignored. A vertex without other outgoing edges is in no cycle. If no
+        # such vertex exists, the graph has a cycle.
         ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
         if not ends:
             return False

@@ -14,8 +14,8 @@ def inverse(
 ) -> tuple[Scalar, ...] | None:
     """Return the inverse of the n x n matrix ``a``, row by row, or None for a singular matrix.
 
-    ``one`` is the number 1 in the type of the entries. The pivot is the remaining entry x of a column with
-    the largest ``size(x)``. Emitted code executes the same operations in the same order.
+    ``one`` is the number 1 in the type of the entries. In each column, the pivot is the entry x on or below
+    the diagonal with the largest ``size(x)``. Emitted code executes the same operations in the same order.
     """
     rows = [list(a[n * i : n * i + n]) for i in range(n)]
     order: list[int] = []
@@ -28,15 +28,15 @@ def inverse(
         rows[k], rows[pivot] = rows[pivot], rows[k]
         factor = one / rows[k][k]
         rows[k] = [x * factor for x in rows[k]]
-        # Column k of the matrix becomes a unit vector, so column k of ``rows`` stores a column of the
-        # inverse.
+        # Column k of the matrix becomes a unit vector and is not stored. Column k of ``rows`` now stores a
+        # column of the inverse.
         rows[k][k] = factor
         for i in range(n):
             if i != k:
                 multiple = rows[i][k]
                 rows[i] = [x - multiple * y for x, y in zip(rows[i], rows[k], strict=True)]
                 rows[i][k] = -(multiple * factor)
-    # Each row exchange has exchanged two columns of the inverse.
+    # To undo the row exchanges, the same columns of the inverse are exchanged in reverse order.
     for k in reversed(range(n)):
         for row in rows:
             row[k], row[order[k]] = row[order[k]], row[k]

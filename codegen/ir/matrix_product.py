@@ -62,7 +62,7 @@ class BilinearFunction(VectorFunction):
         space = args[0].space
         # The derivative is f(E, b) or f(a, E), where E has a 1 at this entry and zeros elsewhere.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
-        # ``half`` selects the entries of the matrix that E replaces: a or b.
+        # E replaces a or b. ``half`` is the slice of the replaced entries in ``args``.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
@@ -122,7 +122,7 @@ class MatrixCommutator(BilinearFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The numbers of additions and multiplications in a commutator: two products and a difference."""
+        """The numbers of additions and multiplications in the commutator a b - b a."""
         return {"add": 2 * self.n**3 - self.n**2, "mul": 2 * self.n**3}
 
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:

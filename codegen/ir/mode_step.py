@@ -74,12 +74,12 @@ class Multiplier:
 
     @classmethod
     def of(cls, function: str, scale: Number) -> Multiplier:
-        """Return the function named ``function``, applied to ``scale`` * z."""
+        """Return the multiplier f(``scale`` * z), where f is the function with the name ``function``."""
         if scale.is_zero:
             # At 0, POWER has the value 0, EXP has the value 1, and PHI and BERNOULLI have the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # All multiples of z must have the same monomial.
+            # A multiple of z is stored as the monomial z with the coefficient ``scale``.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -263,7 +263,7 @@ class ModeStep:
 
     @property
     def factors(self) -> tuple[Factor, ...]:
-        """The factors in all coefficients, without repetitions, sorted by :attr:`Factor.order`."""
+        """All different factors of the coefficients, sorted by :attr:`Factor.order`."""
         factors = dict.fromkeys(f for table in self.tables for f in table.multiplier.factors)
         # Sorting makes the result independent of the order of the coefficients in ``tables``.
         return tuple(sorted(factors, key=lambda f: f.order))
@@ -278,19 +278,19 @@ class ModeStep:
 
     @property
     def growth(self) -> int:
-        """An exponent p that bounds the functions of z in the coefficients (:attr:`Table.multiplier`).
+        """The exponent p in a bound of the functions of z in the coefficients (:attr:`Table.multiplier`).
 
         For z < 0, the absolute value of each function is at most C (1 + |z|)^p with a constant C. If
         :attr:`backwards` is true, p has no meaning.
         """
-        # A function with the value d in ``degrees`` grows at most like |z|^d for z -> -infinity.
+        # For z -> -infinity, the function f grows at most like |z|^d with d = ``degrees[f]``.
         degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}
         # The degree of a product is the sum of the degrees of its factors.
         products = [m for table in self.tables for m in table.multiplier.terms]
         return max((sum(degrees[f.function] * n for f, n in m) for m in products), default=0)
 
     def kernels(self) -> tuple[Kernel, ...]:
-        """Return the kernels for the eigenvalues of L, the interval length, N and the initial state."""
+        """Return four kernels: eigenvalues of L, interval length, nonlinear part N, and initial state."""
         return self.symbol, self.length, self.nonlinearity.formulas, self.initial
 
     def expressions(self) -> Iterator[Expr]:

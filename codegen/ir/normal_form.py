@@ -4,7 +4,8 @@ A relation is an equation between a product of two symbols and a sum. The expres
 polynomial. The variables of the polynomial are symbols, function calls and inverses. Each product that occurs
 in a relation is replaced by its sum.
 
-The result is the normal form of the expression. Two equal expressions may have different normal forms.
+The result is the normal form of the expression. The form is not canonical: equal expressions may have
+different normal forms.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ of the expression that is the variable.
 Polynomial = dict[Monomial, Number]
 
 Relation = tuple[tuple[str, str], Sequence[tuple[Number, tuple[str, ...]]]]
-"""The equation a b = sum of the terms for two symbols a and b, as a pair ((a, b), terms). A term (number,
+"""A pair ((a, b), terms) for the equation a b = sum of the terms, where a and b are symbols. A term (number,
 symbols) is the product of the number and the symbols.
 """
 
@@ -30,7 +31,7 @@ ONE = Number.rational(1)
 MOST_TERMS = 400
 """If a product in the expansion of an expression has more terms than this, the expression is not simplified.
 
-The limits 200 and 800 lead to the same emitted files.
+The value is not critical: the limits 200 and 800 lead to the same emitted files.
 """
 
 
@@ -76,7 +77,7 @@ class NormalForms:
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
-        """Expand ``root`` as a polynomial, and replace products by the relations until no relation applies.
+        """Expand ``root`` as a polynomial, and apply the relations to its products until no relation applies.
 
         :class:`TooLong` is raised if a product in the expansion has too many terms.
         """
@@ -98,7 +99,7 @@ class NormalForms:
                 case "neg":
                     value = _scaled(args[0], -ONE)
                 case "mul":
-                    # Only a multiplication can create a product to replace, so sums need no reduction.
+                    # Only a multiplication can create a product of two symbols, so sums need no reduction.
                     value = self._reduced(self._times(args[0], args[1]))
                 case "pow":
                     value = args[0]
@@ -162,7 +163,7 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # Many pairs of terms may have equal products, so the limit for pairs is larger than ``MOST_TERMS``.
+        # Equal products are added to one term, so the limit for pairs is larger than ``MOST_TERMS``.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
@@ -183,7 +184,7 @@ class NormalForms:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
-                # The relation applies if the product of i and j divides the monomial.
+                # The relation applies if the product of variable i and variable j divides the monomial.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1

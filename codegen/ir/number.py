@@ -4,7 +4,7 @@ Rational and algebraic numbers are stored exactly. Each other number is stored a
 contains the number).
 
 Two balls with equal end points are treated as the same number (:attr:`Number.key`). If both operands are the
-same number, their difference is exactly 0. If this number is not zero, their quotient is exactly 1.
+same number, their difference is exactly 0. The quotient of two equal non-zero numbers is exactly 1.
 """
 
 from __future__ import annotations
@@ -124,7 +124,7 @@ class Number:
         # The test ``self == -other`` below is slower, because it computes the keys of both numbers.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
-        # If x is given by a ball (an interval), x + (-x) would be a ball around 0.
+        # This case is treated separately, because the sum of two balls would not be exactly 0.
         if self == -other:
             return Number.rational(0)
         ring, x, y = self._join(other)

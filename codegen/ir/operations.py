@@ -21,8 +21,7 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
-# A sum of tuples contains the kinds of several arguments or results: ``G + A`` means a group element and an
-# element of the Lie algebra.
+# The operator ``+`` concatenates tuples: ``G + A`` means a group element and an element of the Lie algebra.
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -39,8 +38,8 @@ class Problem(Protocol):
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
         """Return the results of the function ``name`` of the group, of its action or of the scene.
 
-        ``order`` is the order of a truncated dexp^{-1} or its derivative, the degree of a Taylor polynomial,
-        or None.
+        ``order`` is the order of truncation (for dexp^{-1} and its derivative), the degree of a Taylor
+        polynomial, or None.
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
@@ -50,8 +49,8 @@ class Problem(Protocol):
         """
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
-        """Apply the product of the functions ``word`` of ad_x to the vector v. If ``dual`` is true, ad*_x
-        replaces ad_x.
+        """Return f_1(ad_x) ... f_k(ad_x) v, where the functions f_1, ..., f_k are the factors in ``word``. If
+        ``dual`` is true, ad*_x replaces ad_x.
         """
 
     def dimension(self) -> int:
@@ -125,7 +124,7 @@ class Zero(Operation):
         return NONE, (self.kind,)
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if there are no arguments, and ``kind`` is the kind of the result and is permitted."""
+        """Return True for no arguments and one result of the kind ``kind``, if ``kind`` has a zero vector."""
         # Groups and manifolds have no zero vector, so ``kind`` must be the algebra or its dual.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
@@ -145,8 +144,8 @@ class Linear(Operation):
     noun = "sum{s}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the result for a combination in the Lie algebra."""
-        # The vectors may also belong to the dual (:meth:`accepts`).
+        """Return the kinds of the arguments and of the result, if all vectors are in the Lie algebra."""
+        # The method :meth:`accepts` also permits vectors in the dual of the Lie algebra.
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
@@ -159,8 +158,8 @@ class Linear(Operation):
 
     def applied(self, args: Sequence[str]) -> str:
         """Return the text of the operation applied to the arguments with the names ``args``."""
-        # The verifier also prints wrong programs, in which the number of coefficients may differ from the
-        # number of arguments.
+        # In an invalid program, the numbers of coefficients and arguments may differ. The verifier also
+        # prints invalid programs.
         terms = zip_longest([f"({c.text()})" for c in self.coefficients], args)
         return " + ".join(f"{c or '?'} {a or '?'}" for c, a in terms)
 
@@ -204,7 +203,7 @@ class Advance(Operation):
 
 
 class OfGroup(Operation):
-    """An operation that is evaluated by a function of the group, of its action or of the scene."""
+    """An operation that the group, its action or the scene evaluates."""
 
     @property
     def function(self) -> str:
@@ -213,7 +212,7 @@ class OfGroup(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results of the function called :attr:`function` for the arguments ``args``."""
-        # The argument None is the order of truncation: these functions are not truncated.
+        # These functions are not truncated, so the argument ``order`` is None.
         return problem.apply(domain, self.function, None, args)
 
 
@@ -288,7 +287,7 @@ class Act(OfGroup):
     noun = "action{s}"
 
 
-# For a matrix A, products of A and vectors often give exp(A) y faster than the matrix exp(A).
+# For a matrix A and a vector y, exp(A) y is often cheaper than the matrix exp(A).
 @dataclass(frozen=True)
 class ActExp(OfGroup):
     """The point exp(x).y, computed without the group element exp(x)."""
@@ -328,15 +327,15 @@ class Adjoint(OfGroup):
         return G + own, own
 
     def opposite(self) -> Adjoint:
-        """Return the operation for the inverse linear map, with the same group element g."""
+        """Return the operation for the inverse linear map. The argument g is the same."""
         # The inverse of Ad_g is Ad_{g^-1}, and the inverse of Ad*_g is Ad*_{g^-1}.
         return Adjoint(self.dual, not self.inverse)
 
 
 @dataclass(frozen=True)
 class Bracket(OfGroup):
-    """The bracket [x, y] for the arguments x and y. If ``dual`` is true, the result is ad*_x mu for the
-    arguments x and mu.
+    """The bracket [x, y] for the arguments x and y. If ``dual`` is true, the arguments are x and mu, and the
+    result is ad*_x mu.
     """
 
     dual: bool = False
@@ -379,7 +378,7 @@ class InverseDexp(Operation):
 
     @property
     def word(self) -> Word:
-        """The operation as a product of functions of ad_x. The only factor is the truncated dexp^{-1}."""
+        """The operation as a product of functions of ad_x. There is one factor, the truncated dexp^{-1}."""
         # If two functions of the same ad_x are applied one after the other, a compiler pass replaces the two
         # operations by one :class:`AdSeries`.
         return (Factor("dexpinv", UNIT, self.order),)
@@ -417,7 +416,7 @@ class InverseDexpSlope(Operation):
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the transposed derivative of dexpinv_x y, applied to mu."""
+        """Return P* mu, where P is the derivative of dexpinv_x y with respect to x."""
         return problem.apply(domain, "P", self.order, args)
 
 
@@ -464,9 +463,7 @@ class AdSeries(Operation):
         return A + own, own
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if ``word`` is not empty, and ``arguments`` and ``results`` are the kinds in
-        :meth:`signature`.
-        """
+        """Return True if ``word`` is not empty and :meth:`signature` is (``arguments``, ``results``)."""
         # An empty product is the identity map, which needs no operation.
         return bool(self.word) and super().accepts(arguments, results)
 
