@@ -59,8 +59,8 @@ def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     """Return the expansion of each expression in ``images`` to first order in h.
 
-    ZeroDivisionError is raised if h = 0 leads to a division by zero, or to a function value f(0) that is not
-    rational.
+    ZeroDivisionError is raised for a division by zero at h = 0, and for values such as log(0) or acos(0) at
+    h = 0.
     """
     space = images[0].space
     h = space.sym("h")
@@ -76,7 +76,7 @@ class _AtZero(ExprDomain):
     """An expression domain that replaces a function call f(0) by its value."""
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return a call node, or the value in :data:`AT_ZERO` if the argument is zero."""
+        """Return the value in :data:`AT_ZERO` if the first argument is zero, otherwise a call node."""
         # The closed forms of Stumpff functions are 0/0 at zero, so the values come from :data:`AT_ZERO`.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]

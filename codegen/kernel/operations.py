@@ -66,7 +66,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
-        # Each substep executes the operations outside loops once.
+        # The step repeats these operations in each substep.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
@@ -103,7 +103,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
         # For n = 1, ..., ``last``, a loop computes the sums a_1 b_(n-1) + ... + a_(n-1) b_1 of n - 1 terms.
         number += expansion.sums * (last * (last - 1) // 2)
     total = _plus(total, {"add": number, "mul": number})
-    # The polynomial may use other coordinates than the state.
+    # ``enter`` and ``leave`` convert between the state and the coordinates of the polynomial.
     for part in (expansion.enter, expansion.leave):
         total = total if part is None else _plus(total, operations(arrange(part))[STEP])
     return {STEP: total}
@@ -112,7 +112,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
     """Count the operations for one site by name.
 
-    The keys are ``step``, the label of each block of equations, and the key of each Newton matrix.
+    The keys are the labels of the blocks, the keys of the Newton matrices, and ``step``.
     """
     parts = {STEP: step.unrepeated, **{block.label: step.repeated(block) for block in step.blocks}}
     counted: dict[str, dict[str, int]] = {}
@@ -132,7 +132,7 @@ def matrix_of(label: str) -> str:
 
 
 def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
-    """Format operation counts as text: one line for the step, and one line for a sweep of each block.
+    """Format operation counts as text: one line for the step, and one line for each block.
 
     >>> sentences({"step": {"add": 2, "stumpff_12": 1}, "stage 1": {"mul": 3}})
     ['2 add, 1 stumpff_12 a step', '3 mul for each sweep of stage 1']
@@ -157,14 +157,14 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # At the end of a run, the momentum increases by the difference of two results of ``outward``.
+        # At the end of a run, the change of ``outward`` over the run is added to the momentum.
         added = {"add": 2 * len(turned[1].outputs)}
         # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the beginning of a run, {last} at its end")
     for each_kernel in kernel.deferred.kernels if kernel.deferred is not None else ():
-        # A kernel of a deferred flow has no loops, so ``sentences`` returns one line.
+        # A kernel of a deferred flow has no loops, so its text is one line.
         (line,) = sentences(operations(arrange(each_kernel)))
         lines.append(f"{line.removesuffix(' a step')} once in each run")
     return lines

@@ -16,7 +16,7 @@ from codegen.ir.values import Coefficient, Kind
 from codegen.kernel.repeated_trees import Tree, Trees, Values, distinct
 from codegen.scene.problem import Problem
 
-# The first letters in the names of function inputs, for example x1 for an element of the Lie algebra.
+# Maps the kind of a function input to the first letter of its name, for example x in ``x1``.
 LETTER = {Kind.REAL: "r", Kind.ALG: "x", Kind.DUAL: "m", Kind.GROUP: "g", Kind.POINT: "y"}
 
 
@@ -33,7 +33,7 @@ class _Inputs:
     def take(self, words: Sequence[str]) -> Values:
         """Return the next inputs of the function, one for each name in ``words``."""
         first = len(self.symbols)
-        # The list ``fixed`` may be longer, because it has entries for all inputs.
+        # ``fixed`` has entries for all inputs, and ``words`` only for the next inputs.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
@@ -41,7 +41,7 @@ class _Inputs:
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Return the text of the coefficient ``c``, for example ``c1 h``.
 
-        ``x`` is the function input for ``c`` without its powers of h: a symbol or a constant.
+        Let c = a h^p with a number a. ``x`` is the function input for a: a symbol or a constant.
         """
         # The symbol is named ``FUNCTION.ARGUMENT``.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
@@ -56,15 +56,16 @@ class _Inputs:
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
 ) -> tuple[Function, list[int], list[str]]:
-    """Return the outlined function for a tree, and its arguments.
+    """Return the outlined function for a tree, and two lists.
 
-    The arguments are two lists: the indices of inputs of the tree, and the names of scene parameters.
-    ``read`` contains the indices of the results that the function returns. ``fixed`` has one entry for each
-    input of the tree: the constant that all calls pass for this input, or None.
+    The first list contains the indices of the tree inputs that the function needs. The second list contains
+    the names of the scene parameters that the function needs. ``read`` contains the indices of the results
+    that the function returns. ``fixed`` has one entry for each input of the tree: the constant that all calls
+    pass for this input, or None.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The recorded expressions of a tree may be simplified for special inputs, for example zeros.
+    # The recorded expressions may be simplified for the inputs of one tree. Here the inputs are symbols.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -89,7 +90,7 @@ def function(
             # In ``numbers``, the coefficients of this sum begin at the index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
-            # The argument for a coefficient c h^p is the number c.
+            # For a coefficient a h^p, the function input is a. The function multiplies a by h^p.
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [
@@ -100,7 +101,7 @@ def function(
         else:
             own = assign.operation.evaluate(scene, domain, args)
             results += own
-            # ``texts`` and ``results`` must have the same indices, so each result gets a text.
+            # All results of the operation get the same text. ``texts[k]`` belongs to ``results[k]``.
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
@@ -128,7 +129,7 @@ def calls(kernel: Kernel) -> dict[str, int]:
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
         if name in places:
-            # All expressions of one call have equal arguments, so the call is counted once.
+            # A call has one node for each result. These nodes have equal arguments and count as one call.
             places[name][tuple(a.id for a in node.args)] = None
     return {name: len(calls_of_it) for name, calls_of_it in places.items()}
 
@@ -148,7 +149,7 @@ class WithFunctions:
         ``callee`` is the name of a library function, or ``name.k`` for result k of the outlined function
         ``name``.
         """
-        # Only the names of outlined functions are followed by a dot.
+        # The name of a library function contains no dot.
         name, dot, k = callee.partition(".")
         if not dot:
             return self.domain.call(callee, *args)
@@ -195,7 +196,7 @@ def rewritten(
                 waiting.pop()
                 continue
             call = calls.get(node.id)
-            # A call reads its own arguments in place of the operands of the replaced node.
+            # The operands of the new node: the arguments in ``calls``, or the operands of ``node``.
             below = node.args if call is None else call[2]
             missing = [a for a in below if a.id not in new]
             if missing:

@@ -31,9 +31,10 @@ To choose new limits, set both to 0 and compare the times that ``orderconds benc
 """
 
 WORTH = 0.85
-"""A step is outlined only if this reduces the number of its assignments to less than this fraction.
+"""Let n and m be the numbers of assignments of a step without and with outlining. The step is outlined only
+if m < WORTH n.
 
-The fraction is between 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole, and
+The ratio m/n is between 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole, and
 for ``vcg:gauss4`` on heavy_top.
 """
 
@@ -50,7 +51,7 @@ If no point gives finite values, the verification tries ATTEMPTS further points 
 """
 
 Shape = tuple[Key, tuple[int, ...]]
-"""The key of the trees that a function replaces, and the indices of the results that the function returns."""
+"""The key of the outlined trees, and the indices of the results that the outlined function returns."""
 
 
 @dataclass
@@ -72,9 +73,9 @@ class Outline:
         expressions.
 
         The functions are added to ``outlined``. If nothing is repeated, the result is None. ``owners`` maps
-        each unknown of the blocks of equations to the number of its block.
+        each unknown of the implicit equations to the index of its block of equations.
         """
-        # The level of a value is the number of the last block whose unknowns determine the value.
+        # If a value depends on unknowns of several blocks, its level is the largest index of these blocks.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -85,7 +86,7 @@ class Outline:
             # Simplification may have removed some of the new calls, so the remaining calls are counted.
             calls: dict[str, int] = {}
             for node in walk(rewritten_roots):
-                # Only the node of result 0 is counted, so each call is counted once.
+                # A call has one node for each result. Only the node of result 0 is counted.
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
             # A function with fewer than two calls saves nothing.
@@ -116,20 +117,20 @@ class Outline:
                 x if x.op == "const" and all(x is y for y in others) else None
                 for x, *others in zip(*inputs, strict=True)
             ]
-            # All trees of a function have the same operations, so the first tree determines the function.
+            # The trees in ``trees`` have the same operations, so any of them gives the same function.
             outlined, places, parameters = function(name, self.trees, trees[0], self.scene, key[1], fixed)
             self.outlined.append(outlined)
             constant = [self.domain.space.sym(x) for x in parameters]
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
-                    # Two trees may have the same expression as a result.
+                    # If two trees have the same result, the call for the first tree computes it.
                     calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # The expressions ``roots`` were simplified, so they need not contain all operands and results of
-        # assignments.
+        # Operands and results of assignments also get levels. Simplification may have removed them from
+        # ``roots``.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
@@ -138,8 +139,8 @@ class Outline:
             self._level[node.id] = max([own, *(self._level[a.id] for a in node.args)])
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
-        """Return the trees to outline, with one group for each function."""
-        # If a tree is removed, the step may read further results of the remaining trees.
+        """Return the list of trees to outline for each :data:`Shape`."""
+        # A removed tree becomes ordinary code. This code may read further results of the remaining trees.
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
@@ -149,7 +150,7 @@ class Outline:
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
             kept = {key: alike for key, alike in groups.items() if len(alike) > 1}
-            # A function with a single call saves nothing.
+            # Trees with a unique shape are removed, because a function with one call saves nothing.
             left = [t for alike in kept.values() for t in alike]
             # If no tree was removed, a repetition would find the same groups.
             if len(left) == len(trees):
@@ -161,7 +162,7 @@ class Outline:
         ends: dict[int, tuple[int, int]] = {}
         for t, tree in enumerate(trees):
             for k, x in enumerate(self.trees.results(tree)):
-                # Symbols, numbers and their negatives cost nothing, so they need no call.
+                # Results that are symbols, numbers or their negatives need no function.
                 if x.args and not (x.op == "neg" and not x.args[0].args):
                     ends.setdefault(x.id, (t, k))
         read: dict[int, set[int]] = {}
@@ -173,7 +174,7 @@ class Outline:
 
         waiting = list(roots)
         while waiting:
-            # A call will compute the results of a tree, so the walk does not visit their operands.
+            # The walk stops at the results of trees. Function calls will compute these results.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]
@@ -186,12 +187,12 @@ class Outline:
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Return True if one call can compute the results ``read`` of a tree."""
+        """Return True if one call can compute all results of ``tree`` whose indices are in ``read``."""
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
         # The loop of block ``deepest`` executes the call. Results that do not depend on the unknowns of this
         # block stay outside the loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # If a result is newer than all inputs, no input depends on this result.
+        # An expression has a larger id than its operands. Inputs with smaller ids do not contain the result.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 

@@ -18,12 +18,12 @@ from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""Operations that are never outlined. ``Advance``, ``Zero`` and ``Identity`` cost almost nothing."""
+"""The operations that are never outlined."""
 
 NODES = 3
 """The average number of operations in one line of emitted code, for the methods of the gallery.
 
-The values 2, 3 and 5 of NODES give the same files in ``generated/``.
+NODES = 2 and NODES = 5 give the same files in ``generated/`` as NODES = 3.
 """
 
 Values = tuple[Expr, ...]
@@ -40,7 +40,7 @@ class Execution:
     """One executed assignment with the values of its arguments and of its results.
 
     ``place`` is the number of the block that contains the assignment, or -1 outside blocks. If ``joined`` is
-    false, the assignment cannot be part of an outlined function.
+    false, the assignment is never outlined.
     """
 
     assign: Assign
@@ -115,7 +115,7 @@ class Trees:
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Two assignments can be joined only if no third assignment reads the result of the first.
+        # Only a result with a single reader can be joined. The product removes one reader of ``v``.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -124,7 +124,7 @@ class Trees:
         return assign, args
 
     def joined(self) -> list[Tree]:
-        """Join assignments into trees while joining saves lines of emitted code. Return the trees."""
+        """Join assignments into trees, as long as this saves lines of emitted code. Return the trees."""
         self._find_users()
         # The index of a tree is the index of its last assignment.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
@@ -138,13 +138,13 @@ class Trees:
             for key in keys.values():
                 count[key] = count.get(key, 0) + 1
             for i in trees:
-                # If only one assignment reads the results of a tree, this tree can be joined with the tree of
-                # the assignment.
+                # Tree i can be joined with tree j if the results of i have only one reader, and j contains
+                # this reader.
                 user = self._only_user(i)
-                # Assignments that cannot be outlined are not in ``owner``.
+                # ``owner`` does not contain the assignments for which ``may_join`` is false.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # The result of the first tree can be any input of the second tree.
+                    # The key of the joined tree shows which input of tree j is the result of tree i.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
             # The choice is greedy: the pair that saves the most lines is joined first.
@@ -156,7 +156,7 @@ class Trees:
                     best, saved = key, gain
             if best is None:
                 return list(trees.values())
-            # Joining changes the keys of trees, so each tree is joined at most once in a round.
+            # A joined tree has a new key. Therefore each tree is joined at most once in this loop.
             used: set[int] = set()
             for i, j in pairs[best]:
                 if i in used or j in used:
@@ -167,15 +167,15 @@ class Trees:
                     owner[member] = j
 
     def _gain(self, key: PairKey, places: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
-        """Estimate how many lines of code are saved if all pairs in ``places`` are joined."""
+        """Estimate how many lines of code are saved if all pairs of trees in ``places`` are joined."""
         first, second, _ = key
         k = len(places)
         if k < 2:
             return 0
         i, j = places[0]
-        # If a tree also occurs outside these pairs, the function of the tree is still needed.
+        # If the first or second tree also occurs elsewhere, its own function remains in the code.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # In each pair, joining saves one call, which takes about three lines.
+        # For each pair, one call replaces two calls. This saves about three lines.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
@@ -184,7 +184,7 @@ class Trees:
         name = self.executions[i].assign.operation.name
         if name not in self._lines:
             results = [x for value in self.executions[i].results for x in value]
-            # The operands are computed elsewhere, so their operations are not counted.
+            # The walk stops at the arguments of the assignment.
             stop = {x.id for value in self.executions[i].args for x in value}
             nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
             self._lines[name] = 1 + nodes // NODES
@@ -221,10 +221,10 @@ class Trees:
         return user if user is not None and self.executions[user].place == self.executions[i].place else None
 
     def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:
-        """Return the input variables of a tree, and the positions of the arguments of each assignment.
+        """Return the input variables of a tree, and a tuple of numbers for each assignment of the tree.
 
-        The positions 0, 1, ... denote the input variables. The positions -1, -2, ... denote the results of
-        the assignments in the order of execution.
+        Each number denotes an argument of the assignment. The numbers 0, 1, ... denote the input variables.
+        The numbers -1, -2, ... denote the results of the assignments in the order of execution.
         """
         targets: dict[Var, int] = {}
         given: dict[Var, int] = {}
@@ -250,13 +250,13 @@ class Trees:
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
-            # The operation of a sum is omitted, because it contains the values of the coefficients.
+            # ``Linear`` contains the values of coefficients. The key must not contain these values.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
 
     def useful(self, tree: Tree) -> bool:
-        """Return True if a tree has enough operations to be worth a call."""
+        """Return True if a function for ``tree`` is long enough to save lines of code."""
         results = self.results(tree)
         # The inputs are computed outside the function, so their operations are not counted.
         stop = {x.id for x in self.inputs(tree)}

@@ -18,7 +18,7 @@ METHODS = {
     NEWTON: "Newton's method",
     SIMPLIFIED_NEWTON: "Newton's method with the Jacobian to first order in h",
 }
-"""The names of the solvers of implicit equations in the headers of emitted files."""
+"""Maps each solver of implicit equations to its name in the headers of emitted files."""
 
 # Maps the name of a function in expressions to the index k of the Stumpff function c_k.
 STUMPFF = {f"stumpff{k}": k for k in range(4)}
@@ -69,7 +69,7 @@ class Invocation:
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the argument arrays of a vector function, or () for an outlined function."""
+        """The lengths of the argument arrays of a vector function, or () for any other function."""
         function = vector_function(self.function)
         return () if function is None else function.arrays
 
@@ -129,7 +129,8 @@ Statement = Simple | Beginning | Iteration
 class Arrangement:
     """The statements and outputs of a step, ready to print.
 
-    A step executes all statements ``repeated`` times, once for each substep of a composition method.
+    A step of a composition method executes all statements once in each substep. ``repeated`` is the number
+    of substeps.
     """
 
     statements: tuple[Statement, ...]
@@ -221,17 +222,17 @@ def _alone(function: Function) -> Kernel:
 
 
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
-    """Return the expressions of a statement that can share calls with other statements."""
+    """Return those expressions in ``statement`` that can share calls with other statements."""
     if isinstance(statement, Let):
         return [statement.value]
-    # A ``Start`` statement can be skipped at run time, so other statements cannot use its calls.
+    # A step may skip a ``Start`` statement. Then the results of its function calls do not exist.
     return statement.starts if isinstance(statement, Loop) else []
 
 
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # The arguments of the Stumpff functions in the body depend on the unknowns.
+    # The Stumpff functions in the body depend on the unknowns, so their calls belong to the body.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)
@@ -241,7 +242,7 @@ def _iteration(
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
-        # If ``leading`` is true, Newton's matrix is computed before the loop and reads no names of the body.
+        # If ``leading`` is true, Newton's matrix is computed before the loop, and otherwise in the loop.
         entering, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
     return Iteration(loop, number, starts, tuple(body), images, kept, entering, matrix)
 
@@ -289,7 +290,7 @@ class _Scope:
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
         """Rewrite the assignments ``lets`` and the results ``values`` of a nested block, and return them."""
-        # A block can be skipped at run time, so later statements do not read its names.
+        # A step may skip the block, so later statements do not read names assigned in the block.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
         rewritten = tuple(inner.rewrite(e) for e in values)
@@ -309,13 +310,13 @@ class _Scope:
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # The sorted indices k form the name of the function.
+        # For the sorted indices 1 and 2, the function ``stumpff_12`` is called.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        If ``kept`` is false, the assignment of a result of a call is omitted.
+        If ``kept`` is false and the value is a result of a call, the assignment itself is omitted.
         """
         value = self.rewrite(let.value)
         before = self.take()
@@ -357,14 +358,14 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The keys of ``orders`` are ids of original arguments.
+        # The keys of ``orders`` are ids of arguments before rewriting.
         orders = self.orders[node.args[0].id]
         # One call returns c_k for all recorded indices k, and each result gets its own name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
-            # In later expressions, ``name`` replaces the function value c_k of the argument.
+            # In later expressions, ``name`` replaces the call of c_k with this argument.
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 

@@ -16,16 +16,16 @@ from codegen.ir.normal_form import NormalForms, Polynomial, TooLong
 LONGEST = 64
 """Arguments of Stumpff functions with more than LONGEST nodes are not compared.
 
-In the methods of the gallery, equal arguments have 12 to 42 nodes. For nine methods of the gallery, the
-limits 64, 128 and 256 give the same kernels. With the limit 32, only one of the nine kernels differs: the
-step of vcf:cf4 on dipole has 286 operations, and 301 with the limit 64.
+In the methods of the gallery, expressions of equal arguments have 12 to 42 nodes. For nine methods of the
+gallery, the limits 64, 128 and 256 give the same kernels. The limit 32 changes only the step of vcf:cf4 on
+dipole, from 301 to 286 operations.
 """
 
 
 class SharedArguments(ExprDomain):
     """Symbolic arithmetic. Equal arguments of Stumpff functions become one expression.
 
-    Two arguments are equal if their polynomials are equal.
+    Two arguments are equal if their expansions as polynomials are equal.
     """
 
     def __init__(self, space: Space | None = None) -> None:
@@ -52,7 +52,7 @@ class SharedArguments(ExprDomain):
         return self.shared[argument.id]
 
     def _compared(self, argument: Expr) -> Expr:
-        # The walk stops at the limit, because arguments in explicit stages may have thousands of nodes.
+        # The walk stops at the limit. A walk over thousands of nodes in explicit stages would be slow.
         if len(list(islice(walk([argument]), LONGEST + 1))) > LONGEST:
             return argument
         try:
@@ -63,6 +63,6 @@ class SharedArguments(ExprDomain):
         for known, first in self.arguments:
             if known == polynomial:
                 return first
-        # ``argument`` will replace later arguments with an equal polynomial.
+        # If a later argument has an equal polynomial, ``argument`` replaces it.
         self.arguments.append((polynomial, argument))
         return argument

@@ -25,7 +25,7 @@ from codegen.scene.values import Bindings
 RECOMPUTED = (Linear, Zero, Advance)
 """Cheap operations: each sweep that needs their results computes the results again.
 
-The exceptions are the linear combinations that :mod:`codegen.kernel.site_plan` selects for storage.
+But some linear combinations are stored (:mod:`codegen.kernel.site_plan`).
 """
 
 EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
@@ -106,7 +106,7 @@ class Execution:
         return self.named[var]
 
     def execute(self, assign: Assign) -> None:
-        """Execute an assignment on symbols, and record names for the expressions of its results."""
+        """Compute expressions for the results of ``assign``, and record a name for each expression."""
         args = tuple(self.env[a] for a in assign.args)
         operation = assign.operation
         results: tuple[Value, ...]
@@ -145,7 +145,7 @@ class Execution:
         return list(self.problem.roots)
 
     def _exists(self, offset: int) -> Expr:
-        """Return the number that is 1 if a neighbour exists, and 0 otherwise."""
+        """Return an expression that is 1 if the neighbour ``offset`` of a site exists, and 0 otherwise."""
         space = self.problem.roots[0].space
         # In a periodic lattice every neighbour exists, so no test is needed at run time.
         if self.sites.periodic:
@@ -179,11 +179,12 @@ class Execution:
     def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
         """Return symbols for a variable at a neighbour, and record a load for each symbol.
 
-        Outside the lattice, the values ``ghosts`` replace the variable.
+        ``ghosts`` contains the values to be used if the neighbour is outside the lattice.
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # Each symbol has one ghost, so a ghost that differs between stages needs a new symbol.
+        # ``self.ghosts`` has one ghost for each symbol. If stages have different ghosts, they need different
+        # symbols.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
@@ -193,7 +194,7 @@ class Execution:
         return unique_name(base, self.taken)
 
     def sweep(self, content: Content, sums: tuple[tuple[str, Row], ...]) -> Sweep:
-        """Return the sweep that stores the variables in ``content``.
+        """Return the sweep that ``content`` describes.
 
         For each sum over all sites, ``sums`` contains the name of the sum and the row of its terms.
         """
@@ -208,7 +209,7 @@ class Execution:
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
-            # The ghosts need the order of ``self.loads``: output k of ``outside`` belongs to load k.
+            # The ghosts have the order of the loads: output k of ``outside`` replaces the load of ghost k.
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
             # The ghosts may depend on further values at the site, so these values are loaded, too.
@@ -235,9 +236,9 @@ def kernel_of_sweep(
 ) -> Kernel:
     """Return the kernel that computes the expressions ``ends`` at one site.
 
-    ``symbols`` and ``totals`` name the numbers and the sums over all sites that the sweep reads. ``hints``
-    maps the ids of expressions to preferred names. This function adds the names of new variables to
-    ``taken``.
+    ``symbols`` are the names of the numbers that the sweep reads at each site. ``totals`` are the names of
+    the sums over all sites. ``hints`` maps the ids of expressions to preferred names. This function adds the
+    names of new variables to ``taken``.
     """
     schedule = Assignments((), ends, hints, lambda base: unique_name(base, taken))
     body = tuple(_lets(schedule.run()))

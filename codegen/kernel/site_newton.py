@@ -39,7 +39,7 @@ class Linearisation:
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
     - ``given`` contains the variables of the state at the beginning of the step.
     - ``makers`` maps each computed variable to its assignment.
-    - ``coupled`` contains the indices of the blocks of ``problem.state`` that the field reads at neighbours.
+    - ``coupled`` contains indices of blocks in ``problem.state``. The field reads these blocks at neighbours.
     """
 
     problem: Problem
@@ -85,12 +85,11 @@ class Linearisation:
             for block, there in zip(blocks, self._columns(), strict=True):
                 for j in range(size):
                     slope = space.zero if there is None else next(parts)
-                    # The derivative of u is the unit matrix, and it occurs only in the block of the site
-                    # itself.
+                    # The matrix is 1 - g'(u). The unit matrix occurs only in the block of the site itself.
                     block.append((space.one if there == OWN and i == j else space.zero) - slope)
         exists = () if self.sites.periodic else tuple(map(self._exists, range(len(self.sites.offsets))))
         kernel = self._kernel(label, [x for block in blocks for x in block])
-        # The derivatives of g need only some of the numbers that g reads.
+        # Only the numbers that occur in the matrix are loaded.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
         loads = tuple(load for load in self.loads.values() if load.symbol in read)
         residual, border, matrix = first
@@ -126,8 +125,8 @@ class Linearisation:
         key = (site, var)
         if key not in self.values:
             maker = self.makers.get(var)
-            # Expensive values from before the iteration are read from memory, and cheap values are computed
-            # again.
+            # Values computed before the iteration are read from memory if they are expensive. Cheap values
+            # are computed again.
             if maker is None or (var not in self.inside and not isinstance(maker.operation, RECOMPUTED)):
                 self.values[key] = self._stored(var, site)
                 return self.values[key]
@@ -144,7 +143,7 @@ class Linearisation:
         if var.kind is Kind.REAL:
             return self.domain.space.sym(var.name)
         blocks = {block.name: block.symbols for block in self.problem.state}
-        # Only real variables such as the time have no rows.
+        # All variables of other kinds are stored in rows of the lattice arrays.
         rows = self.rows[var]
         names = blocks[var.name] if var in self.given else [f"{var.name}_{k}" for k in range(len(rows))]
         if site != OWN:
@@ -156,12 +155,13 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a site, computed from the stage values of the site and of its neighbours."""
-        # The field at a neighbour reads sites at distance 2, so the matrix would not be block-tridiagonal.
+        # The field at a neighbour reads the neighbours of this neighbour. Then the matrix is not
+        # block-tridiagonal.
         if site != OWN:
             raise MethodError(
                 "on a chain, Newton's method cannot solve equations with nested evaluations of the field",
                 where=self.problem.name,
-                expected="a method that evaluates the field only at points without field values",
+                expected="a method whose implicit equations contain no nested evaluations of the field",
                 hint="use the option --solver fixed-point",
             )
         domain, number = self.domain, len(self.problem.state)
@@ -193,5 +193,5 @@ class Linearisation:
         self.taken |= {*self.loads, *(self._exists(k) for k in range(len(self.sites.offsets)))}
         schedule = Assignments((), ends, {}, self._fresh)
         body = tuple(x for x in schedule.run() if isinstance(x, Let))
-        block = StateBlock("site", tuple(self.loads), "the numbers in the formulas of the matrix")
+        block = StateBlock("site", tuple(self.loads), "the numbers that Newton's matrix depends on")
         return Kernel(label, (block,), (TIME, "h", *self.problem.runtime), body, schedule.outputs)
