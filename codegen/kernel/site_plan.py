@@ -28,7 +28,7 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites
 
 MEASURED = 2
-"""The number of rows of the workspace that the stopping rule uses.
+"""The stopping rule uses this number of rows of the workspace.
 
 The rows contain the largest change and the largest absolute value of an unknown at each site.
 """
@@ -56,7 +56,8 @@ class _Block:
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
         """Return pairs (unknown, new value) for the sweep with the index ``number``.
 
-        Only the sweep before the first iteration and the last sweep of an iteration have pairs.
+        The new values are ``solve.starts`` for the sweep ``first - 1``, and ``solve.images`` for the sweep
+        ``last``. For all other sweeps, the result is empty.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -118,8 +119,8 @@ class Planner:
     def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
         """Return the step with a Newton matrix for each system of implicit equations.
 
-        In the workspace, the matrix follows the ``count`` rows of the variables. MethodError is raised if the
-        equations contain sums over all sites.
+        The first ``count`` rows of the workspace contain variables. MethodError is raised if the equations
+        contain sums over all sites.
         """
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
@@ -142,8 +143,8 @@ class Planner:
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
-        # The systems are solved one after the other, so their matrices of three square blocks use the same
-        # rows.
+        # At each site, a Newton matrix has three square blocks. All Newton matrices use the same rows of the
+        # workspace.
         return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
@@ -182,8 +183,8 @@ class Planner:
             last = max(first, *(self.sweep_of[v] for v in solve.images))
             points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
-                # A further sweep changes the unknowns after all sites have read the old values of their
-                # neighbours.
+                # The field reads unknowns at neighbours. Therefore only a further sweep may overwrite the
+                # unknowns.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
             # The solution satisfies u = g(u), so the rest of the program reads u in place of g(u).
@@ -191,7 +192,7 @@ class Planner:
             least = last + 1
 
     def _without_renamed(self, solve: Solve) -> Solve:
-        """Return ``solve`` with u in place of g(u), for all earlier equations u = g(u)."""
+        """Replace each image g(u) of an earlier system by its unknown u, and return the new ``solve``."""
         starts = tuple(self.renamed.get(v, v) for v in solve.starts)
         return replace(solve, starts=starts, body=tuple(map(self._rename, solve.body)))
 
@@ -227,10 +228,11 @@ class Planner:
         return {v: unique_name(v.name, taken) for v in self.totals}
 
     def _choose_sums(self) -> None:
-        """Find the linear combinations of vectors that are stored in place of one of their terms.
+        """Choose which linear combinations of vectors are stored.
 
-        A 2N scheme (a low-storage Runge-Kutta method) then stores only one element of the Lie algebra for
-        each site.
+        If no other operation reads a term of a combination, the combination can be stored in place of this
+        term. A 2N scheme (a low-storage Runge-Kutta method) then stores only one element of the Lie algebra
+        for each site.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -254,7 +256,7 @@ class Planner:
             if var in need.computed:
                 continue
             maker = self.makers.get(var)
-            # A cheap value is computed again, even if an earlier sweep has computed the value.
+            # Each sweep computes its cheap values again.
             again = maker is not None and isinstance(maker.operation, RECOMPUTED) and var not in self.sums
             if maker is None or (self.sweep_of[var] < number and not again):
                 need.loaded.add(var)
@@ -274,8 +276,7 @@ class Planner:
             repeated = needs[block.first : block.last + 1]
             defined = {v for need in repeated for v in need.computed}
             for var in {v for need in repeated for v in (need.loaded | need.around)} - defined:
-                # Each iteration reads ``var``, so its rows must not be overwritten before the last iteration
-                # ends.
+                # Each iteration reads ``var``. Therefore no iteration may overwrite ``var``.
                 used[var] = max(used[var], block.last + 1)
         return used
 
@@ -288,14 +289,13 @@ class Planner:
         free: list[int] = []
         count = 0
         for number, need in enumerate(needs):
-            # If neighbours also read a value, only the next sweep may overwrite the value.
+            # If a sweep reads a value at neighbours, this sweep must not overwrite the value.
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
             # A set has no fixed order, but the workspace layout must be the same in every compilation.
             free = sorted({*free, *ended})
-            # The sweep before the first iteration stores the starting values, so it reserves the rows of the
-            # unknowns.
+            # The sweep before the first iteration stores the starting values in the rows of the unknowns.
             begun = [u for block in self.blocks if block.first - 1 == number for u in block.solve.unknowns]
             stored = [v for v in self._ordered(need.computed) if self.sweep_of[v] == number]
             for var in [*begun, *(v for v in stored if used.get(v, -1) > number)]:

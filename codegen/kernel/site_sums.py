@@ -1,9 +1,9 @@
 """Discrete gradients on a lattice: inner products and energies are sums over all sites.
 
-The discrete differential of the whole lattice is D = g + (e/|eta|^2) eta with e = H1 - H0 - <g, eta>. The
+The discrete differential of the total energy is D = g + (e/|eta|^2) eta with e = H1 - H0 - <g, eta>. The
 covector g approximates the differential of the energy, and eta is the displacement of a step. The energies
-before and after the step are H0 and H1. To reduce the rounding error, e is computed as a sum of the small
-terms of the sites.
+before and after the step are H0 and H1. To reduce the rounding error, e is computed at each site and then
+summed over the sites.
 
 If the equations are not Hamilton's equations, the field f is expressed by the bivector (gamma wedge
 f)/|gamma|^2, where gamma is the differential of the energy (:mod:`codegen.scene.energy`).
@@ -54,7 +54,7 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
     if isinstance(assign.operation, Secant):
         g, x, before, after = assign.args
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
-        # ``excess`` is the sum of the errors of ``paired``, an approximation to the change of the energy.
+        # ``excess`` is the change of the total energy, minus the sum of ``paired`` over all sites.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):

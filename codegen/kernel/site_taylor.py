@@ -27,7 +27,7 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites, offset_text
 
 SHORT = 3
-"""The largest number of operations in an expression that is computed again and not stored.
+"""An expression with at most SHORT operations is not stored. Each sweep computes it again.
 
 With the limits 1 and 3, a step of taylor(8) on 4000 pendulums takes 24 ns for each pendulum. With the limit
 10, the time is 117 ns. On a chain of spins, the times with the limits 1, 3 and 10 differ by at most 3 per
@@ -111,7 +111,10 @@ class TaylorSweeps:
     def _load(
         self, rows: Sequence[Row], own: Sequence[str], around: Sequence[Sequence[str]], degree: int
     ) -> None:
-        """Record the loads of one Taylor coefficient, and the formulas for neighbours outside the lattice."""
+        """Record which rows contain a Taylor coefficient of the given ``degree``.
+
+        Formulas for neighbours outside the lattice are added to ``ghosts``.
+        """
         self.loads |= {s: Load(s, row) for s, row in zip(own, rows, strict=True) if s}
         for number, column in enumerate(around):
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
@@ -122,9 +125,9 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return ``terms``, with zero in place of None if a term may differ from zero outside the lattice.
+        """Return ``terms``. None is replaced by zero if coefficients outside the lattice may be nonzero.
 
-        None represents a coefficient that is zero at all sites and that no sweep loads.
+        None represents a coefficient that is zero at all sites. Sweeps do not load this coefficient.
         """
         if degree == self.degree:
             return terms
@@ -133,7 +136,7 @@ class TaylorSweeps:
         return [self.domain.space.zero if x is None else x for x in terms]
 
     def _follows(self, ghost: Expr, k: int) -> bool:
-        """Return True if a Taylor coefficient that is zero at all sites is also zero outside the lattice.
+        """Return True if ``ghost`` is a constant or is equal to coordinate k of the site itself.
 
         ``ghost`` is the formula for coordinate k of a neighbour outside the lattice.
         """
@@ -200,7 +203,7 @@ class TaylorSweeps:
             for node in walk(roots):
                 # The first sweep that computes an expression also stores it.
                 first.setdefault(node.id, n)
-        # A row contains one number for each site, so no row stores a value that is equal at all sites.
+        # A value is stored in a row only if it can differ from site to site.
         local = self._local([x for roots in ends for x in roots])
         stored, work = _Stored(), dict[int, int]()
         for n, roots in enumerate(ends):
@@ -231,7 +234,7 @@ class TaylorSweeps:
             total = 0
             for x in walk([node]):
                 total += 0 if not x.args else CALL if x.op == "call" else 1
-                # The exact number does not matter if it is above SHORT.
+                # Above SHORT, the exact total does not matter.
                 if total > SHORT:
                     break
             known[node.id] = total
@@ -240,14 +243,16 @@ class TaylorSweeps:
     def _sweeps(
         self, ends: Sequence[Sequence[Expr]], stores: Sequence[Sequence[Row]], stored: _Stored
     ) -> list[Sweep]:
-        """Return the sweeps. Sweep n outputs ``ends[n]`` and the nodes in ``stored`` with ``writer`` n."""
+        """Return the sweeps.
+
+        Sweep n outputs ``ends[n]``, and also ``stored.nodes[i]`` for each i with ``stored.writer[i] == n``.
+        """
         rows: dict[int, Row] = {}
         names: dict[int, str] = {}
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # Sweeps read these rows only at the site itself, so the last sweep that reads a row may overwrite
-            # it.
+            # No sweep reads these rows at neighbours. Therefore the last reader of a row may overwrite it.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
             # The values in ``names`` were stored by earlier sweeps.

@@ -76,7 +76,8 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     fields = (Field("start", work.inner.symbols, "coordinates in which the Taylor polynomial is computed"),)
     if loop is None:
         return Expansion(degree, _unrolled(kernel, fields, work, degree), enter, leave)
-    # ``first`` and ``following`` share ``name``, so their intermediate values have different names.
+    # ``name`` never returns a name twice. Therefore the two kernels use different names for intermediate
+    # values.
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
     # For each product a b of power series, ``left`` contains a_n and ``right`` contains b_n.

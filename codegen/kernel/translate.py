@@ -76,9 +76,9 @@ def to_kernel(
       itself.
     - ``chains`` is AS_WRITTEN, COMBINED, ORDERED or SHORTENED. If the program has implicit equations,
       ``chains`` must be AS_WRITTEN.
-    - ``whole`` matters only if the program uses the body momentum and the emitted code uses the space
-      momentum. If ``whole`` is true, each step converts the momentum. If ``whole`` is false, a run converts
-      the momentum once at its beginning and once at its end (:mod:`codegen.kernel.carried_momentum`).
+    - If ``whole`` is true, each step converts the momentum. If ``whole`` is false, a run converts the
+      momentum once at its beginning and once at its end (:mod:`codegen.kernel.carried_momentum`). ``whole``
+      is used only if the program needs the body momentum, but the emitted code stores the space momentum.
     - If ``outlining`` is true, repeated computations of a long step become functions
       (:mod:`codegen.kernel.outlining`).
 
@@ -120,21 +120,20 @@ class _Translation:
         # ``inside`` is true during the execution of a block of equations.
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
-        # The Jacobian refers to the state of the emitted code, so with variations each step converts the
-        # momentum.
+        # With variations, each step starts and ends with the momentum of the emitted code.
         self.frames = Frames(scene, program, whole or variations is not None)
 
     def name(self, base: str) -> str:
         """Return a new name, and add it to ``taken``. The name is ``base`` if possible."""
         candidate = base if base not in self.taken else base + "_"
-        # A number would look like an index: xi1_2 is component 2 of xi1.
+        # An underscore is appended, and no number: xi1_2 means component 2 of xi1.
         while candidate in self.taken:
             candidate += "_"
         self.taken.add(candidate)
         return candidate
 
     def remember(self, var: Var) -> None:
-        """Name the expressions of a variable after the variable."""
+        """Name the components of ``var`` in ``hints``, such as ``xi_0`` for component 0 of ``xi``."""
         for k, x in enumerate(flatten(var.kind, self.env[var])):
             # An expression that already has a name keeps this name.
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
@@ -157,11 +156,11 @@ class _Translation:
                 "without closed forms no code can be emitted",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # ``gathered`` does not rewrite the arguments, because other expressions also use the arguments.
+            # Other values share the expressions ``known``. ``gathered`` changes only their numeric factors.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # An operation with a time argument may read run-time inputs, but an outlined function reads only its
-        # arguments.
+        # Outlined functions cannot read run-time inputs. An operation with a time argument may read these
+        # inputs.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
         # The current block is added to ``blocks`` later, so its index is the length of ``blocks``.
         place = len(self.blocks) if self.inside else -1
@@ -173,7 +172,7 @@ class _Translation:
     def begin(self) -> State:
         """Set the values of the program's inputs to symbols, and return the initial state."""
         space = self.domain.space
-        # ``start`` is the old state with the momentum in the frame of the program.
+        # The momentum in ``start`` is the momentum of the program (space frame or body frame).
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
@@ -185,31 +184,31 @@ class _Translation:
 
     def solve(self, statement: Solve) -> None:
         """Execute a block of implicit equations, and add it to ``blocks``."""
-        # While ``inside`` is true, ``run`` records each assignment as part of this block. An outlined
-        # function never contains assignments of the block together with assignments outside it.
+        # While ``inside`` is true, ``run`` records each assignment as part of this block. Outlining never
+        # mixes these assignments with other assignments in one function.
         self.inside = True
         entered = self.enter(statement)
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # With residuals the block has no images g(u), but :func:`_varied` needs the images.
+        # For variations, :func:`_varied` needs the images g(u). Residuals would replace the images.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
-        # A block with residuals already contains Newton's matrix, because ``compared`` computes the matrix.
+        # The block ``residuals`` already contains Newton's matrix.
         if residuals is not None:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
-            # The last sweep computes g(u) and then improves u, so later statements read u in place of g(u).
+            # After the last sweep, u is more accurate than g(u). Later statements read u.
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # ``run`` uses the length of ``blocks`` as the index of this block, so the block is added last.
+        # The block is added after all calls of ``run``. Until then, its index is ``len(self.blocks)``.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
-        """Return a block of implicit equations as expressions in its unknowns."""
+        """Execute the body of ``block``, and return the equations u = g(u) as expressions."""
         names: list[str] = []
         starts: list[Expr] = []
         for unknown, start in zip(block.unknowns, block.starts, strict=True):
@@ -226,15 +225,16 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state, and the new state of the embedded method or ().
+        """Return the new states of the method and of the embedded method.
 
-        All statements of the program must be executed before this call.
+        Without an embedded method, the second state is (). All statements of the program must be executed
+        before this call.
         """
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # ``kernel`` subtracts the embedded solution from the new state, so both need the same frame.
+        # Both states are converted to the frame of the emitted code. ``kernel`` computes their difference.
         for embedded in (False, True):
-            # If the program has no embedded solution, the second ``values`` is empty.
+            # Without an embedded solution, ``values`` is empty for ``embedded`` = True.
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
@@ -275,7 +275,7 @@ class _Translation:
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
         # The error estimate is the difference between the new state and the embedded solution.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
-        # One call orders outputs and error estimates, so outputs and error estimates can share assignments.
+        # With one call of ``ordered``, outputs and error estimates can share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
         # LEAD is the duration of the last flow of a splitting step, and ELAPSED is the duration of a run.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
@@ -291,25 +291,27 @@ class _Translation:
         return _sampled(kernel, self.scene, self.domain)
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
-        """Return the body and the outputs of a kernel that computes ``ends``, and its outlined functions.
+        """Return the body, the outputs and the outlined functions of a kernel for the expressions ``ends``.
 
         Computations are outlined only if outlining makes the kernel much shorter.
         """
-        # Outlining discards ``schedule``, so only the names in ``before`` remain taken.
+        # ``before`` does not contain the names in ``schedule``. A kernel with outlined functions may use
+        # these names again.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
         # The number of assignments is a measure of the code size.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # COMBINED and SHORTENED have rewritten the expressions ``ends``, so outlining would find nothing.
+        # Outlining needs the expressions that ``run`` recorded. COMBINED and SHORTENED replace these
+        # expressions.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
             shorter, functions = _outlined(self.outline, self.blocks, ends, self.hints, self.name)
             if shorter is not None and _count(shorter.body) + _count(functions) < WORTH * _count(body):
                 schedule, body, outlined = shorter, tuple(shorter.body), functions
-        # The assignments are sorted last, because outlining replaces them.
+        # Outlining creates new assignments. Therefore the assignments are sorted after outlining.
         if self.chains in (ORDERED, SHORTENED):
             body = critical_path.ordered([let for let in body if isinstance(let, Let)])
         return body, schedule.outputs, outlined
@@ -338,12 +340,12 @@ def _outlined(
 ) -> tuple[Assignments | None, tuple[Function, ...]]:
     """Return the assignments that call outlined functions, and the outlined functions.
 
-    The assignments are None if no computation is repeated.
+    If no computation is repeated, the result is (None, ()).
     """
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # Outlining could create a function for a value in ``kept`` that no expression in ``flat`` reads.
+    # A value in ``kept`` is removed if no expression in ``flat`` reads the value.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # With one list for all blocks, outlining also finds computations that are repeated in different blocks.

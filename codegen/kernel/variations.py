@@ -75,7 +75,7 @@ class Variations:
         return seeds
 
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
-        """Return the variation of the new state ``state``.
+        """Return the variation of ``state``, the state after a step.
 
         ``rates`` contains the directional derivative of each coordinate along the variation of the old state.
         """

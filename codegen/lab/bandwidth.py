@@ -5,8 +5,8 @@ writes main memory. The bandwidth of the step is compared with that of the triad
 the STREAM benchmark (McCalpin 1995).
 
 Each number that a loop reads or writes is counted once. The additional read of a cache line before a write is
-not counted. Therefore the count omits a quarter of the memory traffic of the triad. If the count omits a
-smaller part for a step, the counted bandwidth of the step can exceed that of the triad.
+not counted. Therefore the count omits a quarter of the memory traffic of the triad. For a step, the omitted
+fraction can be smaller. The counted bandwidth of the step can then exceed that of the triad.
 """
 
 from __future__ import annotations
@@ -39,10 +39,10 @@ if TYPE_CHECKING:
     from codegen.ir.site_step import SiteStep
 
 COMPILE_SECONDS = 8.0
-"""The longest compile time of a measured module in seconds."""
+"""The limit for the compile time of a module, in seconds."""
 
 STEP_SECONDS = 0.5
-"""The limit for the CPU time of a step in seconds, which limits the size of the lattice."""
+"""The lattice is made smaller if a step would take more than this CPU time in seconds."""
 
 RESOLVED = 0.01
 """The shortest duration of a timed run in seconds: far above the resolution of the clock."""
@@ -51,7 +51,7 @@ REPEATED = 5
 """The number of timed runs. The fastest run is used, because other processes can only slow a run down."""
 
 CACHES = 8
-"""The largest size of the arrays divided by the size of the last-level cache."""
+"""The arrays are at most CACHES times as large as the last-level cache."""
 
 FREE_SHARE = 8
 """The arrays take at most the fraction 1/FREE_SHARE of the free memory."""
@@ -69,7 +69,7 @@ At most ATTEMPTS attempts are made.
 """
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
-"""The number of steps and the size of the small lattice on which iterations are counted.
+"""The iterations are counted in COUNTED_STEPS steps on a small lattice.
 
 In dimension d, this lattice has SIDES[d] sites along each axis (4 for d > 2).
 """
@@ -154,7 +154,7 @@ class Unmeasured:
         return [f"bandwidth not measured: {self.reason}"]
 
     def as_json(self) -> dict[str, object]:
-        """Return the reason as a dictionary for the key ``bandwidth`` of a JSON record."""
+        """Return a dictionary that contains ``reason``."""
         return {"reason": self.reason}
 
 
@@ -201,7 +201,7 @@ def _step_size(compiled: Compiled, step: SiteStep) -> float:
     """Return the step size for the measurement."""
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # A small step size keeps rotation angles below about one radian, which avoids a slow loop.
+    # Rotation angles above about one radian need a slow loop. A small step size avoids such angles.
     return h if step.blocks else h / SHORTER
 
 
@@ -247,9 +247,10 @@ class _Runs:
         return status
 
     def timed(self, side: int, steps: int, repeated: int = 1) -> tuple[Status, float]:
-        """Return the status and the CPU time in seconds for one site and step, in the fastest of equal runs.
+        """Return the status of a run, and the CPU time in seconds for one site and one step.
 
-        If a run fails, the method returns the status of this run and a meaningless CPU time.
+        The time is the shortest time of ``repeated`` equal runs. If a run fails, the method returns the
+        status of this run and a meaningless CPU time.
         """
         import numpy as np
 
@@ -268,9 +269,10 @@ class _Runs:
         return Status.OK, least / (sites * steps)
 
     def best(self, side: int) -> float:
-        """Return the CPU time in seconds for one site and one step in the fastest of several runs.
+        """Return the CPU time in seconds for one site and one step.
 
-        The number of steps is doubled until a run takes at least :data:`RESOLVED` seconds or fails.
+        The number of steps is doubled until a run takes at least :data:`RESOLVED` seconds or fails. The time
+        is the shortest time of :data:`REPEATED` runs.
         """
         steps, sites = 1, side**self.dimension
         status, pace = self.timed(side, steps, 2)

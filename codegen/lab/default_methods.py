@@ -46,7 +46,7 @@ The report of a scene omits a method if its order on the scene differs from the 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
 """The default methods that the command ``report`` runs with step-size control.
 
-The report of a Hamiltonian scene uses only the first method, because a figure has only eight colours.
+The report of a Hamiltonian scene uses only the first of these methods.
 """
 
 README_METHODS = {

@@ -17,10 +17,7 @@ from codegen.lab.runner import RunFailed
 from codegen.lab.timing import span_times
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""The tolerances of the runs, from loose to tight.
-
-The list begins with loose tolerances, because an error estimate of low order requires many steps.
-"""
+"""The tolerances of the runs, from loose to tight."""
 
 
 @dataclass

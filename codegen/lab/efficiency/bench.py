@@ -1,6 +1,6 @@
 """A bench measures the errors and CPU times of emitted methods and peers (other integrators) on a scene.
 
-For each required error, the bench names the two fastest candidates.
+For each required error, the bench names the two fastest integrators.
 """
 
 from __future__ import annotations
@@ -69,8 +69,7 @@ class Result:
     def setups(self) -> tuple[tuple[str, float, float], ...]:
         """The times in seconds for the emission and the compilation of the candidates.
 
-        Each triple contains the name of a candidate and a form of the equations, the time of emission, and
-        the time of compilation.
+        Each triple contains a label (:func:`in_form`), the time of emission, and the time of compilation.
         """
         return tuple(
             (in_form(label, form), own[0].emit_seconds, max(r.compile_seconds for r in own))
@@ -139,7 +138,7 @@ def bench(
     - ``budget``: the longest CPU time of a run in seconds.
     - ``output``: the folder for the files of the results, or None.
     - ``forms``: names of forms of the equations, for example ``quaternion`` (default: all forms). Methods
-      that use the group run only on the equations of the scene.
+      that use the Lie group ignore ``forms``.
 
     InputError is raised for wrong names and options. If a method cannot be emitted for the scene, its
     candidate contains the reason.
@@ -189,7 +188,7 @@ def peer_forms(
 ) -> list[Candidate]:
     """Return one candidate for each pair of a peer and an element of ``equations``.
 
-    A peer that projects onto the manifold integrates only the equations that the scene states.
+    Exception: a peer with projection onto the manifold has only one candidate.
     """
     return [
         PeerCandidate(scene, peer, exact, budget, equations=e)
@@ -199,7 +198,7 @@ def peer_forms(
 
 
 def entry_name(candidate: Candidate) -> str:
-    """Return the label of a candidate, with a target language other than the default in parentheses."""
+    """Return the label of a candidate, followed by the target language if it is not the default."""
     other = candidate.target in names() and candidate.target != DEFAULT
     return f"{candidate.label} ({candidate.target})" if other else candidate.label
 
@@ -256,8 +255,7 @@ def table(rows: Sequence[Row]) -> str:
 def curves(result: Result, styles: Styles) -> list[Curve]:
     """Return one curve of errors and CPU times for each candidate with a successful run.
 
-    If another form of the equations reaches the error of a run in less time, the curve omits this run
-    (:func:`frontier`).
+    A curve contains only runs on the fastest forms of the equations (:func:`frontier`).
     """
     drawn = []
     for label, rows in result.entries.items():

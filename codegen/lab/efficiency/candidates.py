@@ -21,14 +21,14 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""The largest order of recipes for which the compiler searches for the number of commutators.
+"""For recipes up to this order, the compiler searches for the smallest number of commutators.
 
 For larger orders, the search takes seconds.
 """
 
 
 DEGREES = (4, 6, 8, 10, 12, 14, 16, 18, 20, 24)
-"""A family that needs no tableau, such as Taylor's method (``taylor``), has recipes of these degrees."""
+"""The degrees of the recipes for families without tableaux, such as Taylor's method (``taylor``)."""
 
 
 @dataclass(frozen=True)
@@ -81,8 +81,8 @@ class Recipe:
 def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for a scene.
 
-    If ``tableaux`` is empty, all tableaux of the library are used. A method that treats the state as a vector
-    in R^n has a recipe for each form of the equations.
+    If ``tableaux`` is empty, all tableaux of the library are used. If a method treats the state as a vector
+    in R^n, it has one recipe for each form of the equations (for example, with unit quaternions).
     """
     forms = [form.key for form in classical_forms(problem)]
     for recipe in in_printed_form(problem, tableaux):
@@ -93,8 +93,8 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for the equations that the scene states.
 
-    If several families give the same methods on an abelian group, only the first family is used. The function
-    does not check whether a recipe can be compiled for the scene.
+    On an abelian group, several families can give the same method. Only the first family is then used. The
+    function does not check whether a recipe can be compiled for the scene.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
     if not tableaux:
@@ -134,7 +134,8 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
 
     The cut-off of a method is its number of commutators, such as the 2 in ``rkmk(2)``. For each order, only
     the smallest cut-off that gives this order is used. Orders below half the classical order of the tableau
-    have no recipe. A tableau can have one more recipe, whose name contains no cut-off (:data:`SEARCHED`).
+    have no recipe. A tableau can have one more recipe without a cut-off. For this recipe, the compiler
+    searches for the smallest number of commutators (:data:`SEARCHED`).
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()

@@ -1,4 +1,7 @@
-"""Measures an emitted method with equal steps. The runs give one curve of a work-precision diagram."""
+"""Runs an emitted method with equal steps, and measures errors and CPU times.
+
+The runs give one curve of a work-precision diagram.
+"""
 
 from __future__ import annotations
 
@@ -85,9 +88,9 @@ class EmittedCandidate:
         return self.equations.error(state, self.exact)
 
     def measure(self, control: float) -> Row:
-        """Run over the time span in ``control`` steps, and return the error and the CPU time as a row.
+        """Run over the time span, and return the error and the CPU time as a row.
 
-        If the run fails, the row contains the reason.
+        ``control`` is the number of steps. If the run fails, the row contains the reason.
         """
         steps = int(control)
         first, last = self.scene.span

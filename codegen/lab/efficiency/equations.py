@@ -20,8 +20,8 @@ from codegen.scene.problem import Problem
 class Equations:
     """The equations of a scene in one form, for example with unit quaternions.
 
-    ``form`` is None for the equations that the scene states. ``alone`` is True if the scene has only one form
-    of its equations.
+    If ``form`` is None, the equations are those of the scene itself. ``alone`` is True if the scene has only
+    one form of its equations.
     """
 
     scene: Problem

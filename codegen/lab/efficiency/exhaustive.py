@@ -53,8 +53,8 @@ class Exhausted:
     - ``copies``: the number of recipes that were not timed, because their code equals that of a timed recipe.
     - ``excluded``: the number of recipes that were not timed, because their predicted CPU times were too
       long.
-    - ``nearest``: the smallest ratio of the CPU time of a sampled excluded recipe to the best CPU time. If
-      ``nearest`` is below 1, a faster recipe was excluded.
+    - ``nearest``: the smallest ratio c/b. Here b is the best CPU time, and c is the CPU time of a recipe in a
+      sample of the excluded recipes. If ``nearest`` is below 1, a faster recipe was excluded.
     - ``complete``: False if the time limit ended the search.
     """
 
@@ -70,7 +70,7 @@ class Exhausted:
     codes: set[str] = field(default_factory=set)
 
     def best(self, error: float) -> float:
-        """Return the least CPU time in seconds that this search or the usual search measured for an error."""
+        """Return the least CPU time in seconds of both searches for the required error ``error``."""
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
 
@@ -129,7 +129,7 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return the prediction with equal steps for each pair of a method and a form of the equations."""
+    """Predict the CPU time for each pair (method, form of the equations), with equal steps."""
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
     jobs = [(recipe, bars) for recipe in recipes]
@@ -146,7 +146,7 @@ def _key(recipe: Recipe) -> Key:
 
 
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
-    """Return the smallest ratio of the predicted CPU time of a recipe to the time limit, over all errors.
+    """Return the minimum of (predicted CPU time)/(time limit) over all required errors.
 
     ``limits`` maps each required error to its time limit in seconds. The time limits include the safety
     factor SAFE.
@@ -156,8 +156,8 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
     - The runs in the interpreter failed.
     - The runs in the interpreter had large errors, and the recipe is implicit or has step-size control.
 
-    In both cases, the result is the predicted time of a single step divided by the longest time limit. A
-    quotient of at most 1 is replaced by 0.
+    In both cases, the result is the predicted time of a single step divided by the longest time limit. If
+    this quotient is at most 1, the result is 0.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)
@@ -178,8 +178,8 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
 def sampled(excluded: Sequence[T]) -> list[T]:
     """Return a sample of at most :data:`SAMPLE` excluded recipes.
 
-    ``excluded`` must be sorted by :func:`least_ratio`. Half of the sample is the beginning of ``excluded``,
-    and the other half is distributed evenly over the rest.
+    ``excluded`` must be sorted by :func:`least_ratio`. The first half of the sample is the beginning of
+    ``excluded``. The second half is distributed evenly over the remaining recipes.
 
     >>> sampled(range(102))
     [0, 1, 2, 3, 4, 5, 6, 22, 38, 54, 70, 86]
