@@ -20,7 +20,7 @@ from codegen.scene.problem import TIME, Problem
 FUNCTIONS = of_scalars(math)
 
 MANIFOLD = "manifold"
-"""The key for the equations of the manifold in the dictionaries of this module."""
+"""The dictionary key for the equations of the manifold."""
 
 
 def functions(scene: Problem) -> dict[str, Evaluate]:
@@ -85,7 +85,7 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
         case "neg":
             return sizes[0]
         case "div":
-            # A magnitude larger than the absolute value of the divisor would make the result too small.
+            # The magnitude of the divisor may exceed its absolute value, and make the result too small.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)

@@ -20,7 +20,7 @@ class Features:
     - ``explicit``: True if the method solves no equations.
     - ``adaptive``: True if the method runs with step-size control.
     - ``stack``: an upper bound of the stack memory of a call in bytes, or 0 if no bound is known.
-    - ``lines``: the number of lines of the emitted file with the code of a step.
+    - ``lines``: the number of lines of the file that contains the emitted step.
     """
 
     label: str

@@ -67,7 +67,7 @@ class Goal:
 
     @property
     def long(self) -> bool:
-        """True if the search tests a requirement of the goal in a long run."""
+        """True if the test of a requirement needs a long run."""
         return any(need.long for need in NEEDS if need.name in self.needs)
 
     @property
@@ -115,7 +115,7 @@ def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
 def possible_needs(
     recipe: Recipe, choices: Iterable[tuple[str, ...]], problem: Problem
 ) -> set[tuple[str, ...]]:
-    """Return the tuples of requirements in ``choices`` that a recipe may satisfy (:func:`possible`).
+    """Return the elements of ``choices`` that :func:`possible` allows for a recipe.
 
     Each tuple contains names of requirements from :data:`NEEDS`.
     """

@@ -59,7 +59,7 @@ class NewtonDomain(CountingDomain):
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Return the final state after ``steps`` equal steps over the time span, and a mean number of sweeps.
+    """Make ``steps`` equal steps over the time span. Return the final state and a mean number of sweeps.
 
     A sweep is one iteration for a system of implicit equations. The mean number predicts how many sweeps
     emitted code needs for one system in one step. ArithmeticError is raised if a state is not finite, or if
@@ -79,7 +79,7 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # Each sweep adds about the same number of digits. SETTLED requires half of the digits of emitted code.
+    # Each sweep adds about the same number of digits. Emitted code needs about twice the digits of SETTLED.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 

@@ -1,4 +1,4 @@
-"""Decides in which order the search for the fastest methods predicts the CPU times of recipes.
+"""Determines the order of the recipes for the predictions of CPU times.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations.
 """
@@ -19,22 +19,23 @@ MARGIN = 5.0
 """A recipe is too slow if its predicted CPU time exceeds MARGIN times the least predicted time."""
 
 FRESH = 8
-"""A :class:`Bar` is updated when the number of stored predictions has grown by about the fraction 1/FRESH."""
+"""A :class:`Bar` from n predictions is updated after about 1 + n/FRESH further predictions."""
 
 
 EVEN = 4.0
-"""A constant in the delay (n + d)/EVEN + s of a queue of recipes.
+"""The divisor EVEN in the delay (n + d)/EVEN + s of a queue of recipes.
 
-The next recipe comes from the queue with the smallest delay.
+The next recipe comes from the queue with the smallest delay. All recipes in a queue have the same kind
+(:data:`Kind`) and the same order.
 
 - n is the number of recipes that were taken from the queue.
-- d is the distance of the order of the methods in the queue from the usual order (:func:`usual_order`).
-- s = log2(T1/T2) is the slowness of the queue. T1 is the least predicted CPU time of the recipes of its kind
-  (:data:`Kind`), and T2 is the least predicted CPU time of all recipes.
+- d is the distance between the order of the recipes and the nearest usual order (:func:`usual_order`).
+- s = log2(T1/T2) is the slowness of the queue. T1 is the least predicted CPU time of recipes of the same
+  kind. T2 is the least predicted CPU time of all recipes.
 """
 
 FAILED = 4.0
-"""The slowness of a queue (:data:`EVEN`) if all predicted times for its kind of recipe are infinite."""
+"""The value of s at :data:`EVEN` if all predicted times for this kind of recipe are infinite."""
 
 
 def usual_order(error: float) -> float:
@@ -67,7 +68,7 @@ class Jobs(Sequence[Job]):
     The bars depend on the predictions for earlier recipes. Therefore a job is created only when a worker
     process is free.
 
-    The next recipe comes from the queue with the smallest delay (:data:`EVEN`).
+    The choice of the next recipe is explained at :data:`EVEN`.
 
     - ``goals``: the goals for which a recipe is predicted.
     - ``controlled``: the goals that a recipe can meet with step-size control.
@@ -127,12 +128,12 @@ class Jobs(Sequence[Job]):
         return recipe
 
     def _place(self, queue: Queue) -> float:
-        """Return the delay of a queue, as defined at :data:`EVEN`."""
+        """Return (n + d)/EVEN + s for a queue. The symbols are explained at :data:`EVEN`."""
         distance = min(abs(queue[1] - order) for order in self.usual)
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the least slowness of a queue (:data:`EVEN`) over all goals, or 0 without a prediction."""
+        """Return s at :data:`EVEN` for a queue: the least value over all goals, or 0 if it is unknown."""
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
         ratios = [
@@ -147,8 +148,8 @@ class Jobs(Sequence[Job]):
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
         """Store the prediction for a recipe, if it is reliable.
 
-        A prediction with a ``failure`` is not stored. A ``vague`` prediction is stored only if it also
-        contains a prediction for step-size control.
+        A prediction with a ``failure`` is not stored. A ``vague`` prediction is stored only if its
+        attribute ``controlled`` is not None.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -163,7 +164,7 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
-        """Return the bar of a recipe for a goal: the limits on its error and its CPU time.
+        """Return a bar: the limits on the error and the CPU time of ``recipe`` for ``goal``.
 
         To save time, the bar is updated only after several new predictions (:data:`FRESH`).
         """

@@ -35,8 +35,8 @@ def bench(
 ) -> Result:
     """Measure the error and the CPU time of methods and of other integrators on a scene.
 
-    The methods in ``adaptive`` run with step-size control, the methods in ``methods`` with equal
-    steps. ``against`` contains the names of the other integrators. If a method cannot be emitted for the
+    ``methods`` contains the methods with equal steps. ``adaptive`` contains the methods with step-size
+    control. ``against`` contains the names of the other integrators. If a method cannot be emitted for the
     scene, the result contains the reason. Raises InputError for invalid arguments.
     """
     if not isinstance(adaptive, Sequence) or isinstance(adaptive, str):

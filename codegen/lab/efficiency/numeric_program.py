@@ -90,7 +90,7 @@ class Numeric(Operation):
         return self.label
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
-        """Return the results of ``function`` for the doubles in ``args`` and the step size."""
+        """Return the results of the attribute ``function``. Its inputs are ``args`` and the step size."""
         flat: list[Scalar] = []
         for x in args:
             if isinstance(x, tuple):

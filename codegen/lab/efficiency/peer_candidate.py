@@ -27,7 +27,7 @@ class PeerCandidate:
     """A peer (another integrator) that is run on a scene.
 
     ``exact`` is the reference solution of the scene. ``budget`` is the longest CPU time of a run in seconds.
-    If ``equations`` is None, the peer integrates the equations of the scene itself.
+    If ``equations`` is None, the peer integrates the equations of ``scene``.
     """
 
     scene: Problem
@@ -106,7 +106,7 @@ class PeerCandidate:
 
         - The peer cannot integrate the scene.
         - The next run would take too long.
-        - The peer makes equal steps, and further steps would not reduce the error because of rounding.
+        - The peer makes equal steps, and the error has reached the size of rounding errors.
         """
         if self.refused or beyond_budget(rows, self.budget):
             return True

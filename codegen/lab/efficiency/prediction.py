@@ -42,7 +42,7 @@ A small error is assumed to be proportional to h^p, where h is the step size and
 """
 
 PATIENCE = 0.4
-"""The limit on the CPU time in seconds for a series of interpreted runs with equal steps.
+"""The limit on the total CPU time in seconds of a series of interpreted runs with equal steps.
 
 For a series of runs with step-size control, the limit is PATIENCE/2.
 """
@@ -56,7 +56,7 @@ interval.
 """
 
 TRIES = 3
-"""After TRIES consecutive failures of methods of one kind, the interpreter makes fewer runs for this kind.
+"""If TRIES consecutive methods of one kind fail, fewer runs are made for this kind.
 
 A kind is a pair (family, explicit). After failures with equal steps, equal steps are used only on the first
 interval of the time span (:data:`PARTS`). After failures with step-size control, step-size control is not
@@ -75,16 +75,17 @@ TOLERANCES = (1, 3, 5, 7, 9, 11)
 """The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
-"""A method of order p is excluded if e exceeds FAR times the required error.
+"""Methods of order p are excluded if even methods of higher order are too inaccurate.
 
-Here e is the least predicted error of methods of the orders p + 1 and p + 2 within the time limit.
+For a given CPU time, let e be the least predicted error of methods of the orders p + 1 and p + 2. Methods of
+order p are excluded if e exceeds FAR times the required error.
 """
 
 CALL = 8.0
 """The time in nanoseconds that a run needs in each step to read and write the state."""
 
 DIGITS = 16
-"""The number of correct decimal digits when emitted code solves implicit equations."""
+"""The assumed number of correct decimal digits of the solutions of implicit equations in emitted code."""
 
 
 @dataclass(frozen=True)
@@ -97,11 +98,10 @@ class Prediction:
     - ``sweeps``: the mean number of sweeps in a step.
     - ``steps``: the number of steps for which ``error`` is predicted.
     - ``error``: the predicted error with ``steps`` steps, or infinity if the interpreted runs failed.
-    - ``rough``: True if no interpreted run with equal steps over the whole time span had a small error
-      (:data:`SMALL`).
+    - ``rough``: True if equal steps over the whole time span failed or had large errors (:data:`SMALL`).
     - ``controlled``: the prediction with step-size control, or None.
-    - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS. A time that
-      is predicted from a large error may be too short.
+    - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS. Then the
+      predicted times may be too short.
     - ``failure``: the reason if the method cannot be used for the scene, and otherwise ''.
     """
 
@@ -129,7 +129,7 @@ class Prediction:
         return max(1.0, self.steps * math.pow(self.error / error, 1 / max(self.order, 1)))
 
     def seconds(self, error: float) -> float:
-        """Return the predicted CPU time in seconds of a run that reaches an error."""
+        """Return the predicted CPU time in seconds of a run with the given error."""
         count = self.count(error)
         if not math.isfinite(count):
             return math.inf
@@ -154,9 +154,8 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e) for the rule at :data:`FAR`. Here e is the least predicted
-      error of methods of slightly higher order whose runs take the CPU time ``seconds``. If ``family`` is not
-      '', only methods of this family are compared.
+    - ``least``: triples (family, explicit, e). The error e is defined at :data:`FAR`, for the CPU time
+      ``seconds``. If ``family`` is not '', only methods of this family are compared.
     - ``steps``: the number of steps of the first run in the interpreter.
     - ``explicit``: True if methods that solve equations are excluded.
     """
@@ -174,7 +173,7 @@ class Bar:
 
         - The predicted CPU time of one step, ``step_seconds``, exceeds the time limit of the bar.
         - The bar requires explicit methods, and the argument ``explicit`` is False.
-        - Methods of slightly higher order are predicted to be too inaccurate (:data:`FAR`).
+        - Even methods of slightly higher order are too inaccurate (:data:`FAR`).
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -184,13 +183,13 @@ class Bar:
     def most(self, step_seconds: float) -> float:
         """Return the largest number of steps that the interpreter may make in a run.
 
-        ``step_seconds`` is the time of a step in compiled code. The result is the number of such steps within
-        the time limit, but at most :data:`MANY_STEPS` and at least the number ``steps`` of the first run.
+        ``step_seconds`` is the time of a step in compiled code. The result is the time limit divided by
+        ``step_seconds``, but at most :data:`MANY_STEPS` and at least the attribute ``steps``.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
     def hopeless(self, family: str) -> bool:
-        """Return True if this bar excludes both the explicit and the implicit methods of a family."""
+        """Return True if the limits exclude all methods of a family, explicit and implicit."""
         return self.too_high(family, True) and self.too_high(family, False)
 
 
@@ -203,9 +202,9 @@ class Predictor:
       (:data:`PARTS`), and the reference solution at the end of the first interval.
     - ``failures``: for each kind of method, the number of consecutive failures with equal steps
       (:data:`TRIES`).
-    - ``uncontrolled``: for each kind of method, the number of consecutive failures with step-size control.
-    - ``costs``: for each operation, its predicted time in nanoseconds and the number of components of each
-      result.
+    - ``uncontrolled``: the same numbers for failures with step-size control.
+    - ``costs``: for each operation, the predicted time in nanoseconds and the numbers of components of the
+      results.
     """
 
     equations: Equations
@@ -219,9 +218,10 @@ class Predictor:
     def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
         """Return the prediction for a method of the given order.
 
-        If all bars exclude the method (:meth:`Bar.too_high`), the method is not run, and the predicted error
-        is infinite. ``controlled`` is the same method with step-size control, or None. Raises InputError if
-        the method cannot be used for the scene.
+        A bar contains limits on the error and the CPU time. If every bar excludes the method
+        (:meth:`Bar.too_high`), no run is made, and the predicted error is infinite. ``controlled`` is the
+        same method with step-size control, or None. Raises InputError if the method cannot be used for the
+        scene.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
@@ -239,8 +239,7 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # If the error is large and ``most`` is below MANY_STEPS, the method is too slow, and the run over the
-        # first interval is omitted.
+        # If ``most`` is below MANY_STEPS, more steps would take too long. Then a large error is final.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -259,9 +258,8 @@ class Predictor:
     def controlled(self, method: Method, equal: Prediction, target: float) -> Prediction | None:
         """Return the prediction for a method with step-size control, or None.
 
-        The tolerance of the interpreted runs decreases until a run fails, until an error is at most
-        ``target``, or for PATIENCE/4 seconds of CPU time (:data:`PATIENCE`). The result is None in three
-        cases:
+        The tolerance of the interpreted runs decreases. The runs end after a failure, after an error of at
+        most ``target``, or after PATIENCE/4 seconds of CPU time. The result is None in three cases:
 
         - No run has a small error (:data:`SMALL`).
         - The method has no embedded solution.
@@ -303,7 +301,7 @@ class Predictor:
         return problem, program, widths_of_inputs(program, problem)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
-        """Return the predicted times in nanoseconds outside of implicit equations and for one sweep.
+        """Return two predicted times in nanoseconds: operations outside of implicit equations, and one sweep.
 
         A sweep is one iteration over all implicit equations. ``widths`` maps each input of the program to its
         number of components. The function stores the other variables of the program in ``widths``, too.
@@ -344,7 +342,7 @@ def _reached(
     most: float,
     end: float,
 ) -> tuple[int, float, float]:
-    """Interpret a program with ``steps``, 2 ``steps``, 4 ``steps``, ... (up to ``most``) equal steps.
+    """Run a program with equal steps. Their number starts at ``steps`` and doubles up to ``most``.
 
     The series ends when the error is small (:data:`SMALL`), or when the CPU time of the process
     (``time.process_time``) reaches ``end``.

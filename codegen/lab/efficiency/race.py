@@ -29,16 +29,16 @@ from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED
 
 HALVINGS = 6
-"""The largest number of bisections in the search for the smallest control that reaches an error."""
+"""The largest number of bisections in the search for the fewest steps or the largest tolerance."""
 
 FINEST = 15.0
 """The exponent k of the smallest tolerance 10^-k."""
 
 LONGEST = 0.2
-"""After a run of more than LONGEST seconds of CPU time, the accuracy of runs is not increased further."""
+"""After a run of more than LONGEST seconds of CPU time, no run with higher accuracy is made."""
 
 BRIEF = 0.01
-"""A run that takes less than BRIEF seconds of CPU time is never too slow.
+"""A CPU time below BRIEF seconds never counts as too long.
 
 Short times are not reliable, because the first run of a module is slower than later runs.
 """
@@ -81,14 +81,14 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # In forms other than PRINTED, the states may leave the manifold of the scene.
+        # For other forms of the equations, the states may leave the manifold of the scene.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 
 
 @dataclass(frozen=True)
 class Result:
-    """The fastest run of an entry that reaches the required error.
+    """The fastest run whose error is at most the required error.
 
     If no run reaches the required error, the attributes describe the most accurate run.
 
@@ -182,8 +182,8 @@ class Racer:
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the result for the fastest run that reaches an error.
 
-        ``best``, the least CPU time of the other recipes in seconds, limits the search (:data:`PATIENT`). If
-        the error is not reached, the attribute ``reached`` of the result is False.
+        ``best`` is the least CPU time in seconds of the other recipes. A much slower run ends the search
+        (:data:`PATIENT`). If the error is not reached, the attribute ``reached`` of the result is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
@@ -211,8 +211,8 @@ class Racer:
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
         """Increase the accuracy of the runs until two consecutive runs have small enough errors.
 
-        The result is the number of equal steps, or the exponent k of the tolerance 10^-k, of the first run,
-        and True. If there are no such runs, the second result is False.
+        Returns the control of the first of these runs, and True. The control is the number of equal steps, or
+        the exponent k of the tolerance 10^-k. If there are no such runs, the second result is False.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
@@ -234,7 +234,7 @@ class Racer:
 
         - There are at least five runs.
         - The smallest error, relative to the size of the state, is below 1e-9.
-        - Each of the last three errors is more than half of the smallest error before them.
+        - The last three errors are all larger than half of the smallest earlier error.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
@@ -243,7 +243,7 @@ class Racer:
         return control + 1.0 if self.entry.recipe.adaptive else 2.0 * control
 
     def _coarsened(self, control: float, error: float) -> float:
-        """Return the smallest control that reaches the error in a bisection.
+        """Reduce ``control`` by bisection, and return the smallest value that reaches ``error``.
 
         ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k. A run with
         ``control`` must reach the error.

@@ -32,7 +32,7 @@ class Place:
 
 
 def by_form(rows: Sequence[Row]) -> dict[str, list[Row]]:
-    """Return a dictionary that maps the name of each form of the equations to its rows.
+    """Return the rows in a dictionary. The keys are the names of the forms of the equations.
 
     A row contains the results of one run.
     """
@@ -54,8 +54,8 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
     The runs are sorted from coarse to fine. Runs after the most accurate run are not used. The time is
     interpolated between two runs: the last run whose error is above ``error``, and the next run. The
-    interpolation is linear in the logarithms of time and error. If the next run or a later run took less
-    time, the least of these times is the result.
+    interpolation is linear in the logarithms of time and error. The result is the least of the
+    interpolated time, the time of the next run, and the times of later runs.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -71,7 +71,7 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the result of :func:`seconds_to` for rows of only one form of the equations."""
+    """Return the result of :func:`seconds_to`. All ``rows`` must have the same form of the equations."""
     good = [r for r in rows if r.error is not None and r.seconds]
     if not good or _error(min(good, key=_error)) > error:
         return None
@@ -87,7 +87,7 @@ def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def in_form(label: str, form: str) -> str:
-    """Return the label of a candidate, followed by the name of the form of the equations in brackets.
+    """Return the label of a candidate, followed by ``form`` in brackets.
 
     If ``form`` is empty, return only the label.
 
@@ -98,7 +98,7 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful runs of a candidate on the fastest forms of the equations.
+    """Return the successful runs of one integrator, without runs on slow forms of the equations.
 
     A run is omitted if another form reaches the same error in less time. If there are several forms, the
     result is sorted by error, from large to small.
@@ -116,7 +116,7 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
 
 
 def prevailing_form(rows: Sequence[Row]) -> list[Row]:
-    """Return the rows of the form of the equations that is most often the fastest.
+    """Return all rows with the most frequent fastest form of the equations.
 
     The fastest form is determined for each error 10^-k with k in :data:`DECADES`.
     """

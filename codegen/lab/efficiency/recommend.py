@@ -1,4 +1,4 @@
-"""Recommends the fastest recipe of the library that reaches an error and satisfies requirements of the user.
+"""Recommends the fastest recipe of the library for a required error and other requirements.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations.
 """
@@ -40,7 +40,7 @@ class Request:
     tableaux: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        assert self.goal  # The goal is computed because Goal checks ``error`` and ``needs``.
+        assert self.goal  # Goal checks ``error`` and ``needs``.
 
     @property
     def goal(self) -> Goal:
@@ -68,7 +68,7 @@ class Recommendation:
     - ``seconds``: the time of the search in seconds.
     - ``complete``: False if the time limit ended the search.
     - ``lost``: the labels of recipes that do not preserve a conserved quantity in a long run.
-    - ``referred``: the fraction of the time limit in which the reference solution was computed.
+    - ``referred``: the time to compute the reference solution, as a fraction of the time limit.
     - ``kinks``: the number of points of the solution at which the vector field is not smooth.
     """
 
@@ -127,7 +127,7 @@ def place_json(task: Task, place: Result) -> dict[str, object]:
 def step_of(task: Task, place: Result) -> float | None:
     """Return the step size of a run, or None.
 
-    The result is None in two cases: the run has step-size control, or every run of the recipe failed.
+    The result is None if the recipe has step-size control, or if every run failed.
     """
     first, last = task.problem().span
     return None if place.entry.recipe.adaptive or not place.steps else float((last - first) / place.steps)

@@ -43,13 +43,13 @@ LEADERS, CLOSE = 4, 1.4
 """The LEADERS fastest recipes are timed again if their CPU time is at most CLOSE times the best CPU time."""
 
 CONTROLLED = 100.0
-"""The divisor of unreliable predicted times of recipes with step-size control (:meth:`Search.hoped`).
+"""Unreliable predicted times for step-size control are divided by CONTROLLED (:meth:`Search.hoped`).
 
 On stiff scenes, a time that is predicted from equal steps can be a hundred times the true time.
 """
 
 ROUND = 6
-"""The number of recipes that are emitted between two corrections of the predictions."""
+"""The largest number of recipes that are emitted between two corrections of the predicted times."""
 
 GROUP = 50
 """The number of predictions between two progress messages."""
@@ -73,7 +73,7 @@ LONG_STEPS = 20_000
 """The number of steps of the long run that tests whether a method preserves conserved quantities."""
 
 SHORTER = 5
-"""The largest number of halvings of a step size in the test of conserved quantities in a long run."""
+"""If a long run loses a conserved quantity, the step size is halved, at most SHORTER times."""
 
 Kind = tuple[str, bool, bool]
 """A kind of recipe: (name of the method family, explicit, with step-size control).
@@ -92,7 +92,7 @@ class Search:
     :meth:`run` must be called before :meth:`leaders`.
 
     - ``predictions``: the predicted errors and times of recipes.
-    - ``ratios``: the ratios of measured to predicted times, for each kind of recipe and each error.
+    - ``ratios``: the ratios of measured to predicted times, for each kind of recipe and each required error.
     - ``results``: for each error, a dictionary of the measured recipes and their results.
     - ``lost``: for each goal, the recipes that fail the test of conserved quantities in a long run.
     - ``complete``: False if the time budget ended the search.
@@ -157,8 +157,8 @@ class Search:
     def expected(self, recipe: Recipe, error: float) -> float:
         """Return an optimistic estimate of the CPU time of a recipe for a required error, in seconds.
 
-        The predicted time is multiplied by a ratio of measured to predicted times, and divided by a safety
-        factor. If there is no prediction, the result is infinity.
+        The predicted time is corrected by the results of measured recipes, and divided by a safety factor. If
+        there is no prediction, the result is infinity.
         """
         prediction = self.prediction(recipe)
         if prediction is None or prediction.failure:
@@ -171,7 +171,7 @@ class Search:
         return seconds * self._least / UNSEEN
 
     def hoped(self, recipe: Recipe, error: float) -> float:
-        """Return the estimate of :meth:`expected`. An unreliable estimate is divided by :data:`CONTROLLED`.
+        """Return the result of :meth:`expected`, divided by :data:`CONTROLLED` if the estimate is unreliable.
 
         An estimate is unreliable if three conditions hold: the recipe has step-size control, the prediction
         comes from equal steps with large errors, and no recipe of the same kind has been measured.
@@ -189,7 +189,7 @@ class Search:
         return known.controlled or known if known is not None and recipe.adaptive else known
 
     def _correct(self) -> None:
-        """Compute factors that correct predicted times, from the ratios of measured to predicted times."""
+        """Compute correction factors for predicted times from the attribute ``ratios``."""
         self._corrections = {key: geometric_mean(x) for key, x in self.ratios.items() if x}
         joined: dict[Kind, list[float]] = defaultdict(list)
         for (kind, _), ratios in self.ratios.items():
@@ -229,8 +229,8 @@ class Search:
     def _next(self) -> list[Recipe]:
         """Return the recipes with the largest gains, at most :data:`ROUND` recipes.
 
-        Let a be the best measured time for a goal, and b < a the estimated time of a recipe. The gain of the
-        recipe is log(a/b), summed over all goals.
+        Let a be the best measured time for a goal, and b the estimated time of a recipe. The gain of the
+        recipe is the sum of log(a/b) over all goals with b < a.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -288,7 +288,7 @@ class Search:
         return Racer(self.task.equations(candidate.recipe.form), self.exact, candidate)
 
     def _measure(self, recipe: Recipe) -> None:
-        """Measure the CPU time of a recipe for each error of the goals, and store the results."""
+        """Measure the CPU time of a recipe for each required error, and store the results."""
         racer = self.racers[recipe]
         prediction = self.prediction(recipe)
         assert prediction is not None
@@ -301,7 +301,7 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If the recipe does not reach the error, a long time makes the search avoid similar recipes.
+                # If the recipe does not reach the error, the large ratio delays similar recipes.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)

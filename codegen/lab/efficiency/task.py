@@ -48,7 +48,7 @@ class Task:
         return _problem(self.scene, self.span)
 
     def first_part(self) -> Task:
-        """Return the task with the first of :data:`PARTS` equal parts of the time span."""
+        """Return the task on the first interval of the time span (:data:`PARTS`)."""
         first, last = self.problem().span
         return replace(self, span=(first, first + (last - first) / PARTS))
 

@@ -22,10 +22,10 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 
 AGAIN = 3
-"""The largest number of repeated measurements of two runs if the run with fewer steps takes longer."""
+"""If a run with fewer steps takes longer, both runs are measured again, at most AGAIN times."""
 
 NEAR_ROUNDING = 1e-9
-"""The largest error of a run that may be caused by rounding, relative to the size of the state."""
+"""Rounding may cause errors up to NEAR_ROUNDING times the size of the state."""
 
 
 @dataclass(frozen=True)
@@ -35,8 +35,7 @@ class Row:
     - ``control``: the requested tolerance or number of steps.
     - ``h``: the mean step size.
     - ``seconds``: the mean CPU time of a run in the fastest of several batches.
-    - ``spread``: in about three quarters of the batches, the mean time of a run is at most (1 + ``spread``)
-      times ``seconds``.
+    - ``spread``: q/``seconds`` - 1, where q is the upper quartile of the mean CPU times of all batches.
     - ``evaluations``, ``exponentials``, ``iterations``: the numbers of field evaluations, group exponentials
       and iterations for implicit equations in the run, or None if they were not counted.
     - ``emit_seconds``, ``compile_seconds``: the times to emit and to compile the code.
@@ -179,7 +178,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield one number, because one row with ``reason`` is needed."""
+        """Yield the single number 0."""
         yield 0.0
 
     def prepare(self) -> None:
@@ -191,7 +190,7 @@ class Refused:
         raise InputError(self.reason)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True: no run is possible."""
+        """Always return True."""
         return True
 
 

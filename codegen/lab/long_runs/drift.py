@@ -41,22 +41,25 @@ A value between BOUNDED and WALK suggests a random walk.
 """
 
 LATE, LATE_CONFINED = 1.5, 2.0
-"""The limits for the growth factor of a bounded deviation: usually, and for a scatter below :data:`CONFINED`.
+"""Limits for the growth factor of a bounded deviation.
+
+The limit is LATE_CONFINED if the scatter is below :data:`CONFINED`, and otherwise LATE.
 
 The growth factor is the largest deviation of the record, divided by the largest deviation of its first half.
 """
 
 LEVEL, STAYS = 0.9, 0.5
-"""A deviation saturates if it reaches LEVEL times its largest value in the first half of the record.
+"""A deviation saturates at a time t in the first half of the record under two conditions.
 
-After this time, the deviation must be at least STAYS times the largest value.
+At t, the deviation first reaches LEVEL times its largest value. After t, the deviation is always at least
+STAYS times its largest value.
 """
 
 WALKING = (0.5, 1.6)
 """Limits for the variance ratio V_k/(k V_1) of a random walk. Only the lower limit is used for k = FAR.
 
-V_k is the mean of (r_(i+k) - r_i)^2 over all i. Here r_i is the residual of the mean over block i, after a
-line is fitted to the means over all blocks of the record.
+V_k is the mean of (r_(i+k) - r_i)^2 over all i. A line is fitted to the means over all blocks of the
+record, and r_i is the residual for block i.
 """
 
 CONFINED = 0.04
@@ -67,14 +70,14 @@ Only 3 % of all random walks have a scatter below CONFINED.
 """
 
 STRAIGHT = 0.0225
-"""A random walk is excluded if the scatter V/(n D) about a line is below STRAIGHT.
+"""A record does not count as a random walk if its scatter V/(n D) about a line is below STRAIGHT.
 
-V is the variance of the residuals of a line fitted to the means over n blocks. D is the variance of the
+A line is fitted to the means over n blocks. V is the variance of the residuals. D is the variance of the
 differences between consecutive means. Only 1 % of all random walks have a scatter below STRAIGHT.
 """
 
 STEADY = 3.2
-"""A random walk is excluded if the steadiness |m|/s of a record is above STEADY.
+"""A record does not count as a random walk if its steadiness |m|/s is above STEADY.
 
 Here m is the average difference between the means of consecutive blocks, and s the standard error of m. Only
 1 % of all random walks have a steadiness above STEADY.
@@ -83,14 +86,14 @@ Here m is the average difference between the means of consecutive blocks, and s 
 TINY = 1e-24
 """A variance of the differences between block means below TINY is attributed to rounding errors.
 
-The unit is the square of the largest deviation.
+All variances are divided by the square of the largest deviation.
 """
 
 FINE, NEAR, FAR = 100, 5, 20
-"""FINE is the largest number of blocks for the scatter and for two variance ratios (:data:`WALKING`).
+"""FINE is the largest number of blocks for :data:`WALKING`, :data:`CONFINED` and :data:`STRAIGHT`.
 
-The two variance ratios have the distances k = NEAR and k = FAR. In a short record, the number of blocks and
-the second distance are smaller.
+The variance ratio is computed for k = NEAR and for k = FAR. In a short record, the number of blocks and the
+second value of k are smaller.
 """
 
 
@@ -104,10 +107,10 @@ class Drift:
     - ``exponent``: the exponent p, if the largest deviation up to the time t grows like t^p.
     - ``rounding``: the largest deviation that rounding errors can cause.
     - ``persists``: True if the means over consecutive sections of the record are monotone.
-    - ``later``: the growth factor (:data:`LATE`) of the deviation.
+    - ``later``: the growth factor that is defined at :data:`LATE`.
     - ``ratios``: two variance ratios (:data:`WALKING`), both about 1 for a random walk.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
-    - ``unlike_walk``: True if :data:`STRAIGHT` or :data:`STEADY` excludes a random walk.
+    - ``unlike_walk``: True if :data:`STRAIGHT` or :data:`STEADY` shows that the record is no random walk.
     - ``until``: the time at which the deviation saturates, or None.
     """
 
@@ -132,7 +135,7 @@ class Drift:
     def law(self) -> str:
         """The verdict on the deviation: one of the following strings.
 
-        - ``lost``: the deviation reaches the size of the quantity, or half of this size if it saturates.
+        - ``lost``: the deviation reaches the size of the quantity. If it saturates, half the size suffices.
         - ``exact``: all deviations are zero.
         - ``rounding``: the deviation is so small that rounding errors can cause it.
         - ``drift``: the attributes ``is_drift``, ``persists`` and ``unlike_walk`` are all True.
@@ -154,7 +157,7 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # ``steady`` tests the exponent, because ``is_drift`` is False for growth with alternating sign.
+        # A deviation with alternating sign may grow without a drift. Therefore the exponent is tested.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -244,7 +247,7 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
     """Return the drift for finite deviations ``y`` at the times ``t``.
 
-    ``size`` contains the largest absolute deviation in the interval that ends at each sample.
+    ``size`` contains the largest absolute deviation since the previous sample, for each sample.
     """
     whole, scale = float(t[-1]), float(size.max()) or 1.0
     # The scaling prevents an overflow in the squares of times and deviations.
@@ -267,16 +270,16 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the scatter (:data:`CONFINED`, :data:`STRAIGHT`) about a polynomial of the given degree."""
+    """Return the scatter V/(n D) at :data:`CONFINED` for degree 0, and at :data:`STRAIGHT` for degree 1."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
-    # If all increments are equal up to rounding errors, the means are on a line, and the scatter counts as 0.
+    # If all increments are equal up to rounding errors, the result is 0.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 
 def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
-    """Return the steadiness of a record (:data:`STEADY`)."""
+    """Return the steadiness |m|/s of a record, as defined at :data:`STEADY`."""
     increments = numpy.diff(_means(t, y, BLOCKS)[1])
     error = float(increments.std(ddof=1)) / math.sqrt(len(increments))
     return abs(float(increments.mean())) / error if error > 0.0 else math.inf
@@ -320,7 +323,7 @@ def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
     residual = z - z.mean() - slope * centred
     square = float(residual @ residual)
     error = math.sqrt(square / (BLOCKS - 2) / float(centred @ centred))
-    # If consecutive residuals have the correlation r, the variance of the slope is larger by the factor
+    # Let r be the correlation of consecutive residuals. The variance of the slope gets the factor
     # (1 + r)/(1 - r).
     r = max(float(residual[1:] @ residual[:-1]) / square, 0.0) if square > 0.0 else 0.0
     error *= math.sqrt((1 + r) / (1 - r))
