@@ -37,7 +37,7 @@ class Measurement(ABC, Generic[R]):
     - ``title``: the heading of the section;
     - ``about``: one line of text for ``orderconds list measurements``;
     - ``json_key``: the key of the result in the JSON of the report, by default ``name``;
-    - ``part_of``: the name of another measurement whose selection includes this measurement.
+    - ``part_of``: the name of another measurement. ``--only`` with that name selects this measurement, too.
     """
 
     name: ClassVar[str]

@@ -12,13 +12,13 @@ from codegen.ir.table import PiecewisePolynomial
 from codegen.lab.number_types import Scalar
 
 TABLES = "table"
-"""The key of the function that evaluates piecewise polynomials, in a dictionary :data:`Functions`."""
+"""In a dictionary :data:`Functions`, this key has the function for piecewise polynomials."""
 
 Functions = Mapping[str, Scalar]
 """A dictionary that maps names such as ``sin`` to functions of numbers or arrays.
 
 The value for the key :data:`TABLES` is a function with two arguments: a piecewise polynomial, and a function
-that converts exact numbers to the number type. The result is a function that evaluates the polynomial.
+that converts its exact coefficients. The result is a function that evaluates the polynomial.
 """
 
 
@@ -37,7 +37,7 @@ def of_scalars(source: object) -> Functions:
 
 
 def of_arrays(library: Scalar) -> Functions:
-    """Return the functions that formulas may call, for arrays.
+    """Return the functions of arrays that formulas may call.
 
     ``library`` is NumPy, or a library with the same interface as NumPy.
     """
@@ -62,10 +62,11 @@ def of_arrays(library: Scalar) -> Functions:
 
 
 def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
-    """Return the function of ``functions`` for ``name``, a string or a piecewise polynomial.
+    """Return the function with the name ``name`` in ``functions``.
 
-    ``constant`` converts the exact coefficients of the polynomial to the number type. Raises ArithmeticError
-    if ``functions`` has no such function.
+    If ``name`` is a piecewise polynomial, the result evaluates the polynomial. ``constant`` converts the
+    exact coefficients of the polynomial to the number type. Raises ArithmeticError if ``functions`` has no
+    such function.
     """
     key = TABLES if isinstance(name, PiecewisePolynomial) else name
     if key not in functions:

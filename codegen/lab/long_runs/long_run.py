@@ -32,10 +32,10 @@ ROUNDING_STEPS = 20_000
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""The deviation limit for rounding errors is UNSTABLE * n * EPSILON times the magnitude of a quantity.
+"""Defines the largest deviation of a quantity that is attributed to rounding errors.
 
-The limit holds after n steps of a method that conserves the quantity exactly. EPSILON is the machine epsilon
-of doubles.
+After n steps of a method that conserves the quantity exactly, this deviation is UNSTABLE * n * EPSILON times
+the magnitude of the quantity. EPSILON is the machine epsilon of doubles.
 """
 
 
@@ -43,8 +43,9 @@ of doubles.
 class Kept:
     """The relative deviations of one conserved quantity in a run, and its drift.
 
-    ``times`` are the times of the samples, measured from the start of the run. ``deviations`` and ``peaks``
-    are the mean deviation and the largest absolute deviation of all steps since the previous sample.
+    ``times`` are the times of the samples, measured from the start of the run. For all steps since the
+    previous sample, ``deviations`` contains the mean deviation, and ``peaks`` contains the largest absolute
+    deviation.
     """
 
     name: str
@@ -59,9 +60,9 @@ class LongRun:
     """The results of a run of ``steps`` steps of size ``h``.
 
     - ``kept``: the results for each conserved quantity, or () if the run has too few samples.
-    - ``reversals``: two pairs (n, distance from the initial state after n steps forward and n steps back), or
-      () if not measured. The number n is about a hundredth of ``steps`` in the first pair, and ``steps`` in
-      the second.
+    - ``reversals``: two pairs (n, d), or () if not measured. After n steps forward and n steps back, d is the
+      distance from the initial state. The number n is about a hundredth of ``steps`` in the first pair, and
+      ``steps`` in the second.
     - ``symplectic``: the largest symplectic defect of steps from several states, or None if it was not
       measured.
     - ``failure``: the message of a step that failed, or ''. The results describe the steps before the

@@ -34,7 +34,7 @@ from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
-"""The number of steps from the initial state of a run to the initial state of the next run."""
+"""The runs start on one trajectory, with APART steps between two consecutive starts."""
 
 TIMES = 9
 """The number of measurements in a run. The number of steps doubles from one measurement to the next."""
@@ -50,7 +50,7 @@ From a special initial state, the change of a quantity in one step may be zero b
 """
 
 NEARLY = 1e-14
-"""The bound that replaces :data:`EXACT` for a step from a state with rounding errors.
+"""For a step from a state with rounding errors, this bound replaces :data:`EXACT`.
 
 A state with rounding errors is not exactly on the manifold.
 """
@@ -85,7 +85,7 @@ class Growth:
         - ``random walk or systematic``: the interval contains 1/2 and 1.
         - ``neither law``: no other case applies.
 
-        If the half width of the interval is below 0.1, the tests for 1/2 and 1 use the half width 0.1.
+        The tests for 1/2 and 1 use a half width of at least 0.1.
         """
         if self.exponent + self.half_width < 0.25:
             return "bounded"
@@ -109,8 +109,9 @@ class Growth:
 def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
     """Measure how rounding errors grow in every exactly conserved quantity over ``steps`` steps.
 
-    For each quantity, the result contains one item without compensated summation. A second item is with
-    compensated summation, if the method can use it. If a run fails, the result is empty.
+    For each quantity, the result contains one item without compensated summation. If the method can use
+    compensated summation, a second item is for steps with compensated summation. If a run fails, the result
+    is empty.
     """
     scene, plain = compiled.scene, Emitted(compiled)
     domain = PreciseDomain(0, DIGITS)
@@ -160,9 +161,9 @@ def exactly_conserved(
 ) -> dict[str, Evaluate]:
     """Return functions that evaluate the exactly conserved quantities. The keys are the names of quantities.
 
-    In a step from each pair (time, state) in ``starts``, the relative change must be below a bound. The bound
-    is :data:`EXACT` for the first pair and :data:`NEARLY` for the other pairs. If a step cannot be computed,
-    the result is empty.
+    One step is made from each pair (time, state) in ``starts``. A quantity is in the result if its relative
+    change is below a bound in every step. The bound is :data:`EXACT` for the first pair and :data:`NEARLY`
+    for the other pairs. If a step cannot be computed, the result is empty.
     """
     domain = PreciseDomain(0, DIGITS)
     quantities = _quantities(compiled, domain, expressions(compiled.scene))
@@ -183,7 +184,7 @@ def exactly_conserved(
 
 
 def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str, float]:
-    """Return the largest change of each conserved quantity in one of the first :data:`CHAIN` steps.
+    """Return the largest change per step of each conserved quantity, for the first :data:`CHAIN` steps.
 
     If a step cannot be computed with 60 digits, the result is empty.
     """
@@ -223,7 +224,7 @@ def _distance(values: Vector, before: Vector, scale: Scalar) -> float:
 
 
 class _Sizes:
-    """Computes the sizes by which the deviations of quantities are divided (:func:`scale`)."""
+    """Computes the sizes of conserved quantities (:func:`scale`). Deviations are divided by these sizes."""
 
     def __init__(self, compiled: Compiled, domain: PreciseDomain) -> None:
         self.magnitudes = _quantities(compiled, domain, magnitudes(compiled.scene))
@@ -231,7 +232,7 @@ class _Sizes:
     def size(self, name: str, value: Vector, state: Sequence[Scalar], t: float) -> Scalar:
         """Return the size of the quantity ``name``, whose value is ``value``.
 
-        The expressions for the manifold are zero on the manifold, so their size is defined as 1.
+        For the residual of the manifold equations, the size is defined as 1.
         """
         if name == MANIFOLD:
             return 1
@@ -250,7 +251,7 @@ def _deviations(
     domain: PreciseDomain,
     carried: bool,
 ) -> list[dict[str, float]]:
-    """Return the deviation of every quantity after each number of steps in ``counts``.
+    """Return the relative change of every quantity since the start, for each number of steps in ``counts``.
 
     If ``carried`` is True, the state of the integrator contains the coordinates and the accumulated rounding
     errors.
@@ -279,7 +280,7 @@ def _deviations(
 def _growth(name: str, carried: bool, counts: Sequence[int], members: Sequence[Sequence[float]]) -> Growth:
     """Return the growth of the deviations of the quantity ``name``.
 
-    For each run, ``members`` contains the list of the deviations after the numbers of steps in ``counts``.
+    Each list in ``members`` contains the deviations in one run, one for each number of steps in ``counts``.
     """
     import scipy.stats
 

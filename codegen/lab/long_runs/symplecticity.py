@@ -37,15 +37,15 @@ SWEEPS = 40
 """The largest number of fixed-point iterations for each system of implicit equations in a step."""
 
 LEFT = 0.5
-"""The largest relative deviation of a conserved quantity for which a symplectic defect is computed."""
+"""After a larger relative deviation of a conserved quantity, no symplectic defect is computed."""
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of three steps of size ``h``.
 
-    The steps start at the first sample, the middle sample, and the sample with the fastest motion. Samples
-    after a deviation above :data:`LEFT` are not used. Raises ArithmeticError or ValueError if a step cannot
-    be computed with 40 digits.
+    The steps start at the first sample, the middle sample, and the sample with the fastest motion. If the
+    relative deviation of a conserved quantity exceeds :data:`LEFT`, the later samples are not used. Raises
+    ArithmeticError or ValueError if a step cannot be computed with 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -88,8 +88,8 @@ def symplectic_defect(
     divided by the largest absolute entry of A.
 
     ``state`` contains the coordinates of a group element and of its momentum. The scene must be Hamiltonian.
-    If fixed-point iteration fails, Newton's method starts from ``near``. Raises ArithmeticError or ValueError
-    if no solution is found.
+    If fixed-point iteration fails for an implicit step, Newton's method starts from the approximate solution
+    ``near``. Raises ArithmeticError or ValueError if no solution is found.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)

@@ -84,7 +84,7 @@ class Trajectory:
     - ``failure``: the message of a failed step, or ''.
     - ``counts``: for each sample, the number of steps since the beginning of the run.
     - ``scales``: for each quantity, the number by which its deviations are divided (:func:`scale`).
-    - ``magnitudes``: for each quantity, the sum of the absolute values of its terms.
+    - ``magnitudes``: for each quantity, the argument ``magnitude`` of :func:`scale`.
     """
 
     times: list[float]
@@ -143,7 +143,7 @@ def scale(start: float, magnitude: float) -> float:
 
 
 def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
-    """Return the sum of the absolute values of the terms of each conserved quantity at the initial state.
+    """For each conserved quantity, return the sum of the absolute values of its terms at the initial state.
 
     If this sum is zero, the largest sum in the first tenth of the samples is returned instead.
     """
@@ -162,8 +162,8 @@ def array_functions(
     """Return a dictionary from the names of quantities to functions that evaluate them at many states.
 
     ``kept`` contains the expressions of each quantity, by default those of the conserved quantities of the
-    scene. The functions return infinity in place of values that are not finite. For each symbol in ``swept``,
-    the array of states has an additional row.
+    scene. The functions return infinity in place of values that are not finite. The symbols in ``swept`` are
+    parameters. The values of each parameter are an additional row of the array of states.
     """
     symbols = (*scene.symbols, *swept)
 

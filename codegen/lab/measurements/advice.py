@@ -98,7 +98,7 @@ class Advice(Measurement[Recommendations]):
     part_of = "cost"
 
     def run(self, subject: Subject) -> Recommendations:
-        """Search for the fastest methods, and determine the properties of the methods in the report.
+        """Return the fastest methods, and the properties of the methods that the report measures.
 
         The search considers the methods that the user named, by default the whole library.
         """
@@ -150,7 +150,7 @@ class Advice(Measurement[Recommendations]):
 
 
 def searched(task: Task, subject: Subject) -> Searched:
-    """Search for the fastest method for each requirement and each error of :data:`DECADES`."""
+    """Search for the fastest method for each requirement and each error 10^-k with k in :data:`DECADES`."""
     goals = {(r.name, k): r.goal(k) for r in REQUIREMENTS for k in DECADES}
     search = Search(task, tuple(dict.fromkeys(goals.values())), subject.progress, SAFETY)
     search.run()
@@ -182,7 +182,7 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return the lines of a search that the time limit ended, completed with other methods.
+    """Add other methods to the lines of an unfinished search, and return the new lines.
 
     ``known`` contains the properties of the other methods, and ``entries`` contains runs. A faster method in
     ``known`` that satisfies the requirement replaces the method of the search. Requirements on long times are
@@ -206,7 +206,7 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return a copy of ``line`` in which a larger error never needs more CPU time than a smaller error."""
+    """Return a copy of ``line`` in which no method is slower than the method for a smaller error."""
     best = list(line.best)
     for i in reversed(range(len(best) - 1)):
         entry, smaller = best[i], best[i + 1]
@@ -216,7 +216,7 @@ def monotone(line: Line) -> Line:
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return the fastest peer (other integrator) for each error, as a tuple with one :class:`Line`.
+    """Return a tuple with one :class:`Line`: the fastest peers (other integrators) for all errors.
 
     If no peer was measured, the tuple is empty.
     """
@@ -232,7 +232,7 @@ def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
 
 
 def table(result: Recommendations, subject: Subject) -> dict[str, object]:
-    """Return the recommendations as a table with one row for each error.
+    """Return the recommendations as a table with one row for each error bound.
 
     The columns are the requirements that at least one method satisfies. The entry ``unmet`` lists the other
     requirements.

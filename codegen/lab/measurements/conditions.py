@@ -114,7 +114,7 @@ class Conditions(Measurement[ConditionTables]):
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     """Return a pair (family, n) for each family whose conditions of the orders 1 to n are shown.
 
-    The number n is the highest order of the methods of the family, but at most DEEPEST.
+    The number n is the minimum of DEEPEST and the highest order among the methods of the family.
     """
     highest: dict[str, int] = {}
     for each in study:

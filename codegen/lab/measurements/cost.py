@@ -149,7 +149,7 @@ def _decades(numbers: Sequence[int]) -> str:
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
     """Return the rows of a table with one row for each method and peer (other integrator).
 
-    The values per step are averages over the successful run with the smallest steps.
+    The values per step are averages over all steps of one run: the successful run with the smallest steps.
     """
     lines = []
     for label, rows in entries.items():

@@ -1,4 +1,4 @@
-"""The section about long runs: the growth of the deviations of conserved quantities such as the energy."""
+"""The report section on long runs: the growth of the deviations of conserved quantities, e.g. the energy."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class LongRuns(Measurement[Result]):
         """Return a sentence that lists the methods for each law of growth (for example ``bounded``).
 
         The law describes the deviation of the energy. If the scene has no energy, the law describes the first
-        invariant, or else the residual of the manifold equations.
+        invariant. If there is no invariant, the law describes the residual of the manifold equations.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -99,7 +99,8 @@ def _count(n: int) -> str:
 def _shown(runs: Sequence[LongRun]) -> list[str]:
     """Return the names of the quantities with a diagram, in the order of the diagrams.
 
-    The quantities are the energy (otherwise the first invariant) and the residual of the manifold equations.
+    The quantities are the energy and the residual of the manifold equations. If there is no energy, the first
+    invariant replaces the energy.
     """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]

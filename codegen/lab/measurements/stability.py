@@ -24,7 +24,7 @@ OVERVIEW = (
 )
 
 NAMED = 2
-"""The verdict names the methods with the largest usable step if their number is at most NAMED."""
+"""If at most NAMED methods share the largest usable step, the verdict names these methods."""
 
 Result = MethodResults[Stability]
 
@@ -103,7 +103,7 @@ class StabilityTests(Measurement[Result]):
         return Section('{% include "sections/stability.html.j2" %}', data(result, subject))
 
     def overview(self, result: Result, subject: Subject) -> Section | None:
-        """Return a paragraph with the number of wrong results of steps with extreme input.
+        """Return a paragraph that says how many steps with extreme input have a wrong result.
 
         If no steps with extreme input were tested, return None.
         """
@@ -195,9 +195,9 @@ def _cases(stability: Stability) -> dict[str, object]:
 
 
 def endurance_text(run: Endurance) -> str:
-    """Return a text with the number of steps of a long run and the distances that were measured.
+    """Return the number of steps, the residual of the manifold equations, and the distance from the start.
 
-    If a step failed, return the status message of the failed step.
+    Values that were not measured are omitted. If a step failed, return the status message of the failed step.
     """
     if run.failure:
         return run.failure

@@ -25,7 +25,7 @@ ROUNDING = "rounding"
 UNPROVED = ("stated", "claimed")
 """The values of ``certificate`` for an order that is not proved by order conditions.
 
-Even if the observed order agrees with such an order, the order is measured again with very short steps.
+If the observed order agrees with an unproved order, very short steps test the order a second time.
 """
 
 FEWEST = 4
@@ -57,8 +57,8 @@ class Convergence:
     def observed(self) -> float | None:
         """The observed order, or None if there is no slope.
 
-        The observed order is the last slope. If :attr:`limit` is below the stated order, the observed order
-        is the slope between the first and the last usable run.
+        If :attr:`limit` (an upper bound) is below the stated order, the observed order is the slope between
+        the first and the last usable run. Otherwise, the observed order is the last slope.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:
@@ -78,7 +78,7 @@ class Convergence:
 
     @property
     def limit(self) -> float:
-        """An upper bound of the order that runs with equal steps can show on this scene.
+        """An upper bound of the observed order on this scene, for runs with equal steps.
 
         If the solution has no kinks (points where the field is not smooth), the bound is infinity.
         """
@@ -163,10 +163,7 @@ class NotEmitted:
     verdict: str = "fails"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object that ``orderconds converge`` prints.
-
-        There are no runs, so the lists are empty.
-        """
+        """Return the JSON object that ``orderconds converge`` prints."""
         empty: list[object] = []
         return {
             "scene": self.scene,

@@ -85,7 +85,8 @@ class FrozenFields:
     def tree(self, tree: Tree) -> Vector:
         """Return the elementary differential F(t) of a tree t.
 
-        F(t) is the derivative of the field f along the frozen fields y -> F(b).y, one for each branch b of t.
+        F(t) is a derivative of the field f. For each branch b of t, f is differentiated once along the vector
+        field y -> F(b).y with constant F(b).
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
@@ -96,8 +97,8 @@ class FrozenFields:
     def forest(self, forest: Forest) -> Vector:
         """Return the elementary differential of an ordered forest.
 
-        The differential is the derivative of the coordinates of y along the frozen fields y -> F(t).y, one
-        for each tree t of the forest.
+        For each tree t of the forest, the coordinates of y are differentiated once along the vector field
+        y -> F(t).y with constant F(t).
         """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
@@ -115,8 +116,8 @@ class FrozenFields:
 class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, for trees with directed edges.
 
-    The elementary differential of a tree is a pair (xi, nu). For each branch b at the root, with the pair
-    (xi_b, nu_b), the Hamiltonian H(q, mu) is differentiated once:
+    The elementary differential of a tree is a pair (xi, nu). Let (xi_b, nu_b) be the pair of a branch
+    b at the root. For each branch, the Hamiltonian H(q, mu) is differentiated once:
 
     - If b has kind 0 (:mod:`orderconds.trees.directed`), with respect to q in the direction xi_b.
     - If b has kind 1, with respect to mu in the direction nu_b.

@@ -4,9 +4,9 @@ If the field of a scene is polynomial or rational, the Taylor coefficients of th
 numbers. The order is p if the coefficient of h^(p+1) is the first nonzero coefficient, where h is the step
 size.
 
-Initial coordinates outside the ring of the coefficients of the method are replaced by nearby rational
-numbers. The new initial point may be off the manifold, where the equations, the group action and the order
-conditions are valid too.
+If exact arithmetic cannot represent an initial coordinate, a nearby rational number replaces the coordinate.
+The new initial point may be off the manifold. The equations, the group action and the order conditions are
+valid off the manifold, too.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ class NotExact:
     def as_json(self) -> dict[str, object]:
         """Return the JSON object that ``orderconds localerror`` prints.
 
-        The entries ``stated_order`` and ``order`` are None.
+        The orders are unknown: the entries ``stated_order`` and ``order`` are None.
         """
         return {
             "scene": self.scene,

@@ -120,7 +120,10 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
-    """Return (tree, forest or word; residual) for each violated order condition of order ``power``."""
+    """Return a pair (key, residual) for each violated order condition of order ``power``.
+
+    The key is a tree, a forest or a word.
+    """
     family = family_of(method)
     conditions = family.all_conditions(power)
     coefficients = family.read(method.tableau)

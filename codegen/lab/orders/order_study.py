@@ -23,7 +23,7 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 
 COMPARED = 4 * FIRST
-"""Final states of runs with fewer steps are not compared (:func:`largest_difference`)."""
+"""The smallest number of steps for a comparison of final states (:func:`largest_difference`)."""
 
 MOST_TIMED = 2560
 """The number of steps of the longest run whose CPU time is measured."""
@@ -117,10 +117,11 @@ def order_study(
 
 
 def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:
-    """Return the largest difference of a coordinate between the final states of the first and another runner.
+    """Compare the final state of the first runner with the final states of the other runners.
 
-    All runners make the same number n of steps. The number n is the first entry of ``steps`` that is at
-    least :data:`COMPARED` and for which all runs succeed. If there is no such entry, the result is None.
+    The result is the largest absolute difference of a coordinate. All runners make the same number n of
+    steps. The number n is the first entry of ``steps`` that is at least :data:`COMPARED` and for which all
+    runs succeed. If there is no such entry, the result is None.
     """
     for n in steps:
         if n < COMPARED:

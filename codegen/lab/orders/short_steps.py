@@ -27,7 +27,7 @@ DIGITS = 100
 SMALLEST = 70
 """Defines the shortest step size h for order p and a time span of length T: (h/T)^(p+2) = 10^-SMALLEST.
 
-Numbers of this size are much larger than the rounding errors of arithmetic with 100 digits.
+The number 10^-SMALLEST is much larger than the rounding errors of arithmetic with 100 digits.
 """
 
 STEPS, RATIO = 3, 8

@@ -2,7 +2,7 @@
 
 A slope is the logarithm of the ratio of the errors of two consecutive runs, divided by the logarithm of the
 ratio of their step sizes. A run is excluded if it fails or if its error is too small to be measured. Only the
-longest section of runs without an excluded run is used.
+longest sequence of consecutive runs without an excluded run is used.
 
 For a smooth problem, the difference d between a slope and the order is approximately proportional to the step
 size. If the step sizes of the preceding slope are r times as large, the two slopes differ by about (r - 1) d.
@@ -25,8 +25,8 @@ CLEAR = 100.0
 """A run is used for slopes only if the error of the run is larger than two bounds.
 
 The bounds are CLEAR times the estimated rounding error of the run and CLEAR times the uncertainty of the
-reference solution. If the step sizes of two runs differ by a factor of 2, rounding changes the slope by less
-than 0.03, and so does the uncertainty.
+reference solution. Let h and h/2 be the step sizes of two such runs. Then rounding changes the slope by less
+than 0.03, and the uncertainty changes the slope by less than 0.03.
 """
 
 ZERO = 0.5
@@ -39,14 +39,15 @@ FIRST = 5
 """The number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""The numbers of steps of the additional runs with long steps (:func:`refine`)."""
+"""Numbers of steps below :data:`FIRST`. The function :func:`refine` can add runs with these numbers."""
 
 
 @dataclass(frozen=True)
 class Run:
     """One run with ``steps`` steps of size ``h``, and the error of its final state.
 
-    If the run is not used for slopes, ``excluded`` is the reason. Otherwise ``excluded`` is empty.
+    If the error is not used to measure the order, ``excluded`` is the reason. Otherwise ``excluded`` is
+    empty.
     """
 
     steps: int
@@ -115,8 +116,9 @@ class Refinement:
         - ``undecided`` if s equals ``stated`` and p is below ``stated``,
         - ``fails`` in all other cases.
 
-        If the slopes have not settled, the verdict is ``undecided`` with one exception. If :attr:`too_fine`
-        is True, s equals ``stated``, and p is not below ``stated``, the verdict is ``holds``.
+        If the slopes have not settled, the verdict is ``undecided`` with one exception. The verdict is
+        ``holds`` under three conditions: :attr:`too_fine` is True, s equals ``stated``, and p is not below
+        ``stated``.
         """
         if self.observed is None:
             return "undecided"
@@ -154,11 +156,14 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
     """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
 
     No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as the slopes
-    have settled. After a usable run, the function also stops when an error is too small to be measured.
+    have settled. For each value of ``to_rounding``, the function stops if an earlier run is usable and
+    the last error is too small to be measured.
 
     The function adds runs if the slopes have not settled, the last run is excluded and other runs are usable.
-    The added runs have 6/5 n or 7/5 n steps for a usable run with n steps, or fewer than N steps
-    (:data:`LONGER`).
+    The added runs are:
+
+    - runs with the numbers of steps in :data:`LONGER`,
+    - two runs with 6/5 n and 7/5 n steps for each usable run with n steps.
     """
     runs: list[Run] = []
     steps = FIRST

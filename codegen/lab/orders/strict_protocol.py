@@ -1,7 +1,8 @@
 """The strict protocol: a test of the order of a method on demanding scenes, in arithmetic with 50 digits.
 
-The slopes of log(error) against log(step size) are compared with a stated order. In general, a method passes
-on a scene if the slopes settle, and if the last slope differs from the stated order by at most 0.25.
+The slopes of log(error) against log(step size) are compared with a stated order. Usually, a method passes
+on a scene if the slopes settle and the last slope differs from the stated order by at most 0.25. All rules
+are in :meth:`codegen.lab.orders.step_sizes.Refinement.verdict`.
 """
 
 from __future__ import annotations

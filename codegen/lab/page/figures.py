@@ -120,7 +120,7 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
 
 
 def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) -> Markup:
-    """Return a log-log diagram of deviations, for example of an invariant from its initial value.
+    """Return a log-log diagram that shows the growth of a deviation with time.
 
     The value of a curve at the time t is the largest deviation from time 0 to t. Dotted lines show growth
     proportional to t^(1/2) and to t.
@@ -152,8 +152,8 @@ The first two numbers bound the real part, and the last two numbers bound the im
 GRID = 120
 """The number of grid points along each axis of a diagram of stability regions.
 
-With this number, no grid point is on the imaginary axis. For many methods, rounding errors would decide
-whether such a point is in the stability region.
+With this number, no grid point is on the imaginary axis. For many methods, the modulus of the stability
+function on this axis is 1 up to rounding errors.
 """
 
 MARGIN = 0.7
@@ -261,7 +261,7 @@ def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
 def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> list[Point]:
     """Return points at about equal distances on the contour with the polylines ``segments``.
 
-    ``shift`` (from 0 to 1) moves the points along the contour by a fraction of their distance.
+    The points are moved along the contour by ``shift`` (from 0 to 1) times the distance of two neighbours.
     """
     points: list[Point] = []
     for segment in segments:

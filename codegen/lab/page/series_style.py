@@ -68,8 +68,8 @@ def numbered(place: int) -> Style:
 class Styles:
     """The styles of all methods and peers (other integrators) in a report or picture.
 
-    The methods in ``PICTURED`` have fixed colours and markers. Another method gets the colour and the marker
-    that fewest methods have.
+    The methods in ``PICTURED`` have fixed colours and markers. Each other method gets the least used colour
+    and the least used marker.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
@@ -119,7 +119,7 @@ def _digest(name: str) -> int:
 def _fixed() -> Mapping[str, Place]:
     """Return a dictionary that maps each method in ``PICTURED`` to the indices of its colour and its marker.
 
-    If possible, the methods of a tuple in ``PICTURED`` have different colours and markers.
+    If possible, the methods of one figure have different colours and markers.
     """
     places: dict[str, Place] = {}
     for name in dict.fromkeys(name for group in PICTURED for name in group):
@@ -132,8 +132,8 @@ def _fixed() -> Mapping[str, Place]:
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
     """Return the index of the colour and the index of the marker that occur least often in ``used``.
 
-    Between equally rare markers, the function avoids pairs (colour, marker) in ``taken``, and ``first``
-    decides the rest.
+    If several markers occur equally often, the function avoids the pairs (colour, marker) in ``taken``. The
+    searches for a colour and for a marker start at indices that depend on ``first``.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))
