@@ -74,7 +74,7 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
 
 
 def in_place(out: object, size: int, real: str) -> Any:
-    """Return the transpose of the array ``out``, which has the layout of emitted C, without a copy.
+    """Return the view ``out.T`` of the array ``out``. Emitted C requires the layout of this view.
 
     ValueError is raised unless ``out`` is a writeable array of shape (N, size) in Fortran order, with the
     number format ``real`` and N > 0.

@@ -26,7 +26,7 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""The case of a selection (an operation with several cases) just after a time t is determined at t + AHEAD.
+"""Operations such as abs(x) have several cases. The case just after the time t is the case at t + AHEAD.
 
 AHEAD is much larger than the rounding error of t, and much smaller than the time scales of the solution.
 """
@@ -34,7 +34,8 @@ AHEAD is much larger than the rounding error of t, and much smaller than the tim
 NEAR = (1e-5, 1e-6)
 """Two times after an event, used to find the number k of continuous derivatives of the field at the event.
 
-The difference of the smooth fields before and after the event grows like the power k + 1 of the time.
+Let f and g be the fields before and after the event. At the time s after the event, |f - g| is about
+c s^(k + 1) with a constant c.
 """
 
 VANISHING = 1e-30
@@ -44,7 +45,7 @@ The field can be non-smooth at a zero of a margin (a function of the state and t
 """
 
 SUBSTEPS = 24
-"""The largest number of points inside a step that are tested for a changed case of a selection."""
+"""The largest number of points inside a step at which the signs of the margins are tested."""
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
@@ -78,10 +79,10 @@ class PiecewiseField:
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
-        """Return two functions of (state, t): a smooth field, and the margins of all selections.
+        """Return two functions of (state, t): the smooth field for the cases ``sides``, and the margins.
 
-        ``sides`` contains the case of each selection (an operation with several cases) that the smooth field
-        uses. While these cases apply, all margins are positive.
+        A selection is an operation with several cases. ``sides[k]`` is the case of the selection
+        ``nodes[k]``. While these cases apply, all margins are positive.
         """
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
@@ -91,7 +92,7 @@ class PiecewiseField:
         return self.compiled[sides]
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
-        """Return the case of each selection (an operation with several cases) just after the time t.
+        """Return the case that applies just after the time t, for each operation with several cases.
 
         The state just after t is computed by a short Euler step from y with the derivative ``flow(y, t)``. By
         default, ``flow`` is the field of the scene.
@@ -168,14 +169,14 @@ class Sided:
         return self.fields.on(self.sides)[0](y, t)
 
     def margins(self, y: Vector, t: Scalar) -> Vector:
-        """Return the margins of all selections, that is, of all operations with several cases.
+        """Return the margins: numbers that are positive while the current case of each selection applies.
 
-        The margins of a selection are positive while the current case of the selection applies.
+        A selection is an operation with several cases.
         """
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Return True if a selection has changed its case at a tested point of a step from (y, t) to ``new``.
+        """Return True if a margin is negative at a tested point of a step from (y, t) to ``new``.
 
         The end of the step is always tested. If the step is longer than twice the shortest permitted length,
         the points of the last :data:`SUBSTEPS` evaluations of the field are tested, too.
@@ -186,16 +187,15 @@ class Sided:
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Find the first event (change of a case) in a step from (y, t), and change to the cases after the
-        event.
+        """Find the first event in a step from (y, t), and set ``sides`` to the cases after the event.
 
-        The result is the time and the state of the event, or None if the caller must try a shorter step.
+        At an event, a margin is zero (:meth:`margins`). The result is the time and the state of the event, or
+        None if the caller must try a shorter step.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # The root search needs margins that are positive at the beginning and negative at the end of the
-        # step.
+        # ``_root`` needs a function with a positive value at 0 and a negative value at ``length``.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 

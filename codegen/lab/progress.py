@@ -8,5 +8,5 @@ from typing import TypeAlias
 Progress: TypeAlias = Callable[[str], object]
 """A function that displays one line of text about the progress, for example the name of the next measurement.
 
-To display nothing, pass :class:`str`.
+Pass :class:`str` to display nothing: ``str(text)`` only returns the text.
 """

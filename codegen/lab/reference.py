@@ -70,8 +70,8 @@ class Reference:
       ``symbols`` of the scene.
     - ``uncertainty``: the maximum norm of the difference of two solutions with different extrapolation
       orders.
-    - ``kinks``: the number of continuous derivatives of the field at each point of the solution where the
-      field is not smooth, or -1 if the field is discontinuous.
+    - ``kinks``: an entry for each point of the solution where the field is not smooth. The entry is the
+      number of continuous derivatives of the field at the point, or -1 at a discontinuity.
     """
 
     scene: str
@@ -152,9 +152,9 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
 
 
 def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Vector, tuple[int, ...]]:
-    """Return the final state of a scene for the tolerance 10^``exponent``, and the ``kinks`` of
-    :class:`Reference`.
+    """Return the state at the end of the time span, and the attribute ``kinks`` of :class:`Reference`.
 
+    The tolerance is 10^``exponent``.
     Raises SceneError if the deadline ``finish`` on the clock ``time.monotonic()`` passes.
     """
     context = PreciseDomain(0, DIGITS)

@@ -1,4 +1,4 @@
-"""The report: tests integrators on scenes, and writes an HTML page for each scene and an overview page.
+"""Tests integrators on scenes, and writes a report: an HTML page for each scene, and an overview page.
 
 A file is written completely or not at all. Scenes are measured in parallel, each scene in its own process.
 """
@@ -103,9 +103,10 @@ def report(request: Request, directory: str | Path, progress: Progress) -> tuple
     """Measure all scenes and write the pages into a folder.
 
     Returns the path of the overview page, and the results of each scene. After an interruption, the next call
-    reuses the results stored in the folder. ``progress`` is called before each measurement of a single scene,
-    or after each of several scenes. Before the first measurement, :class:`InputError` is raised if a name is
-    unknown, if there is no C compiler, or if the folder cannot be written to.
+    reuses the results stored in the folder. If there is only one scene, ``progress`` is called before each
+    measurement. If there are several scenes, ``progress`` is called after each scene. Before the first
+    measurement, :class:`InputError` is raised if a name is unknown, if there is no C compiler, or if the
+    folder cannot be written to.
     """
     folder = Path(directory)
     request.check()

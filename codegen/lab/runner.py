@@ -65,7 +65,7 @@ class Interpreted:
 
     @cached_property
     def domain(self) -> Domain:
-        """The arithmetic of the numbers that :meth:`final` returns."""
+        """The arithmetic of the result of :meth:`final`: double precision, or mpmath with more digits."""
         return FloatDomain(0.0) if self.digits <= DOUBLE else PreciseDomain(0, self.digits)
 
     @cached_property
@@ -112,9 +112,7 @@ class Interpreted:
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
-    """Return the coordinates of each component of a state (for example a momentum), by the name of the
-    component.
-    """
+    """Return a dictionary: the name of each component (for example a momentum), and its coordinates."""
     fields: dict[str, Vector] = {}
     start = 0
     for field in problem.state:

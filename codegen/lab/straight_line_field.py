@@ -29,7 +29,7 @@ class StraightLine:
     - ``constants``: the values of the constants ``c0``, ``c1``, ... in the code.
     - ``lines``: the pairs (name, text) of the assignments. A text may contain the coordinates ``y[0]``,
       ``y[1]``, ... of the state, the time ``t``, the constants, and the names of earlier assignments.
-    - ``results``: a text for each result: a name, a constant or a coordinate.
+    - ``results``: the names of the results (names of assignments, constants or coordinates).
     - ``functions``: the names of the functions that the texts call.
     """
 

@@ -57,7 +57,7 @@ class Effort:
     def shared(self, scenes: int, processes: int = 1) -> Effort:
         """Return the effort for one scene of a report on several scenes.
 
-        If the number ``scenes`` of scenes is more than :data:`MANY`, the effort is reduced:
+        If ``scenes`` (the number of scenes) is more than :data:`MANY`, the effort is reduced:
 
         - ``search`` is multiplied by MANY / ``scenes``.
         - ``rounding`` becomes False, except in full reports (those with ``endurance``).
@@ -231,8 +231,8 @@ def subject(
 ) -> Subject:
     """Return the subject of a page of the report: a scene, and the methods and peers to measure on it.
 
-    If no methods are given, the default methods of the report are used. If no peers are given, the installed
-    peers of ``effort.peers`` are used. For unknown names, :func:`codegen.method.parse` and
+    If no methods are given, the default methods of the report are used. If no peers are given, all
+    installed peers in ``effort.peers`` are used. For unknown names, :func:`codegen.method.parse` and
     :func:`codegen.lab.peers.find` raise errors.
     """
     chosen = tuple(method_for(scene, m) for m in methods)

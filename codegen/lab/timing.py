@@ -22,15 +22,16 @@ FEWER = 3
 LONG = 0.2
 
 LEAST_STEPS, RESOLVED = 200, 1e-4
-"""A run shorter than RESOLVED seconds is timed over several time spans, up to LEAST_STEPS steps in total.
+"""A timed run should take at least RESOLVED seconds, or have more than LEAST_STEPS / 2 steps.
 
-RESOLVED is about a hundred times the overhead of a call.
+Shorter runs are extended to several time spans (:func:`spans`). RESOLVED is about a hundred times the
+overhead of a call.
 """
 
 CONFIRMED, MOST = 0.03, 21
 """Limits for the number of batches (:func:`samples`).
 
-Further batches are timed until the second least time is at most (1 + CONFIRMED) times the least time, or
+Let a and b be the two least times, with a <= b. Further batches are timed until b <= (1 + CONFIRMED) a, or
 until MOST batches have been timed.
 """
 
@@ -38,17 +39,17 @@ SHORT = 1e-3
 """A run shorter than SHORT seconds is measured again if its relative uncertainty exceeds RESOLUTION."""
 
 RESOLUTION = 0.1
-"""The largest accepted relative uncertainty of a time from which the overhead is subtracted.
+"""The largest accepted uncertainty of a time, relative to the time without the overhead.
 
-The absolute uncertainty is the difference between the two least times of the run, plus the same difference
-for the overhead.
+For the run and for the overhead, take the difference between the two least measurements. The uncertainty is
+the sum of these two differences.
 """
 
 AGAIN = 3
 """The largest number of repeated measurements of a run whose time is too uncertain."""
 
 LEAST_SHARE = 0.1
-"""The time of a run without the overhead is at least this share of the measured time, to remain positive."""
+"""The overhead is subtracted from a measured time s. Results below LEAST_SHARE s become LEAST_SHARE s."""
 
 
 @dataclass(frozen=True)
@@ -65,11 +66,11 @@ class Timing:
 
 
 def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
-    """Return CPU times of one call in seconds, one for each batch of calls, in increasing order.
+    """Return the sorted mean CPU times of a call in several batches of calls, in seconds.
 
     A batch contains enough calls to take ``batch`` seconds or longer. If the first batch takes longer than
-    :data:`LONG` seconds, at most :data:`FEWER` batches are timed. Otherwise at least ``batches`` batches are
-    timed (:data:`CONFIRMED`).
+    :data:`LONG` seconds, at most :data:`FEWER` batches are timed. Otherwise ``batches`` batches are timed,
+    and further batches if the least times differ (:data:`CONFIRMED`).
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -88,11 +89,13 @@ def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHE
 
 
 def spans(run: Callable[[int], object], steps: int) -> int:
-    """Return the number of time spans n such that the time of ``run(n)`` can be measured accurately.
+    """Return a number n of time spans for an accurate measurement of the CPU time of ``run(n)``.
 
-    ``run(n)`` integrates over n time spans of the scene, with ``steps`` steps for each span. The number n is
-    doubled until ``run(n)`` takes :data:`RESOLVED` seconds, unless ``run(2 * n)`` would have more than
-    :data:`LEAST_STEPS` steps or would fail.
+    ``run(n)`` integrates over n time spans of the scene, with ``steps`` steps for each span. Starting with 1,
+    the number n is doubled while these conditions hold:
+
+    - ``run(n)`` takes less than :data:`RESOLVED` seconds.
+    - ``run(2 * n)`` has at most :data:`LEAST_STEPS` steps and does not fail.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -120,7 +123,7 @@ class Overhead:
 
     @cached_property
     def times(self) -> tuple[float, ...]:
-        """CPU times of one call of ``idle`` in seconds, one for each batch of calls, in increasing order."""
+        """The sorted mean CPU times of a call of ``idle`` in several batches of calls, in seconds."""
         return (0.0,) if self.idle is None else samples(self.idle)
 
     @property

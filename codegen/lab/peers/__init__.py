@@ -44,7 +44,7 @@ class Run(Protocol):
     """The type of a function that runs a peer."""
 
     def __call__(self, spans: int = 1, /) -> Outcome:
-        """Integrate over ``spans`` times the length of the time span, from the start of the span."""
+        """Integrate from t0 to t0 + ``spans`` (t1 - t0), where [t0, t1] is the time span of the scene."""
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from codegen.scene.problem import Problem
 def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
     """Return the projection of a state onto the manifold of the scene.
 
-    Raises :class:`SceneError` if no projection is known for the manifold of a group element or point.
+    Raises :class:`SceneError` if no projection onto the manifold is known.
     """
     result: list[Scalar] = []
     start = 0

@@ -80,9 +80,10 @@ class Canvas:
     ) -> Canvas:
         """Return a canvas with ``count`` panels.
 
-        ``columns`` is the largest number of panels in a row, but if ``columns`` is 2, three panels are in one
-        row. ``height`` (of a panel) and ``width`` (of the picture) are in inches. If ``width`` is 0, the
-        number of columns determines the width. If ``space`` is True, the panels have three axes.
+        A row contains at most ``columns`` panels. Exception: if ``count`` is 3 and ``columns`` is 2, all
+        three panels are in one row. ``height`` (of a panel) and ``width`` (of the picture) are in inches. If
+        ``width`` is 0, the number of columns determines the width. If ``space`` is True, the panels have
+        three axes.
         """
         columns = min(3 if count == 3 and columns > 1 else columns, count)
         rows = -(-count // columns)
@@ -166,7 +167,7 @@ class Canvas:
 def styles(figure: Figure) -> dict[str, Style]:
     """Return a dictionary that maps the name of each run of a figure to the style of the run.
 
-    The method of a run determines its style if all methods differ, otherwise the name of the run.
+    If all methods differ, a style depends on the method. Otherwise a style depends on the name of the run.
     """
     runs = figure.runs
     chosen = Styles([run.method for run in runs])

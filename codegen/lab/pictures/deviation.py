@@ -20,7 +20,7 @@ LEAST = 1e-17
 """Deviations smaller than LEAST are drawn as LEAST."""
 
 GROWS = 1.02
-"""A new point of a curve is drawn if the largest deviation has grown by about this factor."""
+"""Between successive points of a curve, the largest deviation grows by about this factor or more."""
 
 
 def draw(figure: Deviation, source: Source) -> Drawn:
@@ -46,8 +46,8 @@ def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, 
     """Return an array of times, and an array with the largest deviation for each time.
 
     If ``figure.window`` is 0, each entry is the largest deviation up to its time. Most times are omitted
-    while the largest deviation changes little. If ``figure.window`` is positive, each entry is the largest
-    deviation in a group of ``figure.window`` states. Its time is the end of the group.
+    if the largest deviation grows slowly (:data:`GROWS`). If ``figure.window`` is positive, each entry is the
+    largest deviation in a group of ``figure.window`` states. Its time is the end of the group.
     """
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)

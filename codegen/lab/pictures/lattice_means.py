@@ -54,7 +54,7 @@ def draw(figure: LatticeMeans, source: Source) -> Drawn:
 
 
 def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return the output times of a run, and an array whose rows are the means of all quantities at a time."""
+    """Return the output times of a run, and an array. Entry (i, j) is the mean of quantity j at time i."""
     problem = source.problem
     evaluate_means = means(problem, list(figure.quantities.values()))
     lattice = load_lattice(source.artifact(run))
@@ -77,7 +77,7 @@ def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarr
 
 
 def means(problem: Problem, quantities: list[Quantity]) -> Any:
-    """Return a function of (states, time): the mean of each quantity over all sites of a lattice.
+    """Return a function of (states, time) that computes the mean of each quantity over all sites.
 
     A quantity is a formula in the coordinates of a site. On a periodic lattice, the formula may also contain
     coordinates of neighbours. Raises :class:`codegen.errors.SceneError` if the scene is not a chain or

@@ -44,7 +44,7 @@ class _Sheet:
     - ``high``, ``low``: the largest and the least vertical coordinate of the drawn points.
     - ``unit``: the scale factor from projected coordinates to printer's points.
     - ``top``: the height of the space for the legend above the drawing, in printer's points.
-    - ``axis``: the length of each coordinate axis, in the unit of the points in space.
+    - ``axis``: the length of each drawn coordinate axis before the projection.
     """
 
     frame: numpy.ndarray
@@ -57,7 +57,7 @@ class _Sheet:
 
     @classmethod
     def of(cls, frame: numpy.ndarray, points: numpy.ndarray, top: float) -> _Sheet:
-        """Return the map for a picture that contains the coordinate axes and the given points.
+        """Return the map from space to a picture with the coordinate axes and the given points.
 
         The points are the columns of ``points``.
         """
@@ -198,8 +198,9 @@ def _lengths(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
 def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, unit: str = "") -> str:
     """Return the SVG transform that maps a horizontal line to a projected bar at the time with index ``k``.
 
-    The line begins at the origin and is as long as the largest length of the projected bar. ``turn`` is the
-    angle of the projected bar in degrees. If ``unit`` is ``px``, the result is a CSS transform.
+    The horizontal line begins at the origin. The length of the line is the maximum over all times of the
+    length of the projected bar. ``turn`` is the angle of the projected bar in degrees. If ``unit`` is ``px``,
+    the result is a CSS transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"
@@ -215,7 +216,7 @@ def _turns(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
 
 
 def _moving(name: str, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> Iterator[str]:
-    """Yield an SVG element for each bar at the initial time; ``name`` and its number are the CSS class."""
+    """Yield an SVG element for each bar at the initial time. The CSS class of bar k is ``name``-k."""
     for number, bar in enumerate(bars):
         at = _transform(bar, 0, _turns(bar)[0])
         yield f'<path class="{name}-{number}" d="M0 0H{_number(_lengths(bar).max())}" transform="{at}"'

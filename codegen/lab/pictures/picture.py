@@ -1,4 +1,4 @@
-"""A class for a drawn picture, a note for the caption, and the numbers in the picture."""
+"""A class for drawn pictures, each with a note for the caption and with the numbers in the picture."""
 
 from __future__ import annotations
 

@@ -74,7 +74,7 @@ def _draw_run(
 
 
 def _frame(axes: Axes, figure: PlaneCurves, curves: list[numpy.ndarray]) -> None:
-    """Set the bounds and the labels of a panel, and draw two lines through the origin."""
+    """Set the bounds and the labels of a panel, and draw the lines x = 0 and y = 0."""
     axes.axhline(0.0, color=MUTED, linewidth=0.6, zorder=1)
     axes.axvline(0.0, color=MUTED, linewidth=0.6, zorder=1)
     label_axes(axes, *figure.axes)
@@ -85,7 +85,7 @@ def _frame(axes: Axes, figure: PlaneCurves, curves: list[numpy.ndarray]) -> None
 
 
 def _bounds(curves: list[numpy.ndarray], square: bool) -> tuple[float, float, float, float]:
-    """Return the bounds (left, right, bottom, top) of a rectangle with a margin around the curves."""
+    """Return the bounds (left, right, bottom, top) of the curves, enlarged by a margin."""
     points = numpy.concatenate(curves, axis=1)
     points = points[:, numpy.isfinite(points).all(axis=0)]
     low, high = points.min(axis=1), points.max(axis=1)

@@ -99,7 +99,7 @@ def listing() -> list[dict[str, str]]:
     """Return the list that ``orderconds list figures`` prints: one entry for each figure of each scene.
 
     In each entry, ``name`` contains the name of the scene and the name of the figure. ``about`` contains the
-    title, and the publication of a reproduced figure.
+    title and, for reproduced figures, the publication.
     """
     return [
         {

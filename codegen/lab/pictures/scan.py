@@ -51,8 +51,7 @@ def draw(figure: Scan, source: Source) -> Drawn:
 
 
 def error(source: Source, figure: Scan, run: Run, value: float) -> float:
-    """Return the distance of the final state of a run, for the parameter ``value``, from that of the
-    reference run.
+    """Make the run with the parameter ``value``, and return the distance from the final reference state.
 
     If a step of the run fails, the result is infinity. If the reference run fails, SceneError is raised.
     """

@@ -159,8 +159,8 @@ class Source:
 def formulas(problem: Problem, quantities: Sequence[Quantity], swept: str = "") -> ArrayFunction:
     """Return a function of the arrays ``states`` and ``times`` that evaluates quantities of a scene.
 
-    Each row of ``states`` contains the values of one coordinate, and each row of the result those of one
-    quantity. If ``swept`` is the name of a parameter, the last row of ``states`` contains its values.
+    Each row of ``states`` contains the values of one coordinate. Each row of the result contains the values
+    of one quantity. If ``swept`` is the name of a parameter, the last row of ``states`` contains its values.
     :class:`codegen.errors.SceneError` is raised for a formula with an unknown symbol.
     """
     import sympy

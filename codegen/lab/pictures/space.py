@@ -49,7 +49,7 @@ def draw(figure: SpaceCurves, source: Source) -> Drawn:
 def _box(
     axes: Axes, frame: numpy.ndarray, low: numpy.ndarray, high: numpy.ndarray, names: tuple[str, str, str]
 ) -> None:
-    """Draw the edges of a box, and write the range of a coordinate beside one edge in its direction.
+    """Draw the edges of a box, and write the range of each coordinate k beside an edge parallel to axis k.
 
     ``low`` and ``high`` are opposite corners of the box, and ``frame`` is the matrix of the projection.
     """
@@ -65,7 +65,7 @@ def _box(
             ends[:, k] = corners[:, k]
             edges.append(frame @ ends.T)
             axes.plot(edges[-1][0], edges[-1][1], color=RULE, linewidth=0.7, zorder=1)
-        # Label the leftmost of the four edges parallel to axis k if they are steep, otherwise the lowest.
+        # Four edges are parallel to axis k. If they are steep, label the leftmost edge, otherwise the lowest.
         upright = abs(edges[0][1, 1] - edges[0][1, 0]) > abs(edges[0][0, 1] - edges[0][0, 0])
         chosen = min(edges, key=lambda edge: edge[0].mean() if upright else edge[1].mean())
         at, shift = (chosen[0].mean(), chosen[1].mean()), (-6, 0) if upright else (0, -12)

@@ -1,4 +1,4 @@
-"""Draws curves on a torus in the plane of its two angles, with arrows of a vector field and level lines."""
+"""Draws curves on a torus in coordinates (two angles), with level lines and the arrows of a vector field."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ARROWS, LEVELS = 15, 10
-"""The number of arrows along each axis, and the approximate number of levels of the level lines."""
+"""The number of arrows along each axis, and the approximate number of contour levels."""
 
 GRID = 61
 """The number of points along each axis at which the formula of the level lines is evaluated."""
@@ -65,7 +65,7 @@ def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
         middle = numpy.linspace(-math.pi, math.pi, 2 * ARROWS + 1)[1::2]
         (x, y), states = _states(figure, middle)
         u, v = formulas(source.problem, figure.directions)(states, numpy.zeros(states.shape[1]))
-        # Arrow lengths proportional to the square root of the vector lengths keep short vectors visible.
+        # Short vectors stay visible: an arrow length is proportional to the square root of a vector length.
         size = numpy.sqrt(numpy.hypot(u, v))
         scale = numpy.where(size > 0, size, 1.0)
         axes.quiver(x, y, u / scale, v / scale, color=MUTED, width=0.0028, zorder=2)

@@ -15,7 +15,7 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The approximate limit, in seconds, on the CPU time of a run in one direction.
+"""The approximate limit on the CPU time of a run forward, or of a run back, in seconds.
 
 If the steps in one direction would take longer than the limit, the number of steps is reduced.
 """
@@ -27,17 +27,16 @@ TRIAL = 1000
 class Endurance:
     """The result of a long run: a run forward, or a run forward followed by a run back to the initial time.
 
-    - ``steps``: the number of steps in each direction, or of completed steps in the direction of a failed
-      step.
-    - ``defect``: the largest absolute residual of the equations of the manifold after a run forward. If the
-      final state is not finite, ``defect`` is infinite. Otherwise ``defect`` is None for a vector space.
+    - ``steps``: the number of steps in one direction. If a step fails, only the completed steps in the
+      direction of this step are counted.
+    - ``defect``: the largest absolute residual of the equations of the manifold after a run forward, or None
+      for a vector space. If the final state is not finite, ``defect`` is infinite.
     - ``returned``: the distance of the final state from the initial state after a run forward and back.
     - ``failure``: the error message of the integrator if a step failed.
 
-    If a step fails, the run passes the test, because the integrator reported the failure. A complete run
+    The test detects failures without an error message. A run with an error message passes. A complete run
     forward passes if ``defect`` is None, or at most 64 ``steps`` 2^-53 (a bound for rounding errors). A
-    complete run forward and back passes if ``returned`` is finite, because only symmetric methods return to
-    the initial state.
+    complete run forward and back passes if ``returned`` is finite. A large ``returned`` is permitted.
     """
 
     name: str
@@ -65,10 +64,10 @@ class Endurance:
 
 
 def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
-    """Make a run forward, and a run forward and back.
+    """Return the results of two long runs: one forward, the other forward and back to the initial time.
 
-    The step size is a hundredth of the time span. If the trial run of :data:`TRIAL` steps fails, its result
-    is the only result.
+    The step size is a hundredth of the time span. A trial run of :data:`TRIAL` steps precedes the two runs.
+    If the trial run fails, only its result is returned.
     """
     first, last = map(float, compiled.scene.span)
     h = (last - first) / 100

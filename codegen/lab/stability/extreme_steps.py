@@ -12,7 +12,8 @@ There are three verdicts:
 - *undetermined*: rounding can cause the error, and fewer digits are correct.
 
 Correct digits are counted separately for each component (for example a group element) of the state. Implicit
-equations can have several solutions, so Newton's method starts from the solution of the emitted code.
+equations can have several solutions. To find the solution of the emitted code, the interpreter starts
+Newton's method at this solution.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ A probe repeats the step with many digits and with simulated rounding errors.
 """
 
 LEAST = 3
-"""The smallest number of correct digits of an accurate result."""
+"""If fewer than LEAST digits of a result are correct, the result is not accurate."""
 
 PROBES = 4
 
@@ -93,9 +94,9 @@ class Answer:
     """The verdict on the result of a step with extreme input.
 
     ``verdict`` is ``accurate``, or a text that begins with ``status``, ``undetermined`` or ``WRONG``.
-    ``error`` is the largest relative error of a component (for example a momentum) of the state. Rounding
-    errors do not change the first ``determined`` decimal digits of the result. If the result could not be
-    compared with an exact result, both numbers are None.
+    ``error`` is the largest relative error of a component (for example a momentum) of the state.
+    ``determined`` is the number of decimal digits of the result that rounding errors do not change. If the
+    result is not compared with an exact result, ``error`` and ``determined`` are None.
     """
 
     case: Case
@@ -146,7 +147,7 @@ def cases(compiled: Compiled) -> Iterator[Case]:
 
 
 def _firsts(compiled: Compiled) -> list[int]:
-    """Return the index of the first number of each component of the state, and the last index."""
+    """Return indices into the state: the first number of each component, and the last number of the state."""
     places, start = [], 0
     for block in compiled.scene.state:
         places.append(start)
@@ -172,7 +173,7 @@ def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple
 
 
 def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
-    """Return the norm of the value of the vector field in the Lie algebra at ``state``."""
+    """Evaluate the vector field at (state, t), and return the norm of this element of the Lie algebra."""
     field = compiled.scene.as_field()
     domain = FloatDomain(0.0)
     (value,) = field.apply(domain, "field", None, (tuple(state), t))
@@ -232,10 +233,10 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
-    """Return the exact state after the step, and the states after probes with simulated rounding errors.
+    """Return the exact state after the step, and the final state of each probe.
 
-    If the step size is above 1, Newton's method and the probes use more digits, because long steps cause
-    cancellation.
+    A probe makes the step with simulated rounding errors. If the step size is above 1, Newton's method and
+    the probes use more digits, because long steps cause cancellation.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -281,9 +282,9 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 class Rounding(BallDomain):
     """Arithmetic with many digits that adds one rounding error of a double to the result of every operation.
 
-    The signs of the errors are random, but an operation that is repeated in a step keeps its sign. Otherwise
-    the equations of an implicit method would change in each iteration. The right-hand side r of an implicit
-    equation gets a second error, because the first error vanishes if r is zero.
+    The signs of the errors are random, but the error of a repeated operation keeps its sign. Otherwise the
+    equations of an implicit method would change in each iteration. The errors are relative. The right-hand
+    side of an implicit equation gets a second error, relative to the right-hand side of another equation.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -296,7 +297,7 @@ class Rounding(BallDomain):
     def computed(self, name: str, value: Value) -> Value:
         """Return ``value``, the result of an operation, with one rounding error in each component.
 
-        The name of the variable to which the step assigns the result determines the signs of the errors.
+        ``name`` is the variable of the result. Results with the same name get errors with the same signs.
         """
         size = len(value) if isinstance(value, tuple) else 1
         if name not in self.signs:
@@ -308,7 +309,7 @@ class Rounding(BallDomain):
         return tuple((x * (1 + sign * self.unit)).mid() for x, sign in pairs)
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Return the right-hand sides ``images`` of implicit equations, changed by rounding errors."""
+        """Return ``images``, the right-hand sides of implicit equations, with added rounding errors."""
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * self.unit for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
@@ -334,8 +335,8 @@ def precise_step(
 ) -> list[Scalar]:
     """Return the state after one step made by the interpreter, as mpmath numbers with many digits.
 
-    - ``near``: the starting values of Newton's method, one list for each system of implicit equations. In
-      ``near``, the solutions replace the starting values.
+    - ``near``: the starting values of Newton's method, one list for each system of implicit equations. The
+      step overwrites ``near`` with the solutions.
     - ``limit``: the largest number of iterations for each system of implicit equations.
     - ``newton``: False to use only fixed-point iteration.
     - ``probe``: the seed of the random rounding errors that are added to the result of each operation, or
@@ -380,8 +381,9 @@ def solved_step(
 ) -> list[Scalar]:
     """Return the state after one step, computed by the interpreter with :data:`DIGITS` digits.
 
-    Implicit equations are solved by fixed-point iteration, or by Newton's method from the solution of the
-    emitted code. Raises ArithmeticError or ValueError if no solution is found.
+    Implicit equations are solved by fixed-point iteration. If an iteration does not converge, Newton's method
+    is used. Newton's method starts at the solution of the emitted code. Raises ArithmeticError or ValueError
+    if no solution is found.
     """
     try:
         return precise_step(compiled, state, t, h, limit=PATIENCE, newton=False)

@@ -87,10 +87,10 @@ def _horner(row: Sequence[float], z: complex) -> complex:
 
 
 def reach(value: Callable[[complex], complex], direction: complex) -> float:
-    """Return the length of the interval from 0 in the given direction on which |value(z)| <= 1.
+    """Return the largest r such that |value(s ``direction``)| <= 1 for 0 <= s <= r.
 
-    ``direction`` is a complex number with absolute value 1. If the length exceeds :data:`FARTHEST`, the
-    result is infinity.
+    ``direction`` is a complex number with absolute value 1. If r exceeds :data:`FARTHEST`, the result is
+    infinity.
 
     >>> round(reach(lambda z: 1 + z, -1.0), 6), reach(lambda z: 1 / (1 - z), -1.0)
     (2.0, inf)

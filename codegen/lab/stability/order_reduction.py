@@ -31,7 +31,7 @@ StiffRun: TypeAlias = tuple[float, float | None, str]
 """A run: the step size, the error (None if the run failed), and the reason of a failure (or '')."""
 
 CLOSE = 0.1
-"""Runs with errors of at least CLOSE max(1, norm of the exact final state) do not count as accurate."""
+"""A run is accurate if its error is less than CLOSE times max(1, norm of the exact final state)."""
 
 
 @dataclass(frozen=True)

@@ -71,7 +71,7 @@ class Stability:
         """True if every endurance run passed, and no step with extreme input has a wrong or undetermined
         result.
 
-        An undetermined result has few correct digits because of rounding errors.
+        A result is undetermined if rounding errors leave too few correct digits.
         """
         return self.honest and not any(a.verdict == SILENT for a in self.findings.answers)
 
