@@ -62,8 +62,8 @@ def load_lattice(source: Artifact | str | PathLike[str], module: str = "", targe
 def load_spectral(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Spectral:
     """Load an emitted module for a semilinear equation (:class:`codegen.scene.SemilinearScene`) as an object.
 
-    The arguments and the errors are those of :func:`load`, but InputError is raised if the module is not for
-    a semilinear equation.
+    For the arguments and the errors see :func:`load`. InputError is raised if the module is not for a
+    semilinear equation.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_spectral")
     spectral = known_target(artifact.manifest["target"]).load_spectral(interface, defaults, artifact.files)
@@ -76,7 +76,7 @@ _PROBLEMS = {
     "load_lattice": "a chain or lattice",
     "load_spectral": "a semilinear equation",
 }
-"""For each loading function, the kind of problem that its modules solve."""
+"""The keys are the loading functions. The values are the kinds of problems for which they load modules."""
 
 
 def _opened(
@@ -84,7 +84,8 @@ def _opened(
 ) -> tuple[Artifact, Interface, dict[str, float]]:
     """Return the artifact of a module, its interface, and the default values of its parameters.
 
-    InputError is raised if the calling function ``where`` (for example ``load``) cannot load the module.
+    ``where`` is the name of the calling function, for example "load". InputError is raised if the module
+    needs another loading function.
     """
     if not isinstance(source, Artifact | str | PathLike):
         raise InputError(
@@ -123,7 +124,7 @@ def _compiled(
     files: Mapping[str, str],
     flags: tuple[str, ...],
 ) -> C:
-    """Return an object of class ``kind`` for a C module, which is compiled if it is not in the cache."""
+    """Return a C module as an object of ``kind``. The module is compiled if it is not in the cache."""
     try:
         return kind(interface, defaults, build(files, flags))
     except (OSError, AttributeError):
@@ -148,7 +149,7 @@ def load_interpreted(
 def load_compiled_lattice(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Lattice:
-    """Return a C module for a lattice as a :class:`Lattice`.
+    """Return the :class:`Lattice` object of a C module.
 
     The module is compiled if it is not in the cache.
     """

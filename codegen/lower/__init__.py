@@ -38,13 +38,13 @@ __all__ = [
 
 
 def problem_for(scene: Problem, method: Method) -> Problem:
-    """Return the problem that the family of the method turns into a program (:meth:`Lowering.problem`).
+    """Return the result of :meth:`Lowering.problem` for the family of the method.
 
     :class:`MethodError` is raised if the family does not accept the scene.
     """
     own = lowering(method.family)
     _check(scene, own)
-    # The family accepts the scene. If ``problem`` raises an error, the method is the cause.
+    # ``problem`` raises MethodError if the method cannot be used on this scene.
     return own.problem(scene, method)
 
 
@@ -66,8 +66,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # The tableau file states an order for each family in ``error.claimed``. If such a family does not
-        # accept the scene, _check raises an error with the reason.
+        # ``error.claimed`` lists the families for which the tableau file gives an order. If such a family
+        # does not accept the scene, _check raises an error with the reason.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))

@@ -1,7 +1,7 @@
 """Runge-Kutta methods in the coordinates of the state.
 
-In general, the numerical solution leaves the manifold. The exact solution is on the manifold, so the
-numerical solution is at most as far from the manifold as from the exact solution.
+In general, the numerical solution leaves the manifold. Its distance from the manifold is at most the global
+error.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ class Ambient(Lowering):
     in_coordinates = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return None if the field of the scene has formulas in coordinates, otherwise an objection."""
+        """Return an objection if the field has no formulas in coordinates of the state, otherwise None."""
         return without_formulas(scene)
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Return True if the manifold is open in R^n, because small errors do not leave an open set."""
+        """Return True if the manifold is an open set in R^n. Small errors do not leave an open set."""
         return self.objection(scene) is None and orbit_is_open(scene)
 
     def problem(self, scene: Problem, method: Method) -> Problem:

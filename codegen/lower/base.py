@@ -72,11 +72,11 @@ class Lowering(ABC):
     preference: ClassVar[int] = 0
     """The preference for this family, used if the user names a tableau without a family.
 
-    Of the families with the highest stated order in the tableau file, the one with the largest preference is
-    chosen.
+    The family with the highest order in the tableau file is chosen. If several families have this order, the
+    largest preference decides.
     """
     repeats_substeps: ClassVar[bool] = False
-    """True if a step of a composition can be computed as a sequence of substeps."""
+    """True if emitted code may compute a step of a composition by a loop over its substeps."""
 
     reads_coordinates: ClassVar[bool] = False
     """True if the methods use the coordinate map of the scene (:mod:`codegen.groups.coordinate_maps`)."""
@@ -98,12 +98,12 @@ class Lowering(ABC):
         return None
 
     def storage(self, method: Method) -> str:
-        """Return a line for the header of the emitted file with the values that a step stores, or ''."""
+        """Return a header line for the emitted file, or ''. The line lists the values that a step stores."""
         return ""
 
     @abstractmethod
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the problem that :meth:`lower` turns into a program, for a scene and a method.
+        """Return the problem for which :meth:`lower` forms the program.
 
         The family must accept the scene (:meth:`objection`). If ``method`` cannot be used on the scene,
         :class:`codegen.errors.MethodError` is raised.

@@ -161,19 +161,19 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         return point
 
     def images() -> list[Var]:
-        # A stage can begin at the point of an earlier stage. ``points`` contains the points of these stages.
+        # ``points`` contains the points of all earlier stages. A stage can begin at one of these points.
         points: list[Var] = []
         times: list[Element] = []
         result = []
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # The time of stage i is t + times[i] h. If stage i begins at the point of stage j, its time
-            # also contains times[j] h.
+            # The time of stage i is t + times[i] h. If stage i begins at the point of stage j, times[i]
+            # includes times[j].
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
-        # The update can begin at the point of a stage, so it needs the points.
+        # In ``update``, the exponentials can act on the point of a stage instead of y.
         stage_points[:] = points
         return result
 

@@ -22,7 +22,7 @@ class CompositionLowering(FlowLowering):
     family = "composition"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the flows of a step in order, and the label of the family with its order conditions."""
+        """Return the flows with their durations, and the label of the family whose order conditions apply."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)

@@ -15,8 +15,8 @@ A discrete differential is an element D of the dual with <D, eta> = H(x1) - H(x0
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
 The last factor eta denotes the element of the dual that has the coordinates of eta. The number |eta| is the
-Euclidean norm of the coordinates of eta. With the single node 1/2, D is equation (2.31) of the thesis with
-gamma at the midpoint.
+Euclidean norm of the coordinates of eta. With the single node 1/2, g is the value of gamma at the midpoint,
+and D is given by equation (2.31) of the thesis.
 
 The step solves the equation xi = omega(D, .). Here omega is the bivector of the scene at the midpoint
 exp(eta/2).x0 (:mod:`codegen.scene.energy`). Since omega is skew, <D, xi> = 0, so H(x1) = H(x0). The order is
@@ -120,7 +120,7 @@ def _program(scene: Problem, method: Method) -> Program:
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
-        # The update uses f(xi), because f(xi) has the error O(h e) if xi has the error e.
+        # The update uses f = omega(D, .). Its error is O(h) times the error of the computed xi.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
@@ -128,14 +128,14 @@ def _program(scene: Problem, method: Method) -> Program:
 
 def _agrees(scene: Problem) -> bool:
     """Return True if the bivector maps the differential of the energy to the field at sample points."""
-    # A solution stays on its orbit, so all sample points are on the orbit.
+    # The sample points are on the orbit of the initial state. The solution stays on this orbit.
     orbit = orbit_of(scene)
     for point in orbit.points:
         y = tuple(point[s] for s in orbit.symbols)
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # If gamma is zero and f is not zero, the result is False.
+        # If gamma = 0, ``image`` is zero. The result is then False if f is not zero.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

@@ -1,8 +1,8 @@
 """Lowerings of splitting methods: a step on T*G is a sequence of exact flows of parts of a Hamiltonian.
 
 The sequence is called a word. A part is a sum of summands with exact flows. If the Hamiltonian depends on
-time, the flow of one summand that does not depend on time also advances the time. During all other flows the
-time is constant.
+time, one autonomous summand is chosen. The flow of this summand also advances the time. During all other
+flows the time is constant.
 """
 
 from __future__ import annotations
@@ -55,11 +55,11 @@ class Parts:
 
     @property
     def arranged(self) -> list[Summand]:
-        """The summands in the order of their flows in Phi*, the adjoint of a method Phi.
+        """The summands of all parts, in the order in which Phi* applies their flows (see :func:`pairs`).
 
         A kick is a flow that changes only the momentum. If the scene is not a lattice, kicks come first,
-        because the kicks of two successive steps can be joined. On a lattice, kicks come last, because flows
-        of different steps are not joined.
+        because the kicks of two successive steps can be joined. On a lattice, steps are not joined. There
+        kicks come last: Strang's step then has one kick instead of two.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -70,8 +70,9 @@ class Parts:
 class Reading:
     """The flows in one step of a method on a scene.
 
-    ``word`` is the sequence of flows. ``carrier`` is the summand whose flow advances the time, or None if the
-    scene does not depend on time. ``conditions`` is the label of the family whose order conditions apply.
+    ``word`` is the sequence of flows. ``carrier`` is the summand in ``word`` whose flow advances the time, or
+    None if the scene does not depend on time. ``conditions`` is the label of the family whose order
+    conditions apply.
     """
 
     word: tuple[tuple[Summand, Number], ...]
@@ -92,7 +93,7 @@ class FlowLowering(Lowering):
         """Return the reason why the family does not accept a scene, or None if the family accepts it."""
         if scene.sites is not None:
             hint = 'list the parts of the field in the argument "parts" of the scene'
-            # On a Hamiltonian lattice, the parts are summands of the Hamiltonian, otherwise of the field.
+            # A Hamiltonian lattice lists parts of the Hamiltonian. Other lattices list parts of the field.
             listed = scene.parts if scene.paired else scene.sites.parts
             expected = "a field that is a sum of parts with exact flows"
             return None if listed else Objection(", a lattice without parts", expected, hint)
@@ -165,7 +166,7 @@ class FlowLowering(Lowering):
             # All flows of one summand commute with each other, so their order does not matter.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # The flow of the carrier does not depend on t, so t can be advanced after this flow.
+            # The flow of the carrier does not contain t. After this flow, t is advanced.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
@@ -192,7 +193,8 @@ def parts_of(scene: Problem, where: str) -> Parts:
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
     """Return the sequence of flows of a composition, and the label of the family of its order conditions.
 
-    The composition alternates the product Phi of the flows of all summands and its adjoint Phi*.
+    A step applies Phi* and Phi in turn. Phi is the product of the flows of all summands, and Phi* is the
+    adjoint of Phi.
     """
     # Phi* with the duration beta_i h acts before Phi with the duration alpha_i h.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
@@ -215,7 +217,7 @@ def is_kick(summand: Summand) -> bool:
 
 
 def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
-    """Return the summands with kicks first.
+    """Return a sorted copy of ``summands``: kicks come first.
 
     The last kick of a step and the first kick of the next step can then be joined into one flow.
     """
@@ -231,7 +233,7 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
     """
     word: Word = []
     for beta, alpha in both:
-        # The last flow of Phi* and the first flow of Phi belong to one summand, so ``_joined`` merges them.
+        # The last summand occurs twice in succession. Its two flows are merged by ``_joined``.
         word += [(summand, beta) for summand in summands] + [
             (summand, alpha) for summand in reversed(summands)
         ]
@@ -239,7 +241,7 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
 
 
 def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
-    """Yield the flows of ``word`` with neighbouring flows of one summand joined."""
+    """Join neighbouring flows of one summand in ``word``, and yield the resulting flows."""
     joined: Word = []
     for summand, x in word:
         # A flow of duration zero is dropped, so that the flows before and after it can be joined.
@@ -261,7 +263,7 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The order of the method does not depend on which summand without t is the carrier.
+        # The first summand without t is chosen. With any other choice, the order would be the same.
         if not summand.timed:
             return summand
     raise MethodError(

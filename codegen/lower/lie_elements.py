@@ -3,8 +3,8 @@
 A tableau of format ``magnus`` defines the exponents as combinations of brackets. The innermost arguments of
 the brackets are the values h A(t + c_i h) at the nodes c_i.
 
-An element h^p x is stored as the variable x and the power p. For a bracket, the powers of both arguments are
-added, so the program does not multiply the arguments by h.
+An element h^p x is stored as the variable x and the power p. The bracket of h^p x and h^q y is stored as
+[x, y] and the power p + q.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ class LieElements:
     def exponent(self, target: str, combination: Combination) -> Var:
         """Append an exponent of the step, and return its variable ``target``.
 
-        The variable contains the exponent with all powers of h.
+        The value of this variable is the exponent itself, with all factors h.
         """
-        # The exponent is h^0 times the variable.
+        # The argument 0 means that the sum is not divided by a power of h.
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:

@@ -82,11 +82,11 @@ class LinearLowering(FieldLowering):
                 f"{method.tableau.family}",
                 expected="a tableau of format magnus",
             )
-        # For example, the family ``cf_magnus`` rejects tableaux with brackets.
+        # The family can reject the tableau. For example, ``cf_magnus`` rejects tableaux with brackets.
         family().require(tableau, method.ring)
         y = Var("y", Kind.POINT)
         stages = Stages(problem, method, (y,))
-        # The coordinates of y that occur in A are constant, so the initial y is used at all nodes.
+        # In y' = A(t).y, only constant coordinates of y may occur in A. All nodes use the initial y.
         nodes = [stages.f(f"k{i + 1}", y, c) for i, c in enumerate(tableau.c)]
         values = LieElements(stages.builder, method, nodes, dict(tableau.elements))
         point = y
@@ -99,7 +99,7 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, step)
 
     def _stated(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a step that the scene itself defines."""
+        """Return the program of the step ``method.step`` of the scene."""
         if problem.carries_momentum and not problem.steps[method.step].canonical:
             raise MethodError(
                 f"{method.label} cannot compute the momentum u conjugate to the time, because the matrix of "

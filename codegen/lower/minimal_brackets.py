@@ -27,7 +27,7 @@ A key contains the ring of the coefficients and the coefficients of the tableau 
 def bracket_program(method: Method) -> BracketProgram:
     """Return the list of brackets and exponents of an ``rkmk`` method without a cut-off.
 
-    The number of brackets is the smallest one for which the method has the order of its tableau.
+    The method has the order of the Runge-Kutta method on R^n, with as few brackets as possible.
 
     :class:`codegen.errors.MethodError` is raised for an implicit tableau, for coefficients that are known
     only as balls (enclosing intervals), and for a tableau whose order is too high for the search.
@@ -52,9 +52,10 @@ def bracket_program(method: Method) -> BracketProgram:
         raise MethodError(
             f"the search for the fewest brackets does not support the order {order} of {name}",
             expected=f"an order of at most {highest}, or a cut-off (the number of brackets)",
-            # Let u be the exponent of a stage, and k the field at the stage. Since [k, k] = 0 and u is a
-            # multiple of h k up to an error O(h^2), ad_u^j k = O(h^{j+1}) for j >= 1. The update multiplies
-            # the term ad_u^j k of dexp^{-1} by h. Terms with j > order - 2 therefore do not change the order.
+            # Let u be the exponent of a stage, and k the field at the stage. Then u = a h k + O(h^2) with a
+            # number a. Since [k, k] = 0, ad_u^j k = O(h^{j+1}) for j >= 1. In the exponent of the update, the
+            # series dexp^{-1}_u k has the factor h, so its term with ad_u^j k is O(h^{j+2}). Terms with
+            # j > order - 2 therefore do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
     # The bracket program is stored, because the search takes a long time and the certificate also needs the
@@ -68,7 +69,7 @@ def bracket_program(method: Method) -> BracketProgram:
 
 
 def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of an RKMK method without a cut-off.
+    """Return the program of an RKMK method with the brackets from :func:`bracket_program`.
 
     The function raises the errors of :func:`bracket_program`.
     """
@@ -82,7 +83,7 @@ def lower(scene: Problem, method: Method) -> Program:
 
     def combination(name: str, row: Row) -> Var:
         terms = [
-            # The value of a bracket already contains the factors h of its arguments.
+            # Stage values are multiplied by h. Brackets contain the factors h of their arguments.
             (stages.times_h(x) if key[0] == "k" else Coefficient(stages.number(x)), values[key])
             for key, x in row.items()
         ]

@@ -38,7 +38,7 @@ class PartitionedLowering(Lowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene has no Hamiltonian or a nonabelian group.
+        """Return an objection if the scene has no Hamiltonian, or if its group is not abelian.
 
         For all other scenes return None.
         """
@@ -56,8 +56,8 @@ class PartitionedLowering(Lowering):
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if the compiler proves that the steps are symplectic for the scene's Hamiltonian.
 
-        For H = T(p) + V(q, t), the pair of tableaux must be symplectic. For all other H, both tableaux must
-        also have the same weights (HLW Theorem VI.4.6).
+        For H = T(p) + V(q, t), the pair of tableaux must be symplectic. For all other H, the
+        weights must also satisfy b_i = b_hat_i (HLW Theorem VI.4.6).
         """
         tableau, zero = _pair(method), method.ring.is_zero
         # If the ring cannot decide whether a difference is zero, the two weights count as different.

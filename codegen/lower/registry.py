@@ -63,15 +63,15 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
     If the class ``family`` with the order conditions is given, the function also registers this class
     (:func:`orderconds.families.register`).
 
-    :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and for a
-    family that has a lowering of another class.
+    :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`. The error is
+    also raised if another class is registered for the family.
     """
     if not lowering.family:
         raise MethodError(
             f'the class {lowering.__name__} does not set the attribute "family"',
             expected='family = "NAME" in the class',
         )
-    # With two classes for one family, the emitted code would depend on the order of registration.
+    # Each family has one lowering. A second class would replace the first class.
     known = _lowerings().get(lowering.family)
     if known is not None and type(known) is not lowering:
         raise MethodError(
@@ -138,7 +138,7 @@ def families_for(scene: Problem) -> tuple[str, ...]:
 
 def _lowerings() -> dict[str, Lowering]:
     """Return the lowerings of all families, with the names of the families as keys."""
-    # The first call adds the built-in lowerings, because an earlier import would be circular.
+    # The first call adds the built-in lowerings. Their import at the top of this file would be circular.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())
     return _registered

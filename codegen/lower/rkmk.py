@@ -58,7 +58,7 @@ class MuntheKaas(FieldLowering):
     def extension(self, problem: Problem, method: Method) -> Program | None:
         """Return the program of the continuous extension.
 
-        The result is None if the method has no cut-off, or if the scene has a coordinate map other than exp.
+        The result is None if ``method.cutoff`` is None, or if the coordinate map of the scene is not exp.
         The result is also None if the tableau is implicit or has no continuous extension.
         """
         exact = problem.coordinates is None and method.cutoff is not None
@@ -68,8 +68,8 @@ class MuntheKaas(FieldLowering):
         """Return the family with the order conditions of the method.
 
         If the scene has a coordinate map other than exp, the result is the family ``rkmk`` without a cut-off.
-        For the map exp and a method without a cut-off, the order conditions depend on the brackets that a
-        search finds.
+        If the map is exp and ``method.cutoff`` is None, the order conditions are for the brackets from
+        :func:`codegen.lower.minimal_brackets.bracket_program`.
         """
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
@@ -79,13 +79,13 @@ class MuntheKaas(FieldLowering):
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The order conditions must belong to the brackets that the emitted code computes.
+        # The emitted code computes the brackets of the same bracket program.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the order of a method.
 
-        If the method has no cut-off and the coordinate map is exp, the result lists no failing conditions.
+        If ``method.cutoff`` is None and the coordinate map is exp, ``failing`` is empty in the result.
         """
         if method.cutoff is not None or (scene is not None and scene.coordinates is not None):
             return super().order(method, scene)

@@ -42,8 +42,8 @@ class SymplecticIntegrator(VariationalLowering):
 
 # The operation dexp*_{-Y} replaces the two operations dexp*_Y Ad*_{exp(-Y)}.
 #
-# Let a = a_11, b = b_1 and x = h xi. With one stage, the following identity merges the two terms of M with
-# the force n:
+# Let a = a_11, b = b_1 and x = h xi. For s = 1, the momentum M of the stage has two terms that contain the
+# force n. The following identity merges these terms:
 #
 #     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x}.
 def _program(scene: Problem, method: Method) -> Program:
@@ -55,7 +55,7 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, Var] = {}
 
     def several() -> list[Var]:
-        """Append the statements of the momenta M_i for any number of stages, and return the M_i."""
+        """Append the momenta M_i of all stages to the program, and return their variables."""
         X = [stages.combination(f"X{i + 1}", Kind.ALG, row, xi) for i, row in enumerate(tableau.A)]
         Y = stages.combination("Y", Kind.ALG, tableau.b, xi)
         minus = build.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
@@ -72,8 +72,8 @@ def _program(scene: Problem, method: Method) -> Program:
         return momenta
 
     def one() -> list[Var]:
-        """Append the statements of the momentum M of a method with one stage, and return M."""
-        # The identity above ``_program`` merges the two terms with the force n into one.
+        """Append the momentum M of a method with one stage, and return its variable in a list."""
+        # M has one term with the force n (see the comment before ``_program``).
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])

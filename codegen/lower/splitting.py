@@ -5,7 +5,7 @@ of duration x h.
 
 If the scene has more than two parts, a tableau for two parts defines a composition of a basic method Phi and
 its adjoint Phi*. Phi applies the flows of all summands of the Hamiltonian one by one, and Phi* applies these
-flows in the opposite order. The composition has the order of the splitting for any basic method Phi
+flows in the opposite order. For any basic method Phi, the composition has the order of the tableau
 (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
 """
 
@@ -47,7 +47,7 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # If some part has several summands, each summand counts as a separate part.
+        # Each summand counts as a separate part.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
@@ -70,8 +70,8 @@ def _in_order(
     """Return the flows of a splitting, and the label of the family whose order conditions apply.
 
     If the parts of the tableau and of the scene have the same names, the parts are matched by name. Otherwise
-    the parts are matched by position. In a Runge-Kutta-Nystroem splitting of a Hamiltonian, V is then matched
-    with the kick.
+    the parts are matched by position. There is one exception for Hamiltonian scenes: the potential V of a
+    Runge-Kutta-Nystroem tableau is matched with the kick.
     """
     chosen = summands
     names = [part.name for part in own.parts]
@@ -79,7 +79,7 @@ def _in_order(
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None and own.scene.paired:
-        # ``rkn`` is the index of the part V in the tableau, 0 or 1.
+        # ``rkn`` (0 or 1) is the index of the potential V in ``tableau.parts``.
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
@@ -112,7 +112,7 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
 
 
 def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
-    """Return True if all parts are polynomials of degree two or less in the momentum of one lattice site."""
+    """Return True if all parts are polynomials of degree two or less in the momentum of each site."""
     # A polynomial has degree two or less if and only if all its third derivatives vanish.
     mus = scene.state[1].symbols
     slopes = [scene.parts[part.name] for part in parts]
@@ -122,7 +122,7 @@ def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
-    """Return the composition of Phi and Phi* that is equal to a splitting in two parts.
+    """Write a splitting in two parts as a composition of Phi and Phi* (see the top of this module).
 
     Each pair (beta_i, alpha_i) contains the durations of Phi* and Phi in units of the step size.
     """
@@ -133,7 +133,7 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
-        # In the equations above, the flows of A and B alternate.
+        # Successive flows of the same part are joined. The flows of A and B then alternate.
         if joined and joined[-1][0] == k:
             joined[-1] = (k, joined[-1][1] + x)
         else:
@@ -148,5 +148,5 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha
-    # The total duration of A is equal to that of B, so the last value of ``carried`` is zero.
+    # The durations of A and of B have the same sum. The final value of ``carried`` is therefore zero.
     return composed

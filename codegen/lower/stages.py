@@ -76,14 +76,14 @@ class Stages:
     ) -> Program:
         """Verify and return the program of the step.
 
-        The functions ``starts``, ``images`` and ``update`` append statements and return variables. The key of
-        a new state in the result of ``update`` is the name of the old state.
+        The functions ``starts``, ``images`` and ``update`` append statements and return variables. In the
+        result of ``update``, the key of each new state is its name, for example "y".
         """
         # All functions append to one builder, so the order of the calls is the order of the statements.
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
-        # A later pass of the compiler divides the block if the stages can be computed one after the other.
+        # If the stages can be computed one after the other, a later pass splits the block.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
         # The update needs the solution of the equations, so its statements follow the Solve block.
         outputs = update()

@@ -39,7 +39,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     >>> substeps(parse("vcg:gauss2", ("vcg",))) is None
     True
     """
-    # The embedded solution needs the stages of all substeps, but a program for one substep has only its own.
+    # The embedded solution needs the stages of all substeps. A substep computes only its own stages.
     if method.adaptive:
         return None
     tableau = method.tableau
@@ -80,27 +80,27 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
     The result is None if the step cannot be divided, or if the common tableau is explicit.
     """
-    # The class Number can also compare balls, which are intervals that contain the number.
+    # Objects of the class Number are compared exactly, even if they are balls (enclosing intervals).
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a stage before which the step can be divided. A group contains the stages from one cut to the
-    # cut ``wide`` places later.
+    # A cut is a stage before which the step can be divided. A group contains the stages k with
+    # cuts[m] <= k < cuts[m + wide], where m is a multiple of ``wide``.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
-    # Small groups give the most substeps, so small values of ``wide`` are tried first.
+    # The loop begins with the smallest groups of stages. The first success gives the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
         # The number of cuts minus one is a multiple of ``wide``, so the last group is complete.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # A step with weights b_j advances the time by h sum_j b_j.
         sums = [_sum([b[j] for j in group]) for group in groups]
-        # A group whose weights add up to zero does not advance the time, so it is no substep.
+        # If the sum of the weights is zero, the stages of the group do not advance the time.
         if any(x.is_zero for x in sums):
             continue
         scaled = [
             [[x / total for x in row] for row in (*([A[i][j] for j in g] for i in g), [b[j] for j in g])]
             for g, total in zip(groups, sums, strict=True)
         ]
-        # ``scaled`` contains one tableau for each group k: the coefficients of the group, divided by gamma_k.
+        # ``scaled`` contains the tableau of each group of stages: its coefficients, divided by ``total``.
         first = scaled[0]
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]

@@ -40,8 +40,8 @@ class Taylor(Lowering):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if the computed states are on the manifold of the scene.
 
-        If the manifold is not an open subset of R^n, the projection must map points near the manifold onto
-        the manifold.
+        The result is True if the manifold is an open subset of R^n, or if the projection maps points near the
+        initial state onto the manifold.
         """
         return reaches_orbit(scene)
 

@@ -80,7 +80,7 @@ def brackets(method: Method) -> int:
     MethodError is raised for a method without a cut-off.
     """
     if method.cutoff is None:
-        # A search for the fewest brackets exists only for dexp^{-1}, not for its dual and its derivative.
+        # The compiler chooses the brackets only for ``rkmk`` methods. Here the user must give the cut-off.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} needs a cut-off", expected=f"the number of brackets, as in {family}(2):{name}"
@@ -129,7 +129,7 @@ class ExpandedStep(ABC):
         self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
 
     def end(self, velocities: Sequence[Var], forces: Mapping[int, Var] | Sequence[Var]) -> None:
-        """Append the statements for Y, -Y, nu_j and mubar, and set the attributes of the step."""
+        """Append the statements for the attributes ``Y``, ``minus``, ``nu`` and ``mubar``, and set them."""
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
         # The operation dexp*_{-Y} needs the variable -Y.

@@ -1,7 +1,8 @@
 """Variational commutator-free methods on T*G.
 
-Each exponent is a linear combination of the velocities xi_j of the stages. The coefficients are alpha_iJ^j in
-exponent J of stage i, and beta_J^j in exponent J of the update. The products of exponentials are
+Each exponent is a linear combination of the velocities xi_j of the stages. In exponent J of stage i, xi_j has
+the coefficient alpha_iJ^j. In exponent J of the update, xi_j has the coefficient beta_J^j. The products of
+exponentials are
 
     X_iJ = h sum_j alpha_iJ^j xi_j,   E_i^J = exp(X_iJ) E_i^{J-1},   Q_i = E_i q0,
     Y_J = h sum_j beta_J^j xi_j,      e^J = exp(Y_J) e^{J-1}.
@@ -9,14 +10,13 @@ exponent J of stage i, and beta_J^j in exponent J of the update. The products of
 The empty products E_i^0 and e^0 are 1. E_i and e are the products of all factors. With the Lagrangian l, the
 discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), where b_i = sum_J beta_J^i. Let (xi_j, n_j) = f(Q_j, M_j) be
 the velocity and the force of stage j, nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j. Hamilton's
-equations for the discrete Lagrangian, transported to q0, are
+equations for the discrete Lagrangian are
 
     b_i M_i = sum_J beta_J^i dexp*_{-Y_J} Ad*_{(e^{J-1})^-1} mubar
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
-Factor J does not occur in the subscripts of Ad*, because dexp*_x Ad*_{exp(-x)} = dexp*_{-x} for each x in the
-Lie algebra.
+The first equation uses the identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x} for x in the Lie algebra.
 """
 
 from __future__ import annotations
@@ -51,27 +51,28 @@ class _Product:
 
     @classmethod
     def of(cls, stages: Stages, name: str, rows: Rows, xi: Sequence[Var]) -> _Product:
-        """Append a product with one factor exp(h sum_j row_j xi_j) for each row, and return this product."""
+        """Append a product to the program. Each row gives one factor exp(h sum_j row_j xi_j)."""
         build = stages.builder
 
         def exponent(name: str, row: tuple[Number, ...], sign: int) -> Var:
             scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
             return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
 
-        # The momenta contain the products of all factors before factor J.
+        # For each J, ``carried`` needs the product of the first J factors.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
             g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
-            # New factors multiply from the left, because the first exponential acts first.
+            # The first exponential acts first, so it is the rightmost factor of the product.
             partial.append(build.mul(f"{name}{J}", g, partial[-1]))
-            # The operation dexp*_{-x} needs the exponent x with the opposite sign.
+            # The operation dexp*_{-x} needs the variable -x, where x is the exponent.
             minus.append(exponent(f"y{name}{J}", row, -1))
         return cls(rows, tuple(minus), tuple(partial))
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
-        """Append the covector dexp*_{-x} Ad*_{p^-1} m with the exponent x of factor J = 0, 1, ...
+        """Append the covector dexp*_{-x} Ad*_{p^-1} m to the program, and return its variable.
 
-        The group element p is the product of all factors before factor J.
+        Here x is the exponent of factor J, counted from 0. The group element p is the product of all factors
+        before factor J.
         """
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
@@ -110,9 +111,9 @@ def _program(scene: Problem, method: Method) -> Program:
                 # The coefficient row[i] is beta_J^i.
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
-                # mubar is expanded, because some of its terms may cancel terms of the double sum.
+                # All terms of mubar are listed, because some may cancel terms of the next loop.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
-        # The points Q_j depend on xi_i, so the equation for M_i contains the double sum.
+        # This loop appends the sum over j and J in the equation for M_i (see the module docstring).
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
@@ -151,7 +152,7 @@ def _program(scene: Problem, method: Method) -> Program:
 def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
     """Return the rows of coefficients for each stage, and the rows for the update."""
     tableau = method.commutator_free()
-    # The update has rows of coefficients like a stage, so the loop includes it as the last stage.
+    # The loop treats the update as the last stage.
     *stages, update = (
         tuple(tuple(method.number(x) for x in row) for row in tableau.from_start(stage))
         for stage in (*tableau.stages, tableau.update)
