@@ -44,7 +44,7 @@ class Method:
     - ``cutoff`` is the number of brackets after which the series of dexp^{-1} or dexp is truncated. For a
       family without tableau, ``cutoff`` is the number in the label, for example 12 in ``taylor(12)``.
     - ``adaptive`` is True if the emitted code controls the step size.
-    - ``step`` is '', or the name of a step y1 = M y0 with a matrix M that the scene defines by a formula.
+    - ``step`` is the name of a step y1 = M y0 if the scene defines the matrix M. Otherwise, it is ''.
     """
 
     family: str
@@ -86,7 +86,7 @@ class Method:
 
     @property
     def source(self) -> str:
-        """The publication of the tableau, or of the family if the method has no tableau."""
+        """The publication of the tableau, or the publication of the family if there is no tableau."""
         return self.kind.source if self.coefficients is None else self.coefficients.source
 
     @property
@@ -192,9 +192,10 @@ def _file(name: str) -> Path:
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return the tableau with balls (small intervals) that contain exact coefficients, instead of decimals.
+    """Return the tableau with balls (small intervals) as coefficients.
 
-    A tableau without a valid proof that exact coefficients exist is returned unchanged.
+    Each ball contains an exact coefficient. A tableau without a valid proof that exact coefficients exist is
+    returned unchanged.
     """
     if tableau.proof is None:
         return tableau
@@ -247,14 +248,14 @@ def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> Unclaim
 
 
 def _claimed(tableau: Tableau) -> tuple[str, ...]:
-    """Return the families in which a tableau claims an order."""
+    """Return the names of the families for which ``tableau`` contains a claimed order."""
     return tuple(claim.family.partition("(")[0] for claim in tableau.claims.orders)
 
 
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
 ) -> UnclaimedTableau:
-    """Return the error for a tableau that claims no order in the families ``readable``."""
+    """Return the error for a tableau without a claimed order in any family of ``readable``."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
     # Without a claimed order, the parser cannot choose a cut-off.
@@ -262,7 +263,7 @@ def _unclaimed(
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order in these families: {family or ', '.join(families)}",
         where=text,
-        expected="a cut-off in the method's name" if family else "a family in the method's name",
+        expected="a number of brackets, as in rkmk(2)" if family else "a family in the method's name",
         hint=f"write {label}",
     )
     error.claimed = _claimed(tableau)
@@ -282,7 +283,7 @@ def _fits(family: str, tableau: Tableau) -> bool:
 
 
 def _label(family: str, tableau: str) -> str:
-    """Return the label of a method, with a cut-off if the family has one."""
+    """Return the label FAMILY:TABLEAU, or FAMILY(2):TABLEAU if the family has a cut-off."""
     return f"{family}(2):{tableau}" if family_class(family).takes_cutoff else f"{family}:{tableau}"
 
 
@@ -346,9 +347,9 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
-    """Yield the order of the tableau in each suitable family as a claim, computed from the order conditions.
+    """Compute the order in each suitable family from the order conditions, and yield the order as a claim.
 
-    If ``family`` is not empty, only its claims are computed, for all cut-offs.
+    If ``family`` is not empty, all other families are omitted. A cut-off in ``family`` has no effect.
     """
     from orderconds.checking import check, claimable_families
 
@@ -388,8 +389,8 @@ def parse(text: str, families: Sequence[str]) -> Method:
     claimed order is at most 6. The compiler then searches for the fewest brackets that preserve the order.
 
     :class:`MethodError` is raised if the text cannot be read, or if the scene or the tableau does not fit the
-    family. MethodError is also raised if a family or a cut-off is missing, and the claims of the tableau do
-    not determine the missing part. :class:`orderconds.errors.UnknownName` is raised for an unknown tableau.
+    family. MethodError is also raised if a missing family or a missing cut-off does not follow from the
+    claimed orders. :class:`orderconds.errors.UnknownName` is raised for an unknown tableau.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -405,7 +406,10 @@ def parse(text: str, families: Sequence[str]) -> Method:
 
 
 def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
-    """Return the method with the given tableau in the family that ``text`` names or the claims determine."""
+    """Return the method with the given tableau.
+
+    If ``text`` contains no family, the claimed orders of the tableau determine the family.
+    """
     assert match is not None
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
@@ -425,8 +429,8 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"no cut-off, or a family with a cut-off: {' or '.join(cutting)}",
         )
-    # For a commutator-free tableau, a claim for the family rk is about the sums of coefficients over the
-    # exponentials.
+    # A commutator-free tableau may claim an order for the family rk. This order is valid for another method:
+    # the coefficients of all exponentials of a stage are added.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

@@ -1,8 +1,8 @@
 """Variational Crouch-Grossman methods on T*G, equations (3.18) and (3.19) of Marthinsen's thesis.
 
 A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau with s stages are a_ij and b_i. Let
-(xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i, and let e^0 = E_i^0 = 1 and E_i = E_i^s.
-The equations are
+(xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. The group elements e^j and E_i^j are
+products of j factors (e^0 = E_i^0 = 1). E_i is E_i^s. The equations are
 
     e^j = exp(h b_j xi_j) e^{j-1},   E_i^j = exp(h a_ij xi_j) E_i^{j-1},
     Q_i = E_i q0,   nu_j = Ad*_{E_j} n_j,
@@ -39,8 +39,8 @@ class VariationalCrouchGrossman(VariationalLowering):
         return _program(problem, method)
 
 
-# In a composition of substeps, two terms of M_i with nu_j must cancel exactly, even if the coefficients are
-# balls (intervals). The quotient a_ji/b_i is therefore computed before the product with b_j.
+# For a_ji = b_i, b_j (a_ji/b_i) must be exactly b_j, even if the coefficients are balls (intervals). The
+# quotient a_ji/b_i is therefore computed before the product with b_j.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -62,7 +62,7 @@ def _program(scene: Problem, method: Method) -> Program:
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:
-            # Stages are counted from 0 here, so e[i] is the product of the factors before factor i.
+            # The index i begins with 0, and e[i] is the product of the first i factors.
             moved = build.adjoint(f"m{i + 1}", e[i], m, inverse=True)
             return build.dual_dexp(f"p{i + 1}", minus, moved)
 

@@ -11,8 +11,8 @@ stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-In general, the unknowns are v_i and m_i. If a_ji = 0 for all j <= i, Lambda is an unknown instead of m_i. The
-program then computes m_i from Lambda and from later stages.
+In general, the unknowns are v_i and m_i. If a_ji = 0 for all j <= i, this m_i is not an unknown. The program
+computes this m_i from the unknown Lambda and from lambda_j with j > i.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # For each stage i, ``forces`` contains n_i, and ``slopes`` contains P*_(r)(X_i, xi_i) m_i.
+        # forces[i] is n_i, and slopes[i] is P*_(r)(X_i, xi_i) m_i (see the docstring of this module).
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}
 
@@ -70,7 +70,7 @@ class _Step(ExpandedStep):
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # If a_ji = 0 for all j <= i, m_i is not an unknown. The formula for m_i is then used.
+            # If a_ji = 0 for all j <= i, m_i is not an unknown. It is b_i Lambda + sum_{j>i} a_ji lambda_j.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]
@@ -81,8 +81,7 @@ class _Step(ExpandedStep):
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
             # With different cut-offs in v_i and M_i, the step would not be symplectic.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # For r > 0, dexp^{-1}_{(r),X_i} depends on X_i, so lambda_i contains the slope P*_(r)(X_i, xi_i)
-            # m_i.
+            # The vector P*_(r)(X_i, xi_i) m_i in lambda_i is zero for r = 0.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
             # A small change d of X_i moves Q_i = exp(X_i) q0 by dexp_{X_i} d. Hence the force n_i occurs in
@@ -94,7 +93,7 @@ class _Step(ExpandedStep):
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
-        """Append the new value of m_i, with the formulas for Lambda and the lambda_j inserted."""
+        """Append the new value of m_i: b_i Lambda + sum_j a_ji lambda_j."""
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
@@ -109,7 +108,7 @@ class _Step(ExpandedStep):
     def starts(self) -> list[Var]:
         """Return the initial guesses of the unknowns.
 
-        The guesses are the velocity xi at the start of the step for v_i, b_i mu0 for m_i, and mu0 for Lambda.
+        The guesses are v_i = xi, m_i = b_i mu0 and Lambda = mu0. Here xi is the velocity at (q0, mu0).
         """
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))

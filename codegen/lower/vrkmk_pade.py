@@ -10,8 +10,9 @@ the dual of the derivative of dexp_{(r),x} v with respect to x. The other equati
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 With Q_i = exp(X_i) q0 and the Lagrangian l, these are Hamilton's equations for the discrete Lagrangian
-h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are v_i and M_i for all stages i. Each fixed-point
-iteration solves for the terms with k = 0: v_i in dexp_{(r),X_i} v_i, and M_i in dexp*_{(r),X_i} M_i.
+h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are v_i and M_i for all stages i. The series
+dexp_{(r),X_i} v_i and dexp*_{(r),X_i} M_i begin with v_i and M_i. For the fixed-point iteration, all other
+terms are moved to the right-hand side.
 """
 
 from __future__ import annotations
@@ -51,7 +52,8 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # The entries for stage i are n_i, R*_(r)(X_i, v_i) M_i, and the terms k >= 1 of -dexp*_{(r),X_i} M_i.
+        # forces[i] is n_i, and slopes[i] is R*_(r)(X_i, v_i) M_i (see the docstring of this module). The sum
+        # of the terms in corrections[i] is M_i - dexp*_{(r),X_i} M_i.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
@@ -70,7 +72,7 @@ class _Step(ExpandedStep):
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
         # With X = X_i, ``brackets`` contains ad_X^k v_i, and ``momenta`` contains (ad*_X)^k M_i.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
-        # The new value of v is xi minus the terms k >= 1 of dexp_{(r),X} v, computed from the previous v.
+        # The new v_i is xi_i - sum_{1<=k<=r} ad_X^k v_i/(k+1)!. The sum contains the old v_i.
         velocity = build.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *_rest(brackets)])
         self.forces.append(n)
         self.slopes.append(self._slope(f"R{i + 1}", brackets, momenta))
@@ -87,13 +89,14 @@ class _Step(ExpandedStep):
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
         """Append the vector R*_(r)(x, v) M.
 
-        ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. With the cut-off r
-        and z_i = -sum_{i<k<=r} ad_x^{k-1-i} v/(k+1)!, the result is sum_{0<=i<r} ad*_{z_i} (ad*_x)^i M.
+        ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. The result is
+        the sum of ad*_{z_i} (ad*_x)^i M for i = 0, ..., r - 1. The vector -z_i is the sum of
+        ad_x^{k-1-i} v/(k+1)! for k = i + 1, ..., r.
         """
         terms: Terms = []
-        # With w_ki = ad_x^{k-1-i} v, the dual of the derivative of ad_x^k v with respect to x maps a covector
-        # M to sum_{i<k} ad*_{-w_ki} (ad*_x)^i M. The vectors -w_ki/(k+1)! with equal i are added to z_i, so r
-        # brackets are sufficient instead of r (r + 1)/2.
+        # Let u = ad_x^k v. The dual of the derivative of u with respect to x maps M to the sum of
+        # ad*_w (ad*_x)^i M for i = 0, ..., k - 1, where w = -ad_x^{k-1-i} v. For each i, one bracket with z_i
+        # is sufficient: z_i is the sum of the vectors w/(k+1)!.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             subscript = self.build.lin("z", Kind.ALG, inner)
@@ -103,12 +106,12 @@ class _Step(ExpandedStep):
     def _momentum(self, i: int) -> Var:
         """Append the new value of the momentum M_i of stage i."""
         build, times_h = self.build, self.stages.times_h
-        # The term k = 0 of dexp*_{(r),X_i} M_i is M_i, and ``corrections`` contains all other terms,
-        # multiplied by -1.
+        # The equation is divided by b_i. Its left-hand side is then dexp*_{(r),X_i} M_i. The sum of this
+        # left-hand side and corrections[i] is M_i.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The exponent X_j contains the term h a_ji v_i. The force and the slope of stage j therefore have
-            # the coefficient -h b_j a_ji/b_i.
+            # The exponent X_j contains the term h a_ji v_i. The terms of stage j have the factor
+            # -h b_j a_ji/b_i.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))
@@ -116,14 +119,14 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return the initial guesses: the velocity xi at the start of the step for v_i, and mu for M_i."""
+        """Return the initial guesses of v_i and M_i: the velocity and the momentum before the step."""
         xi, _ = self.build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         return [xi] * self.s + [self.mu] * self.s
 
 
 def _rest(powers: list[Var]) -> Terms:
     """Return the terms -p_k/(k+1)! for k >= 1, where p_k is ``powers[k]``."""
-    # The term k = 0 is the value that the caller computes.
+    # The caller solves for the term k = 0. The result omits this term.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

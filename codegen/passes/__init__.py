@@ -58,8 +58,8 @@ class Optimiser:
     """Runs the passes on ``program``, and compares each new program with ``program``.
 
     If the step repeats a shorter method in several substeps (:mod:`codegen.lower.substeps`), ``composed`` is
-    another program for the step. The statements of ``composed`` compute one substep, and
-    ``composed.substeps`` lists all substeps. If ``composed`` is given, the passes rewrite ``composed``.
+    another program for the step. It contains the statements of one substep, and ``composed.substeps``, the
+    list of all substeps. If ``composed`` is given, the passes rewrite ``composed``.
     :class:`codegen.ir.verify.IllFormed` is raised if a pass changes the results.
     """
 
@@ -85,11 +85,11 @@ class Optimiser:
         If the scene has no body frame, the program stays in the space frame.
         """
         plain, reports = self.program, list(self.reports)
-        # The results can be compared, because the interpreter also returns the momentum in the space frame.
+        # For a program in the body frame, the interpreter transforms the momentum to the space frame.
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # A later call of ``plain`` must return the program in the space frame.
+        # The method :meth:`plain` must still return the program in the space frame.
         self.program, self.reports = plain, reports
         return outcome
 
@@ -121,7 +121,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass relies on value numbering: equal right-hand sides are one variable.
+        # The previous pass has assigned equal right-hand sides of equations to one variable.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # After two stages have been merged, terms of a sum may be equal, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
@@ -130,19 +130,18 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("unused values", UNUSED, dead.run),
         # Terms that cancel would look like dependencies, so the pass for zeros precedes this pass.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # The next pass tests whether only one operation reads a linear map, so unused values are removed
-        # first.
+        # The next pass counts the operations that read a linear map. Unused operations must not count.
         Pass("unused values", UNUSED, dead.run),
         # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y).
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
-        # Factoring produces sums of a single term.
+        # Factoring produces sums of a single term x. This pass replaces such a sum by x.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
         # This pass counts the operations that read exp(x), so equal exponentials must be merged first.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
-        # After factoring, a value in a block may no longer depend on the unknowns of the block.
+        # After factoring, more values are independent of the unknowns. This pass moves them out of the block.
         Pass("blocks", "stages are solved one after the other", blocks.run),
     ]
 
@@ -161,18 +160,19 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("inverse maps", inverse, opposites.run),
         # The Legendre transform computes the force of a stage from the velocity.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
-        # After an unknown has been removed, a map may directly follow its inverse.
+        # The previous pass can produce products of a map and its inverse. This pass removes these products.
         Pass("inverse maps", inverse, opposites.run),
         Pass("unused values", UNUSED, dead.run),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
-        # The next pass keeps an adjoint map of exp(x) if other operations read exp(x).
+        # This pass removes operations that read exp(x). The next pass may keep Ad_{exp x} if others remain.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # The choice of the momentum in a residual depends on the functions of ad from the previous pass.
+        # A residual is the difference of two values of a momentum. The functions of ad determine which
+        # momentum is used.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
-        # The residuals contain new inverses of maps.
+        # The residuals contain inverses of maps. This pass removes products of a map and its inverse.
         Pass("inverse maps", inverse, opposites.run),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         Pass("shared values", SHARED, value_numbering.run),
@@ -186,6 +186,6 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         ),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
-        # This pass is the last, because other passes would multiply the sums by -1 again.
+        # This pass replaces a sum by -1 times an earlier sum. The other passes would undo this change.
         Pass("negatives of sums", "a sum is the negative of another sum", shared_negatives.run),
     ]

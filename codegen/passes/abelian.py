@@ -1,4 +1,4 @@
-"""Remove operations that return their argument or zero because Lie brackets vanish.
+"""If Lie brackets vanish, replace operations by their argument or by zero.
 
 The pass is exact. On an abelian group, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad
 is zero. On every group, dexp^{-1} truncated at order 0 is the identity. In both cases, the derivative of

@@ -1,8 +1,8 @@
 """Split each block of implicit equations into the strongly connected components of its dependency graph.
 
-The pass is exact. The nodes of the graph are the assignments of the block. An edge leads from assignment a to
-assignment b if b reads a value that a computes, or an unknown whose image a computes. The image of an unknown
-is the right-hand side of its fixed-point equation.
+The pass is exact. The nodes of the graph are the assignments of the block. The image of an unknown is the
+right-hand side of its fixed-point equation. Edges lead from each assignment to the assignments that read its
+result. If the result is the image of an unknown, edges also lead to the assignments that read the unknown.
 
 A component without a cycle is moved out of the block.
 """
@@ -40,27 +40,27 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # If a start value is an unknown of an earlier block, ``names`` contains the variable that replaces it.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
-    # The nodes are the indices of the assignments, because integers are ordered alike in every run.
+    # The nodes are the indices of the assignments. The order of integers is reproducible.
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
     # The graph must also contain the assignments without edges.
     graph.add_nodes_from(range(len(block.body)))
     for k, assign in enumerate(block.body):
         for arg in assign.args:
-            # If ``arg`` is an unknown, the edge begins at the assignment that computes the image of ``arg``.
+            # For an unknown, ``source`` computes its image (the right-hand side of its equation).
             source = maker.get(image.get(arg, arg))
             if source is not None:
                 graph.add_edge(source, k)
     condensed = networkx.condensation(graph)
-    # The assignments of a component keep their order in the block.
+    # Inside a component, the assignments have the same order as in the block.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
-    # The emitted text changes least if the order of the block is kept.
+    # If several components may come next, the first in the block is chosen.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
     result: list[Statement] = []
     for component in order:
         inside = set(members[component])
         assigns = [block.body[k] for k in members[component]]
-        # The component solves for an unknown u if it computes the image of u and reads u.
+        # An unknown is in ``own`` if the component reads it and computes the right-hand side of its equation.
         own = [
             u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)
         ]
@@ -72,9 +72,9 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
             continue
         label = _label(own)
         images = tuple(image[u] for u in own)
-        # The pass :mod:`codegen.passes.legendre` adds the residuals of the block later.
+        # The new block has no residuals. The later pass :mod:`codegen.passes.legendre` adds residuals.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
-    # At the solution an unknown equals its image.
+    # At the solution, each unknown equals the right-hand side of its equation.
     names.update(image)
     return result
 
@@ -87,14 +87,14 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # Every value of v solves the equations v = w and w = v, so v keeps its start value.
+        # Equations such as v = w and w = v have no unique solution. The start value is then used.
         result[unknown] = start[unknown] if var in seen else var
     return result
 
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
-        # If the unknowns of the new block were replaced by their images, the assignments would form a cycle.
+        # The assignments of the new block must read its unknowns, not their images.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

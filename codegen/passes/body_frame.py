@@ -85,7 +85,7 @@ class _Framing:
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # The position q at the start of the step is E q, where E is the identity (None).
+        # For the position q at the start of the step, E is the identity, so the entry is None.
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:
@@ -93,10 +93,10 @@ class _Framing:
                 self._visit(statement)
                 body += self.build.take()
                 continue
-            # If an unknown is a position Q = E q, no variable contains E, so the program is not rewritten.
+            # This pass rewrites a block only if all unknowns are elements of the algebra or of its dual.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
-            # The start values are computed before the block, so ``names`` contains their new names.
+            # The new block begins with the transformed start values.
             starts = self._now(statement.starts)
             for assign in statement.body:
                 self._visit(assign)
@@ -113,9 +113,9 @@ class _Framing:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
         E = self.relative[element]
-        # Let q' = q E~ be the final position, where the variable ``E`` contains E~. Because Ad*_{q'} =
-        # Ad*_{E~} Ad*_q, the map Ad*_{E~} transforms the momentum from the body frame at q to the body frame
-        # at q'.
+        # Let q' = q E~ be the final position. In the new program, the variable ``E`` has the value
+        # E~ = q^{-1} E q. Because Ad*_{q'} = Ad*_{E~} Ad*_q, the map Ad*_{E~} transforms the momentum from
+        # the body frame at q to the body frame at q'.
         m = momentum if E is None else self.build.adjoint("m", E, momentum)
         ends = {"q": self.names.get(element, element), "mu": m}
         body += self.build.take()
@@ -138,13 +138,13 @@ class _Framing:
             # The pass cannot rewrite the product of two positions.
             if left in self.relative:
                 raise NotFramed
-            # With L = ``left`` and R = ``right``, the product of L and the position R q is E q with E = L R.
+            # The factors are L = ``left``, and R q with R = ``right``. Their product is E q with E = L R.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # The new program computes the position E q as q E~, where E~ = q^{-1} E q.
             self._emit(replace(assign, args=(self.q, E)))
         elif isinstance(operation, EQUIVARIANT):
-            # Only the arguments of an equivariant operation are replaced.
+            # The operation stays the same. Its arguments are replaced by the transformed values.
             self._emit(replace(assign, args=self._now(args)))
         # A stage time does not depend on the frame.
         elif isinstance(operation, Advance):
@@ -165,7 +165,7 @@ class _Framing:
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])
-        # With the momentum mu in space, P = Ad*_Q mu = Ad*_E (Ad*_q mu) = Ad*_E M.
+        # Let mu be the momentum in the space frame. Q = q E and M = Ad*_q mu, so P = Ad*_Q mu = Ad*_E M.
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)

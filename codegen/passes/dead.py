@@ -38,7 +38,7 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     maker = {target: assign for assign in block.body for target in assign.targets}
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
-    # A live unknown needs its image, the right-hand side of its equation.
+    # If an unknown is live, the right-hand side of its equation (``image``) is live, too.
     while wanted:
         var = wanted.pop()
         # In implicit equations a value can depend on itself.

@@ -39,15 +39,16 @@ def run(program: Program) -> Program:
 
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
-    """Return the kept unknowns as triples (unknown, start, image), and the replacements of the other
-    unknowns.
+    """Return the kept unknowns, and the replacements of the other unknowns.
+
+    The kept unknowns are triples (unknown, start value, right-hand side of the equation).
     """
     # The dictionary ``first`` maps each image to the first unknown with this image.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}
     for unknown, start, image in zip(block.unknowns, block.starts, block.images, strict=True):
-        # The pass :mod:`codegen.passes.blocks` solves equations v = w between two unknowns.
+        # An equation v = w between two unknowns is kept. :mod:`codegen.passes.blocks` solves it.
         if image in block.unknowns or first.setdefault(image, unknown) == unknown:
             pairs.append((unknown, start, image))
         else:

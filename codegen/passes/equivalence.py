@@ -1,7 +1,7 @@
 """Numerical test that two programs have the same results.
 
-An interpreter executes one step of the reference program and of the rewritten program. The test begins at two
-states of the scene.
+An interpreter executes one step of the reference program and of the rewritten program. The test uses
+two different initial values.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
 """Exponents k of the tiny step sizes 2^-k, and the number of decimal digits for these steps.
 
-If no step in double precision can be compared, the tiny steps are tried.
+The tiny steps are tried if the results cannot be compared in double precision.
 """
 
 REACH = 0.5
@@ -37,7 +37,7 @@ two.
 """
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
-"""Errors of the interpreter if a step cannot be computed (ValueError: root of a negative number)."""
+"""Errors of the interpreter during a step. ValueError is raised for roots of negative numbers."""
 
 SWEEPS = 24
 """Largest number of fixed-point iterations (sweeps) of the reference program in double precision.
@@ -46,16 +46,16 @@ If each sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""Largest number of sweeps, and number of decimal digits, if a step in doubles is repeated more precisely."""
+"""A step is repeated with at most MORE_SWEEPS sweeps, in arithmetic with FEW_DIGITS decimal digits."""
 
 NOT_A_NUMBER = "differs by nan"
 """End of the description of a difference that is not a number (NaN)."""
 
 APART = 16
-"""Smallest quotient of the sizes of two successive steps for which the reference has results."""
+"""Each step of the reference is shorter than the step before it by at least this factor."""
 
 LARGEST = 2.0**512
-"""A step is not compared if the absolute value of a result reaches this number."""
+"""Upper bound for the absolute values of the results. A step with larger results is not used."""
 
 CLOSE = 2.0**-200
 """After a tiny step, two results agree if they differ by at most CLOSE times the change of the state."""
@@ -63,8 +63,8 @@ CLOSE = 2.0**-200
 AGREE = 2.0**-36
 """Two vectors x and y agree if |x - y| <= AGREE max(1, |x|) in the maximum norm.
 
-Tiny steps use :data:`CLOSE` instead. Rounding errors were at most 2^-51 in 170 comparisons on scenes of the
-gallery.
+For tiny steps, the tolerance is :data:`CLOSE`. In 170 comparisons on scenes of the gallery, rounding errors
+were at most 2^-51, far below AGREE.
 """
 
 
@@ -104,7 +104,7 @@ class _Bounded(PreciseDomain):
         """Return (converged, size of the change) for one fixed-point iteration from ``old`` to ``new``.
 
         ``previous`` is the size of the previous change. NotConverged is raised if the change is at least
-        10^digits.
+        10^d in arithmetic with d decimal digits.
         """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
@@ -113,7 +113,7 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """Steps of the reference program from one state, longest first."""
+    """Steps of the reference program from one state, in order of decreasing step size."""
 
     def __init__(self, more: Iterator[_Step]) -> None:
         self._more = more
@@ -130,8 +130,8 @@ class _Point:
 class Reference:
     """The results of the reference program after one step.
 
-    The steps begin at the initial state and at a nearby state without symmetry. From each point, the
-    comparison begins with the longest step of the reference program that has finite results and converging
+    The program computes steps from two states: the initial state, and a nearby state without symmetry. For
+    each state, the step sizes decrease. The first step is the longest step with finite results and converging
     iterations.
     """
 
@@ -193,9 +193,9 @@ class Reference:
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
     def _is_short(self, step: _Step, power: int) -> bool:
-        """Return True if a tiny step with the exponent p = ``power`` changes the state only slightly.
+        """Return True if a tiny step changes the state only slightly.
 
-        The change of every number x of the state must be at most 2^(-p/2) max(1, |x|).
+        With p = ``power``, the change of every number x of the state must be at most 2^(-p/2) max(1, |x|).
         """
         return all(
             abs(x - y) <= max(1, abs(x)) * 2.0 ** -(power // 2)
@@ -229,8 +229,8 @@ class Reference:
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
         """Compare ``program`` with the reference in the longest step that can be compared.
 
-        Return a description of the difference, or '' if there is none. If no step can be compared, describe
-        the last step in which only ``program`` fails, or return None if there is no such step.
+        Return a description of the difference, or '' if there is none. If no step can be compared, the
+        result describes the last failure of ``program`` alone. Without such a failure, the result is None.
         """
         failure = None
         for step in point.results():
@@ -305,11 +305,11 @@ class Reference:
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
-                # If the change of the state is zero, ``scale`` is a small number above the rounding errors.
+                # ``scale`` is the change of the state, but at least a small number above rounding errors.
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
-            # NaN must count as a difference, and comparisons with NaN are false.
+            # If ``gap`` is NaN, the comparison ``<=`` is false, and NaN counts as a difference.
             if not gap <= agree * scale:
                 return f"{name} differs by {float(gap / (scale if step.tiny else 1)):.3g}"
         return ""
@@ -328,7 +328,7 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
 
 
 def _no_step(scene: Problem) -> SceneError:
-    """Return the error for a scene on which no step of a method can be computed."""
+    """Return the error for a scene if no step of the method can be computed."""
     return SceneError(
         "no step of the method can be computed from the initial state, nor from a state nearby",
         where=scene.name,
@@ -340,7 +340,7 @@ def _no_step(scene: Problem) -> SceneError:
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     """Return the initial state, or a nearby state if ``moved`` is True."""
     start = scene.initial(domain)
-    # Sines of integers have no symmetries, and they are the same in every run.
+    # Sines of integers are reproducible numbers without symmetry.
     directions = [_exactly(domain, math.sin(7.0 * k + 1.0) / 8) for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     state: dict[str, Value] = {"t": _exactly(domain, float(scene.span[0]) + moved / 8)}
