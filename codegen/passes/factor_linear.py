@@ -15,7 +15,7 @@ def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
     # Every round removes at least one map, so the loop ends.
     while True:
-        # Unused operations are removed, because the next round counts which operations read a value.
+        # Unused operations are removed: ``rewriter.uses`` of the next round must not count them.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return program
@@ -45,7 +45,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # The coefficients move inside: sum c_k L(x_k) = L(sum c_k x_k).
         inner = [(c, rewriter.definitions[v].args[-1]) for c, v in terms]
         total = _lin(rewriter, inner)
-        # In emitted code, the name of the first term shows the linear map.
+        # The new name is derived from the name of the first value L(x_1).
         target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
         moved = Assign((target,), source.operation, (*source.args[:-1], total))
         result.append((ONE, rewriter.emit(moved)[0]))

@@ -57,7 +57,7 @@ def run(program: Program, scene: Problem) -> Program:
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
     """Return the index in ``kept`` of the flow that can be joined with ``letter``, or None if no flow can."""
     for at in reversed(range(len(kept))):
-        # Flows of one part with different stage times are flows of different vector fields.
+        # Two flows of one part have different vector fields if their stage times differ.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
         # The flow ``letter`` cannot be moved past a flow with which it does not commute.
@@ -87,7 +87,7 @@ def word(program: Program) -> list[Letter] | None:
 
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
-    """Return the program that applies the flows ``letters`` in order.
+    """Return ``program`` with its flows replaced by the flows in ``letters``.
 
     The stage times are those of ``program``.
     """
@@ -113,15 +113,14 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # The sample points are on the manifold of states, because only there the flows must commute.
+        # The flows must commute on the manifold of states. All sample points are on this manifold.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)
 
     @cache
     def same(pair: tuple[str, str]) -> bool:
-        # With equal durations, flows that do not commute could, by symmetry, still give the same state in
-        # both orders.
+        # The two durations differ. For equal durations, flows that do not commute can give equal ``ends``.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:

@@ -1,4 +1,4 @@
-"""Remove zeros, identities and terms that cancel, and add the coefficients of equal values.
+"""Remove zeros, identities and terms that cancel, and combine like terms of sums.
 
 The pass is exact. A linear operation on zero gives zero. For x = 0, exp(x) is the identity, and dexp_x is the
 identity map.
@@ -43,7 +43,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     # The time t + 0 h of a stage at the start of the step is replaced by t.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
-    # Only results of the operations Zero and Identity count as zero and as the identity.
+    # Only a result of Zero counts as zero, and only a result of Identity counts as the identity.
     sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
     zero = [isinstance(source, Zero) for source in sources]
     identity = [isinstance(source, Identity) for source in sources]
@@ -62,7 +62,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     """Append a linear combination in simplified form, and return its variable."""
-    # Coefficients c h^p of a value are added only if the power p is equal.
+    # The terms a h^p x and b h^q x are added only if p = q.
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
@@ -75,7 +75,7 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
-    # A sum with the single term 1 x is replaced by x.
+    # If x is the only term and has the coefficient 1, the sum is x.
     if len(terms) == 1 and terms[0][0].is_one:
         return (terms[0][1],)
     return rewriter.emit(Assign.of_terms(assign.targets[0], terms))

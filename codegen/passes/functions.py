@@ -25,7 +25,7 @@ from codegen.scene.problem import Problem
 
 def run(program: Program, scene: Problem) -> Program:
     """Combine successive functions of ad_x, if the group has closed forms for products of such functions."""
-    # Without closed forms, combining functions saves no Lie brackets.
+    # Without closed forms of products, the pass saves no Lie brackets.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
@@ -43,7 +43,7 @@ def rows(program: Program, scene: Problem) -> Program:
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
     # For a matrix group, ``names`` are the symbols of the matrix entries, row by row.
     side = round(len(names) ** 0.5)
-    # If velocity and force depend on several rows, no product is fused.
+    # The third condition fails if the formulas contain entries of two or more rows.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
         return program
     fields = {a.args[0] for a in program.assigns() if isinstance(a.operation, BodyVelocity | BodyForce)}
@@ -51,7 +51,7 @@ def rows(program: Program, scene: Problem) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
-        # All rows of an output are needed, so a product that is an output is not fused.
+        # The first and the second condition hold if ``own`` is True.
         own = assign.targets[0] in fields and assign.targets[0] not in kept
         if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)
@@ -81,7 +81,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
         if len(parts) > 1 and all(part is not None for part in parts):
             return _distributed(rewriter, source, [p for p in parts if p is not None], word)
-    # If other operations read exp(x), exp(x) is computed in any case, so the adjoint operation is kept.
+    # If other operations also need exp(x), the adjoint operation is not replaced by exp(ad_x).
     if adjoint and rewriter.uses.get(assign.args[0], 0) > 1:
         return rewriter.emit(assign)
     return _emit(rewriter, assign, x, word, v)
@@ -100,12 +100,13 @@ Part = tuple[Var, Word, Var]
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Return (s, (y, W, v)) if ``var`` equals W(ad_y) v with x = s y and is read only once, otherwise None.
+    """Return (s, (y, W, v)) if ``var`` is W(ad_y) v and ``x`` is s y, otherwise None.
 
-    The function W is a product of factors, and s is a rational number.
+    The function W is a product of factors, and s is a rational number. The result is also None if ``var`` is
+    read more than once.
     """
     source = rewriter.definitions.get(var)
-    # If several operations read W(ad_y) v, combining W with another function would not remove W(ad_y) v.
+    # Combining functions saves nothing if another operation also needs W(ad_y) v.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, source.args[0])
@@ -115,10 +116,10 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Append the sum ``total`` with F(ad_x) applied to each term, and return its variable.
+    """Append the sum of c F(s ad_y) W(ad_y) v over all entries (s, (y, W, v)) of ``parts``.
 
-    ``word`` contains the factors of F. The entry (s, (y, W, v)) of ``parts`` describes the term W(ad_y) v
-    with x = s y.
+    The coefficients c are those of the sum ``total``. ``word`` contains the factors of F. The result is the
+    variable of the new sum.
     """
     terms = []
     for scale, (y, inner, v) in parts:
@@ -131,7 +132,7 @@ def _distributed(
 
 
 def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
-    """Return x and the factors of f if an assignment applies f(ad_x) to its last argument, otherwise None."""
+    """If ``assign`` computes f(ad_x) v, return x and the factors of f. Otherwise return None."""
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
@@ -146,13 +147,13 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 
 
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
-    """Return the rational number s with x = s y, or None if the linear combinations show no such s."""
+    """Return the rational number s with x = s y, or None if no such number is found."""
     a, b = _terms(definitions, x), _terms(definitions, y)
-    # If all terms cancel, x and y are zero, and s is not unique.
+    # If x = 0 and y = 0, the number s with x = s y is not unique.
     if not a or list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
-    # The factors of functions can be scaled only by rational numbers.
+    # In a function f(s ad_y), the number s must be rational.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 
@@ -160,7 +161,7 @@ def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
 def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], Number]:
     """Return x as a linear combination of values that are not sums themselves.
 
-    The result maps sorted pairs (name of a value, power of h) to coefficients.
+    The result maps pairs (name of a value, power of h) to coefficients. The keys are sorted.
     """
     total: dict[tuple[str, int], Number] = {}
     waiting = [(Number.rational(1), 0, x)]
@@ -169,7 +170,7 @@ def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], N
         source = definitions.get(var)
         if source is not None and source.terms:
             for k, arg in source.terms:
-                # Expanding nested sums shows, for example, that y = h xi/2 is a multiple of z = h xi.
+                # A nested sum is replaced by its terms.
                 waiting.append((c * k.value, power + k.power, arg))
             continue
         old = total.get((var.name, power))

@@ -1,6 +1,6 @@
 """Fuse exponentials and actions: exp(x) and its action become one operation if nothing else reads exp(x).
 
-The pass is exact. For example, Rodrigues' formula computes exp(x).y from two cross products.
+The pass is exact. On SO(3), the new operation uses two cross products (Rodrigues' formula).
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ def run(program: Program) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if isinstance(assign.operation, Act):
-            # The action of a group element can be fused only if an exponential computes the element.
+            # The pass replaces act(g, y) only if the program computes g = exp(x).
             source = rewriter.definitions.get(assign.args[0])
             if (
                 source is not None

@@ -15,20 +15,20 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that contain a value, as pairs (index of a sum, quotient c / c1 of coefficients).
+"""The sums that contain a value v, as pairs (k, c_k / c).
 
-The value has the coefficient c in this sum and c1 in the first sum of the tuple.
+The sum with index k contains the term c_k v, and c is the coefficient of v in the first of these sums.
 """
 
 
 def run(program: Program) -> Program:
     """Return the program with numbers moved out of linear maps and with nested sums expanded.
 
-    A linear combination is computed once if several sums of an implicit block contain multiples of the
-    combination.
+    If several sums of an implicit block contain multiples of one linear combination, this combination is
+    computed once.
     """
     while True:
-        # Unused sums would count as readers of values, so they are removed before the next round.
+        # Unused sums are removed: ``rewriter.uses`` of the next round must not count them.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -50,11 +50,11 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Expand the nested sums in a sum, append the result, and return its variable."""
+    """Append the sum ``assign`` with nested sums expanded, and return its variable."""
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
-        # If a sum of several terms is read several times, its expansion would repeat multiplications.
+        # A nested sum of several terms is expanded only if it is read once.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
@@ -71,7 +71,7 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """If several sums of an implicit block contain multiples of one combination, compute it only once."""
+    """Compute a linear combination once if several sums of an implicit block contain its multiples."""
     builder = Builder({v.name for v in defined(program)})
     # Only implicit blocks are changed: iterations evaluate them several times in a step.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
@@ -80,24 +80,23 @@ def _added(program: Program) -> Program:
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
-    # Values form a group if they occur in the same sums with proportional coefficients.
+    # Values u and v form a group if every sum contains a multiple of a u + b v with fixed a and b.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # ``relative`` contains the coefficients of v divided by the first one, so proportional coefficients
-        # give equal tuples.
+        # ``relative`` contains all coefficients of v, divided by the first coefficient of v. The values of a
+        # group have equal tuples ``relative``.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
-        # A value that occurs in one sum with two powers of h has no single coefficient and is not shared.
+        # A sum can contain v twice, with two powers of h. Such values v are omitted.
         distinct = len({k for k, _ in places}) == len(places)
-        # A value is not shared if a later coefficient has a lower power of h than the first coefficient.
+        # The quotients in ``relative`` must not contain negative powers of h.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
-        # The shared linear combination contains no h, so its coefficients in the first sum must have equal
-        # powers of h.
+        # A new sum needs at least two values, and their coefficients must contain the same power of h.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]
@@ -110,6 +109,6 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
     # The old sums read the new sums ``totals``, so the new sums must come first.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
-    # An order exists, because a new sum reads only values that the old sums read.
+    # The new sums create no cyclic dependencies, so ``ordered`` does not return None.
     assert result is not None
     return result

@@ -7,7 +7,7 @@ matrix W. A block of implicit equations computes an unknown v of the stage in th
 3. Further invertible linear maps compute v from w.
 
 The pass adds the reversed steps: they compute w from v, then P = W^{-1} w, then M. One equation remains for
-each unknown v: the M of step 1 must equal the M that is computed from v.
+each unknown v: the M of step 1 must equal the M of the reversed steps.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
 
 @dataclass(frozen=True)
 class Path:
-    """The assignments that compute an unknown from a momentum, the base of the path.
+    """The assignments that compute an unknown from a momentum. This momentum is called the base.
 
     - ``inward`` contains the invertible maps that compute the momentum P of a stage from the base.
     - ``velocity`` is the assignment that computes the velocity w of the stage from P.
@@ -46,7 +46,7 @@ class Path:
 
     @property
     def base(self) -> Var:
-        """The momentum from which the path computes the unknown."""
+        """The last argument of the first map in ``inward``, or the momentum P if ``inward`` is empty."""
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 
@@ -55,7 +55,7 @@ def run(program: Program, scene: Problem) -> Program:
 
     If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
     """
-    # Without the inverse W^{-1}, a momentum cannot be computed from a velocity.
+    # The pass needs the map from the velocity to the momentum.
     if scene.body is None or scene.body.inverse is None:
         return program
     build = Builder({v.name for v in defined(program)})
@@ -71,7 +71,7 @@ def run(program: Program, scene: Problem) -> Program:
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # At the solution, the image of an unknown equals the unknown, so later statements read the unknown.
+        # At the solution, images equal unknowns. Later statements read the unknown in place of its image.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -81,7 +81,7 @@ def run(program: Program, scene: Problem) -> Program:
 def residuals(program: Program, scene: Problem) -> Program:
     """Return the program with residuals added to its blocks of implicit equations.
 
-    A block gets one residual for each unknown if :func:`path` finds a path for all its unknowns.
+    Each unknown gets one residual. A block is unchanged if :func:`path` returns None for an unknown.
     If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
     """
     if scene.body is None or scene.body.inverse is None:
@@ -91,7 +91,7 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # Newton's matrix must be square, so a block needs residuals for all unknowns or for none.
+            # Newton's method needs as many residuals as unknowns.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -102,7 +102,7 @@ def residuals(program: Program, scene: Problem) -> Program:
 
 
 def path(block: Solve, unknown: Var) -> Path | None:
-    """Return the path that computes an unknown from a momentum, or None if no such path exists."""
+    """Return the :class:`Path` that computes ``unknown`` from a momentum, or None if no path exists."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     outward, velocity = _chain(maker, image)
@@ -114,7 +114,7 @@ def path(block: Solve, unknown: Var) -> Path | None:
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the invertible linear maps that lead to ``var``, and the assignment before the maps or None.
+    """Return the invertible linear maps from a value u to ``var``, and the assignment of u, if any.
 
     The maps are in order of application.
     """
@@ -134,7 +134,7 @@ def _invertible(assign: Assign) -> bool:
 
 
 def _undone(build: Builder, assign: Assign, value: Var) -> Var:
-    """Append an assignment that applies the inverse of ``assign`` to ``value``, and return its result."""
+    """Return a new variable for A^{-1} ``value``. A is the linear map in ``assign``."""
     operation = assign.operation
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
@@ -150,8 +150,8 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     """Append assignments that compute the variables of a path from its unknown.
 
-    Return a dictionary from the old variables of the path to the new variables, and the new variable of the
-    base.
+    The first result maps the old variables to the new variables. The second result is the new variable for
+    ``route.base``.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -169,13 +169,13 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
-    """Append the residual of the equation for the unknown of a path, and return its variable.
+    """Append the residual of the equation for ``route.unknown``, and return the variable of the residual.
 
-    The residual is a momentum of the path minus the same momentum computed from the unknown.
+    The residual is the difference m - n of two values of one momentum. The block computes m, and
+    :func:`_values` computes n from the unknown.
     """
     replaced, computed = _values(build, route)
-    # Invertible maps connect the base with the momentum P of the stage, so the residual can use the base, P
-    # or a momentum between them.
+    # The momentum ``given`` can be ``route.base`` or the result of any map in ``route.inward``.
     given = route.base
     # If P = Ad*_{exp x} m, and m is a sum of terms f(ad*_x) v, then P is also a sum of such terms.
     if _function_of_one(block, route):
@@ -186,7 +186,7 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if the momentum of the stage is Ad*_{exp x} m, where m is a sum of terms f(ad*_y) v.
+    """Return True if the momentum of the stage is Ad*_{exp x} m for a sum m of terms f(ad*_y) v.
 
     The terms can have different f, y and v, but every y must be a rational multiple of x.
     """
@@ -205,17 +205,18 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block with new statements that compute the variables of a path from its unknown.
+    """Return ``block`` with new assignments: they reverse the steps of ``route``, from unknown to base.
 
-    The statements that are not on the path read the new variables.
+    Assignments outside ``route`` read the new variables in place of the old variables.
     """
     # A later pass removes the new variables that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # A base that differs from P and is not an unknown is defined outside the path.
+    # If the base is not P and not an unknown, assignments outside ``route`` still read the old base.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
-    # If the path itself read the new variables, its equation for the unknown would be trivial.
+    # The assignments of ``route`` read the old variables. With the new variables, the equation for the
+    # unknown v would be v = v.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))

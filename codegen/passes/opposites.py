@@ -25,7 +25,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # After value numbering, equal group elements are the same variable.
         if source is not None and source.operation == operation.opposite() and source.args[0] == g:
             return (source.args[1],)
-        # Ad_{exp x} does not change multiples of x, but Ad*_{exp x} changes most momenta.
+        # For a number c, Ad_{exp x}(c x) = c x. For Ad*_{exp x}, no such rule exists.
         own = element is not None and isinstance(element.operation, Exp) and not operation.dual
         if own and element is not None and _line(rewriter, element.args[0]) == _line(rewriter, x):
             return (x,)

@@ -1,4 +1,4 @@
-"""Reports of the operations that each pass removes, also as texts for the header of emitted code."""
+"""Reports of the operations that each pass removes, and texts for the header of emitted code."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class PassReport:
     @property
     def savings(self) -> Counter[str]:
         """The number of removed operations of each kind. The keys are the names of operations in reports."""
-        # The difference of two Counters omits negative numbers, so added operations are not counted.
+        # If the pass adds operations, the difference is negative. Counters omit negative differences.
         return _nouns(self.earlier) - _nouns(self.program)
 
 
@@ -76,7 +76,7 @@ def _counted(noun: str, n: int) -> str:
 
 
 def _nouns(program: Program) -> Counter[str]:
-    """Return how often each operation occurs, by its name in reports.
+    """Return the number of operations of each kind. The keys are the names of operations in reports.
 
     Operations that cost nothing are omitted.
     """

@@ -27,7 +27,7 @@ class Rewriter:
 
     def run(self) -> Program:
         """Return the rewritten program."""
-        # Only the old program is counted, without the assignments that a rule emits.
+        # The attribute ``uses`` contains how often the old program reads each variable.
         self.uses = uses(self.program)
         # The name of a new variable must differ from all names in the program.
         self.builder.taken = {v.name for v in defined(self.program)}
@@ -57,11 +57,11 @@ class Rewriter:
         if isinstance(statement, Assign):
             self._visit(statement)
             return self._out
-        # The start values are computed before the block, so their replacements are known here.
+        # Start values are renamed before the body is rewritten: earlier statements compute them.
         starts = tuple(self.now(v) for v in statement.starts)
         for assign in statement.body:
             self._visit(assign)
-        # The body computes ``images`` and ``residuals``, so their replacements are known only here.
+        # Images and residuals are renamed after the body is rewritten: the body computes them.
         images = tuple(self.now(v) for v in statement.images)
         residuals = tuple(self.now(v) for v in statement.residuals)
         body = tuple(self._out)

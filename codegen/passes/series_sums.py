@@ -2,8 +2,8 @@
 
 The pass is exact. On some groups, each term of the sum is f (1 + b ad_x + c ad_x^2) v with numbers f, b and
 c. Let A, B and C be the sums of f v, f b v and f c v over all terms. Then the sum is A + ad_x (B + ad_x C).
-The nested form needs two brackets instead of two for each term. An example is the momentum in equation (3.19)
-of Marthinsen's thesis.
+For n terms, the nested form needs 2 brackets, and the sum needs 2 n brackets. An example is the momentum in
+equation (3.19) of Marthinsen's thesis.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class SeriesSums:
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # A nested form saves nothing if another operation also reads v.
+            # Nesting saves no brackets if another operation also needs the term v.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
@@ -86,13 +86,13 @@ class SeriesSums:
                     break
             else:
                 groups.append([term])
-        # Nesting saves no bracket of a single term, so groups with one term are omitted.
+        # For a single term, nesting saves no brackets.
         return [group for group in groups if len(group) > 1]
 
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the nested sum of ``members``, one of the groups of terms (:meth:`_groups`)."""
+        """Return the sum of the terms ``members`` in nested form."""
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:
@@ -111,7 +111,7 @@ class SeriesSums:
         """Return ``terms`` with all inner sums expanded, or unchanged if the expansion is longer or empty."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # The terms of an inner sum replace the sum, so chains of dependent additions become shorter.
+            # An inner sum v is replaced by its terms. This shortens chains of dependent additions.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:
@@ -120,13 +120,13 @@ class SeriesSums:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
         flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
-        # Each term costs a product, so the expanded sum must not have more terms.
+        # Each term costs a product, so ``flat`` must not be longer than ``terms``.
         return flat if 0 < len(flat) <= len(terms) else terms
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
     """Return the value of a coefficient c. If c is rational and negative, return minus the value of -c."""
-    # If a program contains both c x and (-c) x, both use the product with positive c.
+    # The terms c x and (-c) x use the same product |c| x.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)

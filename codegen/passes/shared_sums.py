@@ -1,4 +1,4 @@
-"""Compute a linear combination of values L(x_k) once, if it occurs in several sums. L is a linear map.
+"""Compute linear combinations of values L(x_k) with fewer evaluations of the linear map L.
 
 The pass is exact. The combination sum_k a_k L(x_k) with numbers a_k is computed as L(sum_k a_k x_k).
 """
@@ -22,7 +22,7 @@ The pairs are sorted by the power of h and then by name, and the first coefficie
 
 
 def run(program: Program) -> Program:
-    """Return the program in which common combinations sum_k a_k L(x_k) are computed as L(sum_k a_k x_k)."""
+    """Return the program with sum_k a_k L(x_k) replaced by L(sum_k a_k x_k). L is a linear map."""
     while True:
         # The search is repeated, because the new values can form common combinations again.
         wanted = _worthwhile(program)
@@ -31,7 +31,7 @@ def run(program: Program) -> Program:
         values: dict[Share, Var] = {}
 
         def rule(
-            # The default arguments bind the objects of this round to the rule.
+            # As default arguments, ``wanted`` and ``values`` keep their objects of this iteration.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,
@@ -67,7 +67,7 @@ def _rule(
 def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations sum_k a_k L(x_k) that should be computed as L(sum_k a_k x_k).
 
-    Combinations of one linear map L are returned only if they are fewer than their values L(x_k).
+    For each L, the number of combinations must be smaller than the number of values L(x_k).
     """
     worthwhile: set[Share] = set()
     for statement in program.body:
@@ -87,7 +87,7 @@ def _worthwhile(program: Program) -> set[Share]:
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return the parts of a sum that are combinations of values L(x_k), one part for each linear map L.
+    """Collect the terms a_k L(x_k) of the sum ``assign`` for each linear map L.
 
     The keys of the result are the scaled combinations (:data:`Share`), and the values are their factors.
     """
@@ -98,7 +98,7 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A combination contains each value only once, but a sum may contain a value with two powers of h.
+        # A sum can contain a value twice, with two powers of h. Such combinations are omitted.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # All coefficients are divided by the first, so proportional combinations become equal.
