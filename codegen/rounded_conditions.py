@@ -45,8 +45,8 @@ def rounded_residual(method: Method, family: Family, order: int, target: Precisi
 def largest_residual(tableau: Tableau, family: Family, order: int) -> float | None:
     """Return an upper bound of the absolute residuals of the order conditions up to ``order``.
 
-    Only conditions that imply all other conditions are evaluated. The bound is rounded to the nearest double.
-    The result is None in these cases:
+    Only some conditions are evaluated. Together these conditions imply all other conditions. The bound is
+    rounded to the nearest double. The result is None in these cases:
 
     - The family cannot read the tableau.
     - An order has more than :data:`MOST` conditions.

@@ -26,7 +26,7 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Velocities come last, because extrapolated start values are most accurate for velocities.
+        # Velocities are removed last, because their extrapolated start values are the most accurate.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
             # The search is greedy, because finding the smallest set of unknowns (a minimum feedback vertex
             # set) is NP-hard.
@@ -60,7 +60,7 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # The removed unknown may be the image of another unknown, so it is also replaced in ``images``.
+    # ``images`` may also contain ``unknown``, so ``unknown`` is replaced there, too.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 

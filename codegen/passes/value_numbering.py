@@ -1,6 +1,6 @@
 """Value numbering: compute an operation once if it is applied to the same values several times.
 
-The pass is exact. Sums that differ only in the order of their terms count as equal.
+In exact arithmetic, the pass changes no value. Sums with the same terms in another order count as equal.
 """
 
 from __future__ import annotations

@@ -58,10 +58,10 @@ DOUBLES = Style()
 
 
 def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
-    """Return the text of an expression, in segments between which a line may break.
+    """Return the text of an expression as segments. A line may break between two segments.
 
-    ``names`` maps symbols to identifiers of the target language. Other symbols keep their names. Powers other
-    than squares and cubes of symbols raise ValueError.
+    ``names`` maps symbols to identifiers of the target language. Other symbols keep their names. A power must
+    be the square or the cube of a symbol. Other powers raise ValueError.
     """
     # For deeply nested expressions, a recursive function would exceed Python's recursion limit.
     rendered: dict[int, Rendering] = {}
@@ -86,8 +86,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
-                # IEEE multiplication is commutative, so ``a * (b * c)`` is printed as ``b * c * a``.
-                # Constants stay in front, as in ``2.0 * (b * c)``.
+                # To avoid parentheses, ``a * (b * c)`` is printed as ``b * c * a``. The rounded result is the
+                # same. Constants stay in front, as in ``2.0 * (b * c)``.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
             case "div":

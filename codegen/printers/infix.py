@@ -39,7 +39,7 @@ class Text:
 
     def within(self, level: int) -> tuple[str, ...]:
         """Return the segments. If ``self.level`` is below ``level``, the text gets parentheses."""
-        # A caller that needs parentheses at an equal level passes ``level + 1``.
+        # For parentheses around a text of level n, a caller passes ``level = n + 1``.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")

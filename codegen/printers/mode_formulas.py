@@ -87,18 +87,18 @@ class ModeFormulas:
         # Coefficients of the old state have no factor h.
         if not table.power:
             return inner
-        # Coefficients of values of the nonlinear part have the factor h.
+        # All other coefficients have the factor h.
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:
-        """Return the name of the array that ``term`` multiplies by a coefficient.
+        """Return the name of the array in the product ``term``.
 
         The array contains the Fourier coefficients of the old state, or of a value of the nonlinear part.
         """
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
     def time(self, number: int, start: str) -> str:
-        """Return the text of the time of evaluation ``number`` of the nonlinear part.
+        """Return the text of the time of ``self.step.evaluations[number]``.
 
         ``start`` is the text of the time at which the step begins.
         """

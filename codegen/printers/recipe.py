@@ -48,13 +48,13 @@ The limit applies to states with more than :data:`LONGEST_STATE` coordinates.
 
 
 IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
-"""The comment in the usage example if a long state has more than :data:`MOST_ENTRIES` nonzero coordinates."""
+"""The usage example contains this comment if :func:`entries_set` returns an empty tuple."""
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
     """Return the indices and values of the nonzero entries of an initial state.
 
-    For a state with at most :data:`LONGEST_STATE` coordinates the result is None. For any other state with
+    For a state with at most :data:`LONGEST_STATE` coordinates the result is None. For a longer state with
     more than :data:`MOST_ENTRIES` nonzero entries the result is empty.
 
     >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
@@ -64,7 +64,7 @@ def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | Non
         return None
     # The usage example first sets all coordinates to zero.
     entries = tuple((place, x) for place, x in enumerate(initial) if x)
-    # Instead of many assignments, the usage example contains the comment IN_MANIFEST.
+    # If the result is empty, the usage example contains the comment IN_MANIFEST.
     return entries if len(entries) <= MOST_ENTRIES else ()
 
 

@@ -89,7 +89,7 @@ def target(name: str) -> Target:
 
 def observable() -> Target:
     """Return the first target of :func:`targets` that has an ``observer``."""
-    # The built-in target Python has an observer, so ``next`` always finds a target.
+    # The target Python has an ``observer``, so ``next`` always finds a target.
     return next(each for each in targets() if each.observer)
 
 

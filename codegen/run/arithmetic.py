@@ -58,7 +58,7 @@ def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Stat
     sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
-        # If an output is a variable that is not in ``symbols``, this variable already contains the output.
+        # If an output is a variable outside ``symbols``, no assignment is needed.
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
@@ -74,7 +74,7 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 
 
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
-    """Return the statements that evaluate the run-time inputs at all sample times of the kernel.
+    """Return the statements that evaluate the run-time inputs at all sample times.
 
     The sample times of a method are, for example, t and t + h/2.
     """

@@ -50,7 +50,7 @@ The arguments are the first column of the group (None for column 0) and the numb
 class ArrayLoops:
     """Translates assignments of matrices into loops.
 
-    ``arrays`` maps names of matrices to arrays. The array of every other matrix has the name of the matrix.
+    ``arrays`` maps names of matrices to arrays. A matrix outside ``arrays`` and its array have the same name.
     """
 
     arrays: dict[str, Term]
@@ -58,8 +58,8 @@ class ArrayLoops:
     def array(self, matrix: Matrix, size: int = 0) -> Term:
         """Return the array that contains a matrix.
 
-        If the name of the matrix is not in ``arrays``, the array has this name and ``size`` entries. The
-        size 0 means that the array has as many entries as the matrix.
+        The array is ``arrays[matrix.name]``, if it exists. Otherwise it has the name of the matrix and
+        ``size`` entries. The size 0 means that the array has as many entries as the matrix.
         """
         known = self.arrays.get(matrix.name)
         return own(matrix.name, size or matrix.size) if known is None else known
@@ -154,8 +154,7 @@ class ArrayLoops:
         for n, term in enumerate(c.terms):
             weights[id(term)], statements = self.weight(f"{target.name} weight {n}", term.coefficient)
             yield from statements
-        # Without gaps between rows and without transposed matrices, entry number k has the same row and
-        # column in each matrix.
+        # Without gaps between rows and without transposed matrices, one loop over all entries is enough.
         flat = _is_whole(target) and all(_is_whole(t.matrix) and not t.transposed for t in full)
         yield self.over(target, lambda place: self.total(full, weights, place), flat=flat)
         for term in c.terms:
@@ -207,7 +206,7 @@ class ArrayLoops:
     def weight(self, name: str, c: Expr) -> tuple[Term | None, list[Statement]]:
         """Return the emitted value of the coefficient ``c``, and the statements that compute this value.
 
-        If ``c`` is 1 or -1, no multiplication is needed, and the value is None.
+        If ``c`` is 1 or -1, the value is None. Then :func:`_plus` adds or subtracts without a multiplication.
         """
         if _sign(c):
             return None, []
@@ -240,9 +239,9 @@ class ArrayLoops:
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
         """Return a function that yields statements for a group of columns.
 
-        The statements multiply row ``column`` of ``a.matrix`` by the entry :data:`_ENTRY` of the constant
-        matrix. If ``added`` is True, the product is added to row ``row`` of ``a.target``. Otherwise the
-        product replaces this row.
+        The statements multiply the number :data:`_ENTRY` by the row of ``a.matrix`` with index ``column``. If
+        ``added`` is True, the product is added to row ``row`` of ``a.target``. Otherwise the product replaces
+        this row.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -256,7 +255,7 @@ class ArrayLoops:
     def applied_full(self, a: Apply) -> Iterator[Statement]:
         """Yield the loops for the product C M of a full constant matrix C and a variable matrix M."""
         c = a.constant
-        # If C is transposed, the row i and the column j of the entry of C are exchanged.
+        # If C is transposed, the indices i and j are exchanged.
         i, j = (_TERM, _ROW) if a.transposed else (_ROW, _TERM)
         before, entry = constant_entry(c.full, c.name, i, j, c.columns * i + j)
 
@@ -278,8 +277,7 @@ class ArrayLoops:
         yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
 
         def inner(i: Term, j: Term, before: Sequence[Statement], entry: Term) -> tuple[Statement, ...]:
-            # In the product M C, the entry of C in row ``row`` and column ``column`` multiplies column
-            # ``row`` of M.
+            # Entry (k, column) of M C is the sum of M[k, row] C[row, column] over ``row``.
             row, column = (j, i) if a.transposed else (i, j)
             goal, line = self.entry(target, _TERM, column), self.entry(a.matrix, _TERM, row)
             rows = For(_TERM, whole(target.rows), (Assign(goal, goal + line * _ENTRY),))
@@ -319,7 +317,7 @@ def constant_entry(
         return [], real(table, len(given))[place]
     read = {node.payload for node in walk([given]) if node.op == "sym"}
     indices = ((ROW, row), (COLUMN, column))
-    # Only the indices in the formula are converted, because C compilers warn about unused variables.
+    # An index outside the formula is not converted. C compilers would report an unused variable.
     before: list[Statement] = [Assign(own(s), narrow(wide(at))) for s, at in indices if s in read]
     return before, value(given)
 
@@ -331,7 +329,7 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of all constant matrices whose entries are numbers and not formulas."""
-    # ``constants`` can contain a matrix once for each stage time, always with the same name. Entries that are
+    # ``constants`` may contain several matrices with one name, one for each stage time. Entries that are
     # numbers do not depend on the time.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
@@ -360,7 +358,7 @@ def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ..
 
 
 def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statement]]) -> Iterator[Statement]:
-    """Yield the statements of ``group`` for all columns of a matrix with ``columns`` columns.
+    """Split ``columns`` columns into groups, and yield the statements of ``group`` for each.
 
     Only the last group may have fewer than :data:`GROUP` columns.
     """

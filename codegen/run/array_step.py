@@ -68,7 +68,7 @@ def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
     # Several moves can call the same function. For each function name, ``moves`` contains the first move.
     moves: dict[str, Move] = {}
     for move in (s for s in step.body if isinstance(s, Move)):
-        # The sizes of the arrays are constants in an emitted function.
+        # Moves with the same function must have equal sizes, because the function contains the sizes.
         assert _sizes(moves.setdefault(_name(move), move)) == _sizes(move)
     functions = [_Exponential(name, move, plan.format).function() for name, move in moves.items()]
     return (*functions, _advance(plan, step))
@@ -82,7 +82,7 @@ def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
 
 
 def _name(move: Move) -> str:
-    """Return the name of the function that multiplies the matrix exponential of a move by a point.
+    """Return the name of the emitted function for a move.
 
     The name contains the numbers of rows of the matrices ``core`` and ``start``.
     """
@@ -142,7 +142,7 @@ def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
     sizes: dict[str, int] = {}
     for statement in (*step.body, *step.estimate):
         target = statement.target
-        # A target may be a block of a larger array with at least ``end`` entries.
+        # The array of a target has at least ``end`` entries.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
     local = [name for name in sizes if name not in loops.arrays]
@@ -180,8 +180,8 @@ class _Exponential:
         target = Matrix("result", move.target.rows, k)
         start = None if move.start is None else Matrix("start", move.start.rows, k)
         self.core, self.gram, self.target, self.start = core, gram, target, start
-        # ``matrix`` is the product G S. ``total`` and ``term`` are the sum and the current term of the series
-        # for phi(G S) G C.
+        # ``matrix`` is the product G S. ``total`` is the sum of the series for phi(G S) G C, and ``term`` is
+        # the current term.
         self.matrix = Matrix("matrix", m, m)
         self.total, self.term, self.next = (Matrix(n, m, k) for n in ("total", "term", "next"))
         given = [core, gram, *([start] if start is not None else []), target]
@@ -208,8 +208,8 @@ class _Exponential:
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
-        # The trace of M^2 is the sum of M_ij M_ji, where M is ``matrix``. Only the products with j < i are
-        # summed, and their sum is doubled.
+        # The trace of M^2 is the sum of M_ij M_ji, where M is ``matrix``. The sums over j < i and over j > i
+        # are equal, so only one is computed.
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
@@ -217,8 +217,8 @@ class _Exponential:
         # eigenvalues of a skew matrix form conjugate pairs, so the squared spectral norm is at most half of
         # ``square``.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
-        # Rounding may make ``square`` slightly negative. Then ``square - square`` is zero, but it is NaN if
-        # ``square`` is NaN.
+        # Rounding may make ``square`` slightly negative. For a finite ``square``, ``square - square`` is
+        # zero. For a NaN it is a NaN.
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))
@@ -228,8 +228,8 @@ class _Exponential:
         yield from self.terms(norm * scale)
         yield from self.begun()
         yield For(part, parts, tuple(self.advanced(scale)))
-        # If even ``MOST_PARTS`` factors are too few, the series is inaccurate. The test of the new state
-        # finds the NaNs.
+        # If even ``MOST_PARTS`` factors are too few, the series is inaccurate. The result is set to NaN, so
+        # the step returns NOT_FINITE.
         lost = For(
             _PLACE,
             whole(self.target.size),
@@ -238,13 +238,14 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that count the terms of phi(z) = (exp(z) - 1)/z without the constant term 1.
+        """Yield the statements that choose the number of terms in the series of phi(z) = (exp(z) - 1)/z.
 
-        ``size`` is the norm of the matrix z.
+        The constant term 1 is not counted. ``size`` is the norm of the matrix z.
         """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
-        # Let z be the exponent, ``theta`` its norm, and n the number ``terms``. The first omitted term of the
-        # series exp(z) - 1 has a norm of at most ``bound`` = theta^(n + 2)/(n + 2)!.
+        # Let z be the exponent, ``theta`` its norm, and n the number ``terms``. The series of
+        # exp(z) - 1 = z phi(z) ends with the power z^(n + 1). The first omitted term has a norm of at most
+        # ``bound`` = theta^(n + 2)/(n + 2)!.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))
@@ -256,13 +257,13 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that set the displacement to ``self.start`` (extended by zeros) or to zero."""
+        """Yield the statements that set D to ``self.start``, extended by zeros. None means D = 0."""
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
         yield from self.loops.statements(Combination(self.target, terms))
 
     def advanced(self, scale: Term) -> Iterator[Statement]:
-        """Yield the statements that multiply the current point by one factor of the exponential."""
+        """Yield the statements that multiply the current point by exp(``scale`` B S B^T)."""
         m, k, loops = self.core.rows, self.target.columns, self.loops
         total, term, following = (loops.array(x) for x in (self.total, self.term, self.next))
         terms, order, factor = count("terms"), count("order"), real("ratio")
@@ -276,15 +277,15 @@ class _Exponential:
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # If ``self.start`` is None, D is zero when ``part`` is 0, and the product G D is omitted.
+        # If ``part`` is 0 and ``self.start`` is None, D is zero and G D is not added.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (
             Assign(term[_PLACE], factor * following[_PLACE]),
             Assign(total[_PLACE], total[_PLACE] + term[_PLACE]),
         )
-        # Let S be the core, and let z be ``scale`` times G S. The loop adds the terms z^j/(j + 1)! B^T X for
-        # j = 1, 2, ... to ``total``.
+        # Let z be ``scale`` times ``self.matrix``, and let T be ``total`` before the loop. The loop adds the
+        # terms z^j T/(j + 1)! for j = 1, 2, ... to ``total``.
         series = (
             *loops.statements(Multiplication(self.next, self.matrix, self.term)),
             Assign(factor, scale * real(RECIPROCALS, MOST_TERMS + 1)[order]),

@@ -73,8 +73,9 @@ class FunctionPrinter:
 
         If ``near`` is true, the C function has no branches and is valid only for arguments near zero.
         """
-        # Loops over lanes (the systems of a batch) or sites use polynomials for sines and cosines near zero.
-        # If a module has such loops, all its functions use the polynomials, so all rounding errors agree.
+        # Loops over batch systems or lattice sites compute sines and cosines of small arguments by
+        # polynomials. If a module has such loops, all its functions use the polynomials, so all rounding
+        # errors agree.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -152,7 +153,7 @@ class FunctionPrinter:
         rows = [[literal(self.precision, x) for x in row] for row in table.rows]
         size = "".join(f"[{n}]" for n in table.name.shape)
         start = f"static const {self.real} {self.prefix}{table.name.text}{size} ="
-        # In a static const table, compilers can replace an entry by its value.
+        # A compiler knows the entries of a static const array.
         about = [f"/* {comment(table.about)} */"]
         if len(table.name.shape) == 1:
             entries = [f"{x}," for x in rows[0][:-1]] + [rows[0][-1]]
@@ -174,7 +175,7 @@ class FunctionPrinter:
 
 def _without_zeros(row: Sequence[str]) -> str:
     """Return the text of a row without zeros at the end, because C sets missing entries to zero."""
-    # All rows must have the same length, so shorter rows are padded with zeros.
+    # All rows of a table have the same length, so short rows end with zeros.
     kept = list(row)
     while len(kept) > 1 and not float(kept[-1].removesuffix("f")):
         kept.pop()
@@ -212,20 +213,20 @@ class _Body:
         return [*loads, *(f"(void){name};" for name in unread), *self.block(self.function.body)]
 
     def block(self, body: Body) -> list[str]:
-        """Return the lines of ``body``. More than MANY short statements in a row share lines."""
+        """Return the lines of ``body``. Long sequences of short statements (over MANY) share lines."""
         groups: list[tuple[bool, list[str]]] = []
         for statement in body:
             before = self.before(statement)
             own = list(self.statement(statement))
             # Statements with sums do not share lines, because several sums on a line would be hard to read.
             short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
-            # Declarations precede their statement and share no line with short statements.
+            # The declarations in ``before`` share no line with a statement.
             groups += [(False, before)] if before else []
             groups.append((short, own))
         lines: list[str] = []
         for short, group in groupby(groups, key=lambda x: x[0]):
             flat = [line for _, part in group for line in part]
-            # Kernels with many unknowns copy hundreds of scalars.
+            # Some kernels copy hundreds of scalars, so short statements share lines.
             lines += together(flat) if short and len(flat) > MANY else flat
         return lines
 
@@ -296,7 +297,7 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # In the C code, a comment explains the test that several numbers are finite, with or without "not".
+        # ``finite`` is the test without its negation. A C comment explains a test of several numbers.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
@@ -335,7 +336,7 @@ class _Body:
         """
         # An array is declared as a whole, so an assignment to one entry declares nothing.
         name = self.identifiers.of(target) if target.op == "name" else ""
-        # Two equal statements may declare different variables, so the keys of ``declared.by`` are ids.
+        # The keys of ``declared.by`` are ids, because two statements may be equal.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -419,7 +420,7 @@ class _Body:
         given = [self.argument(a) for a in statement.arguments]
         name, results = statement.function, statement.results
         if name == "measure":
-            # The user function ``event`` writes the values of the event functions into ``results[0]``.
+            # The user function ``event`` fills the array ``results[0]``.
             given = [*given[1:], self.terms.line(results[0]), "data"]
             yield from fill("event(", _arguments(given), ";", separator="")
             return
@@ -451,7 +452,7 @@ class _Body:
         parameters = next(f.parameters for f in self.printer.unit.functions if f.name == name)
         values = [x for p, x in zip(parameters, given, strict=False) if p in together]
         others = [x for p, x in zip(parameters, given, strict=False) if p not in together]
-        # After the arguments, ``given`` may contain pointers to the results.
+        # The last entries of ``given`` may be pointers to the results.
         others += given[len(parameters) :]
         # An existing array that begins with ``values`` is passed without a copy.
         array = whole(values, others)

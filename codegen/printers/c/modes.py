@@ -117,7 +117,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         # Four spectra contain the old state, the new state, an argument of the nonlinear part N, and a
         # temporary result.
         "spectra": 4 + len(step.evaluations),
-        # The workspace also contains grid values of the derivatives in N and of the terms of N.
+        # The workspace also contains two kinds of grid values: derivatives in N, and terms of N.
         "arrays": len(inner) + len(outer),
     }
     files = {".h": "modes.h.j2", ".c": "modes.c.j2", "_fft.c": "modes_fft.c.j2"}
@@ -186,7 +186,7 @@ def _usage(interface: Interface, recipe: Recipe) -> list[str]:
 
 
 def mode_prototypes(interface: Interface) -> str:
-    """Return declarations of the public functions of a module in the form that cffi reads."""
+    """Return the declarations of the public functions, for cffi."""
     prefix = interface.prefix
     parameters = "".join(f"double p{i}, " for i in range(len(interface.parameters)))
     # In C a function without parameters is declared with ``void``.

@@ -37,8 +37,7 @@ from codegen.templates import environment
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
-# gcc 12 on x86-64 without AVX-512 vectorises loops that select one of two values only with
-# -fno-trapping-math.
+# On x86-64 without AVX-512, gcc 12 needs -fno-trapping-math to vectorise ``a ? b : c``.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 """Flags for modules that loop over the systems of a batch, lattice sites or Fourier modes.
 
@@ -51,20 +50,20 @@ functions, in bytes.
 """
 
 EACH, EACH_SOLVING = 8, 10
-"""The memory in the stack bound for one number (a variable or an array entry), in bytes.
+"""The assumed stack memory of one number (a variable or an array entry), in bytes.
 
 ``EACH`` is for explicit steps, and ``EACH_SOLVING`` is for steps that solve equations. In measurements, steps
 that solve equations needed at most 8.8 bytes per number in double precision, and at most 8.0 bytes in single
 precision.
 
-Both constants are also used for single precision, because an optimiser may store two floats in 16 bytes.
+Single precision has the same constants, because a compiler may use 8 bytes for a float.
 """
 
 LARGEST_STACK = 6 * 2**20
 """The largest permitted stack bound (:func:`stack`), in bytes. Most systems limit the stack to 8 MiB."""
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
-"""The compilers and flags with which tests compare the stack bound with the measured stack."""
+"""The compilers and flags in the tests of the stack bound."""
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
@@ -79,7 +78,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # Stumpff functions are inline in a step that solves equations, because the step calls them often.
+        # Stumpff functions are inline in implicit steps, because solvers call them often.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         # Arrays of variable size are optional in C11, so the arrays in ``invert`` have ``widest`` entries.
@@ -145,7 +144,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
-        # ``hold`` is a callback with constant inputs, for the functions that ``step`` calls.
+        # ``step`` passes the callback ``hold`` to other functions. ``hold`` supplies constant inputs.
         if function.name == "step" and n:
             definitions.append(
                 [
@@ -171,7 +170,7 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 def helpers(unit: Unit) -> list[str]:
     """Return the sorted names of the helper functions and library functions that a module calls."""
-    # Branches prevent vector instructions, so loops over lanes or sites call variants such as ``sin_near``.
+    # Branches prevent vector instructions, so loops over lanes or sites call variants without branches.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
     # A step tests whether its new state is finite, so ``isfinite`` is always needed.
@@ -187,7 +186,7 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the names of the helpers that a module with loops over systems of a batch or sites calls.
+    """Return the names of the called helpers, for a batch module or a lattice module.
 
     A name may be the name of a variant, for example ``sin_near``.
     """
@@ -212,7 +211,7 @@ def inverted_sizes(kernel: Kernel) -> set[int]:
 def inverted(kernel: Kernel) -> int:
     """Return the size of the matrices that a step inverts by elimination, or 0.
 
-    The result is n if all these matrices are n x n, and n is at most :data:`~codegen.run.sweeps.WIDE`.
+    The result is 0 if the sizes differ or one size exceeds :data:`~codegen.run.sweeps.WIDE`.
     """
     sizes = inverted_sizes(kernel)
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
@@ -224,8 +223,8 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The emitted function ``invert`` adds FRAMES / 2 bytes. If the kernel is inlined in ``run``, the bound is
-    # FRAMES / 2 bytes smaller.
+    # The emitted function ``invert`` adds FRAMES / 2 bytes. If ``is_looped(plan)`` is true, FRAMES / 2 bytes
+    # are subtracted.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
@@ -256,7 +255,7 @@ def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     names |= {"integrate", "event"} if interface.integrated else set()
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
-    # All helpers are reserved names, so the names of variables do not depend on the called helpers.
+    # The names of all helpers are reserved, even without a call of the helper.
     names |= {snippet.name for snippet in snippets(interface.format)}
     local = {"event", "data"} if interface.events else set[str]()
     constants = {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}

@@ -25,8 +25,8 @@ def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
     The result is empty if all parameters are passed separately. The array does not contain the parameters
     that the function changes (``changed``).
     """
-    # Users pass each argument of a public function separately. The statement that calls a function with an
-    # array does not assign a return value.
+    # Users pass each argument of a public function separately. Calls with an array assign no return value, so
+    # functions with a return value get no array.
     if function.public or function.returns is not None:
         return ()
     scalars = [p for p in function.parameters if p.kind is Kind.REAL and not p.shape and not p.cell]
@@ -38,8 +38,8 @@ def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
 def whole(values: Sequence[str], others: Collection[str]) -> str:
     """Return the name of the array whose first entries are ``values``, or an empty text.
 
-    No array in ``others`` (the other arguments of the call) is returned, because the callee may change such
-    arrays.
+    The arrays in ``others`` (the other arguments of the call) are excluded, because the callee may change
+    them.
 
     >>> whole(("v[0]", "v[1]"), ["w"])
     'v'

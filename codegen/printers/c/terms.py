@@ -28,7 +28,7 @@ from codegen.run.terms import Kind, Term, paired
 from codegen.snippets.graph import LIBRARY
 
 FUNCTIONS = {"abs": "fabs", "power": "pow"}
-"""The C names of functions that have another name in terms."""
+"""A map from function names in :mod:`codegen.run.terms` to C names, if the names differ."""
 
 
 def literal(precision: Precision, x: float) -> str:
@@ -123,7 +123,7 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
-                # Constant run-time inputs are passed as the function ``hold`` and a pointer to their values.
+                # Two arguments are passed: the callback ``hold`` and a pointer to the constant inputs.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
@@ -133,7 +133,7 @@ class Terms(Infix):
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return the text of a name. After a function of the user, a pointer to its data is printed."""
+        """Return the text of a name. For a user function, the text has two arguments: function and data."""
         # C has no closures, so the user passes the data of the function separately.
         if term.kind is Kind.SIGNAL:
             return "input, context"
@@ -217,7 +217,7 @@ class Terms(Infix):
         return Text(closed_call(name, [self.line(x) for x in term.args]))
 
     def converted(self, term: Term) -> Text:
-        """Return a conversion to double (``wide``) or to the number format of the module (``narrow``)."""
+        """Return the conversion ``term``: ``wide`` to double, ``narrow`` to the format of the module."""
         (x,) = term.args
         inner = self.text(x)
         # In double precision all real numbers are doubles, so only integers need a conversion.

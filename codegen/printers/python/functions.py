@@ -95,7 +95,7 @@ class FunctionPrinter:
             return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
         inner = self.zeros(shape[1:], kind, record)
         if len(shape) > 1 or kind is Kind.RECORD:
-            # The operator ``*`` would repeat one row or record.
+            # With the operator ``*``, all entries would be the same object.
             return f"[{inner} for _ in range({shape[0]})]"
         return f"[{inner}] * {shape[0]}"
 
@@ -159,7 +159,7 @@ class _Body:
         return lines
 
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
-        """Return the assignments at the beginning of ``body`` that one statement can replace.
+        """Return the first assignments of ``body``, as many as one statement can replace together.
 
         Either all these assignments read consecutive entries of one list, or all of them write consecutive
         entries of one list.
@@ -170,7 +170,7 @@ class _Body:
                 break
             if group and not (self.follow(group, statement, True) or self.follow(group, statement, False)):
                 break
-            # The first assignment must read or write an entry of a list.
+            # The first assignment of ``body`` must read or write a list entry.
             if not group and _entry(statement.target) is None and _entry(statement.value) is None:
                 break
             group.append(statement)
@@ -179,7 +179,7 @@ class _Body:
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
         """Return True if one statement can replace the assignments of ``group`` and ``statement``.
 
-        The assignments must read or, if ``reading`` is False, write consecutive entries of one list.
+        The assignments must read (or write, if ``reading`` is False) consecutive entries of one list.
         """
 
         def one(s: Assign) -> Term:
@@ -193,16 +193,16 @@ class _Body:
         first = self.terms.line(one(group[0]).args[0])
         # The indices must be consecutive, because a slice selects consecutive entries.
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
-        # ``statement`` must read or write the same list as the first assignment of the group.
+        # ``statement`` and ``group[0]`` must use the same list.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
-        # A slice assignment computes all values before it changes the list. If a value depends on an entry
-        # that an earlier assignment changes, the value would be wrong.
+        # A slice assignment computes all values before it changes the list. Therefore no value may depend on
+        # the list.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
     def together(self, group: Sequence[Assign], depth: int) -> list[str]:
-        """Return the lines of the assignment that replaces the assignments of ``group``."""
+        """Return the lines of one assignment to or from a slice, in place of ``group``."""
         reading = all(_entry(s.value) is not None and s.target.op == "name" for s in group)
         entry = group[0].value if reading else group[0].target
         array, start = entry.args[0], _entry(entry) or 0
