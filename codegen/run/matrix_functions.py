@@ -126,15 +126,16 @@ class _Exponential:
         return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
-        """Return an entry of the matrix with the index ``part`` in a jet.
+        """Return entry (``row``, ``column``) of the jet matrix with the index ``part``.
 
-        Index 0 selects the matrix itself, and all other indices select derivatives.
+        ``array`` contains the jet, a list of matrices. Index 0 selects the matrix itself, and all other
+        indices select derivatives.
         """
         place = self.n * row + column
         return array[place + self.one * part if part else place]
 
     def norm(self, array: Term, target: Term) -> Call:
-        """Return the statement that computes the norm of the matrix in a jet, without the derivatives."""
+        """Return the statement that computes the norm of matrix 0 in the jet ``array``."""
         return Call(f"norm{self.n}", (array.part(0, self.one),), (target,))
 
     def _norm(self) -> Function:
@@ -212,7 +213,7 @@ class _Exponential:
                     *self._squared(result, work, squarings, growth),
                 ),
             ),
-            # If the scaled norm exceeds ``least``, the Taylor polynomial is too inaccurate.
+            # The number of squarings is limited, so the scaled norm may still exceed ``least``.
             If(norm > least, (_is_lost(result),)),
         ]
         return Function(self.name, self._about(), (a, result), tuple(body))
@@ -229,20 +230,21 @@ class _Exponential:
         )
 
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
-        """Return the statements that evaluate a Taylor polynomial of exp at the jet ``powers[0]``.
+        """Return the statements that evaluate a Taylor polynomial of exp.
 
-        The norm ``norm`` of the matrix determines the degree: 4, 8, 12 or 16.
+        The argument of exp is ``powers[0]``, a matrix with derivatives. The norm ``norm`` of the matrix
+        determines the degree: 4, 8, 12 or 16.
         """
         # The method of Paterson and Stockmeyer evaluates a polynomial of degree 4 g in b = ``powers[0]``. The
-        # terms below degree 4 g form g groups of four, which Horner's rule in b^4 combines.
+        # method applies Horner's rule in b^4 to g groups of four terms.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
-        # At norms up to ``first``, ``second`` or ``third``, the degree 4, 8 or 12 is accurate enough.
+        # The degree 4 suffices for norms up to ``first``, 8 up to ``second``, and 12 up to ``third``.
         first, second, third, _ = self.norms
         chosen = select(
             norm > third, whole(4), select(norm > second, whole(3), select(norm > first, whole(2), whole(1)))
         )
-        # Horner's rule begins with the term b^4/(4 g)!.
+        # Horner's rule begins with the leading coefficient ``c[4 * groups]`` times b^4.
         start = Assign(work[_PLACE], c[4 * groups] * b4[_PLACE])
 
         def added(base: Term) -> tuple[Statement, ...]:
@@ -298,14 +300,14 @@ class _Exponential:
     def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
         """Return the statements that square the jet ``result``. The number of squarings is ``squarings``.
 
-        ``growth`` bounds the norm of the matrix in ``result``. If the relative error may exceed
-        2^-LEAST_DIGITS, all entries of ``result`` become NaN.
+        ``growth`` is an upper bound of the spectral norm of matrix 0 in ``result``. If the relative
+        error may exceed 2^-LEAST_DIGITS, all entries of ``result`` become NaN.
         """
         n, unit = self.n, self.precision.unit
         error, bound = real("error_bound"), real("bound")
         body = (
             self.norm(result, bound),
-            # The Frobenius norm ``bound`` and ``growth`` both bound the spectral norm of the matrix.
+            # The spectral norm is at most ``growth``, and at most the Frobenius norm (``bound``).
             Assign(bound, select(bound < growth, bound, growth)),
             # The norm of the n x n matrix is at most r = ``bound``, and its error is at most e = ``error``.
             # With the unit roundoff u, the error of the computed square is at most about
@@ -357,8 +359,8 @@ def _inverse(function: MatrixInverse) -> Function:
     # small.
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
-    # The inverse overwrites the matrix. After step k, column k stores an incomplete column of the inverse
-    # instead of a unit column.
+    # The inverse overwrites the matrix. Step k of the Gauss-Jordan elimination gives a unit column k. This
+    # column is not stored. Its place stores an incomplete column of the inverse.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),

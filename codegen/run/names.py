@@ -28,7 +28,7 @@ class Names:
         return len(self._taken) - self._reserved
 
     def add_all(self, names: Iterable[str]) -> None:
-        """Choose an identifier for each of ``names`` that has none."""
+        """Choose an identifier for each of ``names``. Identifiers from earlier calls are kept."""
         for name in names:
             if name not in self.identifiers:
                 self.identifiers[name] = self.fresh(name)

@@ -113,12 +113,12 @@ class Observation:
 
     @property
     def outputs(self) -> tuple[Term, ...]:
-        """The arguments of the emitted functions for output times."""
+        """The arguments for output times in calls of the emitted functions."""
         return self.times, self.amount, self.rows, self.written
 
     @property
     def buffers(self) -> tuple[Term, ...]:
-        """The arguments of the emitted functions for events, or () without event functions."""
+        """The arguments for events in calls of the emitted functions. Without events, the tuple is empty."""
         if not self.events:
             return ()
         return (
@@ -160,8 +160,8 @@ class Observation:
     def observe(self, state: Term, trial: Term, now: Term, following: Term, stop: Term) -> Call:
         """Return the call that observes the step from ``state`` to ``trial``.
 
-        If an event ends the run, the call returns EVENT. Then ``trial`` is the state at this event, and
-        ``stop`` is the time of this event.
+        If an event ends the run, the call returns EVENT. Then the call overwrites ``trial`` with
+        the state at this event, and ``stop`` with the time of this event.
         """
         passed = (*self.plan.parameters, *self.plan.sampled(), *self.outputs, *self.buffers, *self.memory)
         return Call(OBSERVE, (state, trial, now, following, *passed, stop), (STATUS,))
@@ -170,7 +170,7 @@ class Observation:
         """Return the emitted functions. Each function comes after the functions that it calls."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
-        # INSIDE is needed for the search for events, and for output times without a continuous extension.
+        # The search for events calls INSIDE. Without a continuous extension, output times also need INSIDE.
         inside = (self.inside(),) if self.events or self.dense is None else ()
         return *inside, self.in_order(), *located, *dense, self.observed()
 
@@ -236,7 +236,7 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the test whether the sign of entry ``i`` of ``values`` differs from its stored sign."""
-        # After a zero at the beginning of a run or at an event, the next nonzero value is no event.
+        # If the stored sign is 0, a nonzero value is not a change of sign.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -253,7 +253,7 @@ class Observation:
         return Function(CROSSED, about, (self.signs, self.measured), body, Kind.FLAG)
 
     def locate(self) -> Function:
-        """Return the function that finds a short interval around the first event in a part of a step."""
+        """Return the function that finds a short interval around the first event after ``low``."""
         plan, state, high, ahead = self.plan, self.plan.state(), self.high[0], self.ahead
         trials, side, change = count("trials"), real("side"), flag("change")
         width, longer = real("width"), real("longer")
@@ -273,9 +273,9 @@ class Observation:
             Assign(
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
-            # ``width`` bounds the rounding errors of times, as a fraction of the step.
+            # ``width`` times the step size is a bound of the rounding errors of times.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # ``width`` must also bound the rounding errors of ``low`` and ``high``.
+            # ``low`` and ``high`` have rounding errors, too, so ``width`` is at least CLOSE unit roundoffs.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
@@ -302,8 +302,8 @@ class Observation:
     ) -> tuple[Statement, ...]:
         """Return the statements that choose ``middle``, the fraction of the step for the next evaluation."""
         i, estimate = count("i"), real("estimate")
-        # The earliest zero of the secants through the weighted values at both ends is chosen. In every third
-        # iteration, the midpoint is chosen instead.
+        # Each event function has a secant through its weighted values at ``low`` and ``high``. The earliest
+        # zero of a secant is chosen. In every third iteration, the midpoint is chosen instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         # The weighted values a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1.
         candidate = (
@@ -315,8 +315,8 @@ class Observation:
             Assign(self.middle, high),
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
-            # If ``middle`` has the distance ``width`` from an end, the interval between them is short enough
-            # to end the search.
+            # ``middle`` must be at least ``width`` away from ``low`` and ``high``. An interval of the length
+            # ``width`` ends the search.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
         )
@@ -324,7 +324,7 @@ class Observation:
     def _moved(
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
-        """Return two groups of statements that move the upper or the lower end to ``middle``."""
+        """Return the statements that move ``high`` to ``middle``, and those that move ``low``."""
         # If one end of the interval moves twice in a row, the Illinois method halves the weight of the values
         # at the other end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
         moved_high: tuple[Statement, ...] = (
@@ -345,7 +345,7 @@ class Observation:
         return moved_high, moved_low
 
     def time_at(self, fraction: Term) -> Term:
-        """Return the time at a fraction of the step. At the end of the step it is exactly ``following``."""
+        """Return the time at a fraction of the step. The fraction 1 gives exactly the final time."""
         inner = self.now + fraction * self.length
         return select(fraction >= 1.0, self.following, inner)
 
@@ -388,10 +388,10 @@ class Observation:
         return Function(EVENTS, about, parameters, body, Kind.STATUS)
 
     def recorded(self) -> tuple[Statement, ...]:
-        """Return the statements that store an event for each function that has changed its sign."""
+        """Return the statements that store an event for each event function with a change of sign."""
         i, rising, place = count("i"), count("rising"), self.event_count[0]
-        # The bit RISING = 1 of ``stops[i]`` ends the run at a rising zero, and the bit FALLING = 2 at a
-        # falling zero.
+        # ``stops[i]`` has two bits for event function i. If the bit RISING = 1 is set, a rising zero ends the
+        # run. If the bit FALLING = 2 is set, a falling zero ends the run.
         ends = select(rising > 0, self.stops[i] % 2, self.stops[i] // 2)
         stored = (
             Assign(rising, select(self.signs[i] < 0.0, whole(1), whole(0))),
@@ -405,19 +405,18 @@ class Observation:
         stopped = (Assign(self.stop[0], self.time_at(self.high[0])), Assign(self.after, self.inner))
         return (
             For(i, whole(self.events), (If(self.changed(i, self.measured), stored),)),
-            # If the buffer has no room for another event of each function, the run ends here.
+            # The run ends here unless the buffer has room for one more event of every event function.
             If(place + self.events > self.room, (Assign(STATUS, code(EVENT)),)),
             If(STATUS.equals(code(EVENT)), stopped),
         )
 
     def passed(self) -> tuple[Statement, ...]:
-        """Return the statements that continue the search at the fraction ``high`` of the step. There the
-        search has found an event, or it has reached the end of a part."""
+        """Return the statements that continue the search at the fraction ``high`` of the step."""
         return (
             Assign(self.low, self.high[0]),
             Assign(self.values, self.measured),
             *self.signed(),
-            # If the search has reached the end of a part, ``target`` becomes the end of the next part.
+            # A step has PARTS parts. At the end of a part, ``target`` becomes the end of the next part.
             If(self.low >= self.target, (Assign(self.target, self.target + 1.0 / PARTS),)),
         )
 
@@ -427,7 +426,7 @@ class Observation:
         """Return the statements that prepare a continuous extension, or () without an extension."""
         if self.dense is None:
             return ()
-        # The array is set to zero, because a compiler may warn that its entries have no values.
+        # A compiler may warn that entries of the array have no values, so the array is set to zero.
         return Array(self.dense.powers, zero=True), Assign(self.known, truth(False))
 
     def inner_state(self, state: Term, time: Term) -> tuple[Statement, ...]:

@@ -24,14 +24,14 @@ class Place:
     @property
     def term(self) -> Term:
         """The block as a slice of its array."""
-        # The stopping rule computes the largest entry of a block, so the block must be a single term.
+        # The stopping rule computes the largest entry of this slice.
         return real(self.array, self.whole).part(self.start, self.size)
 
 
 def places(kernel: Kernel) -> tuple[Place, ...]:
     """Return the position of each block of a kernel's state.
 
-    A variation (a tangent vector at the state) is the last block, and its array is ``vector``.
+    If the state has a variation (a tangent vector), it is the last block. Its array is ``vector``.
     """
     # The array ``state`` does not contain the variation.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
@@ -40,6 +40,6 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
-        # The variation is the last block, so no block uses ``start`` after the variation.
+        # A variation also increases ``start``. This has no effect, because no block comes after it.
         start += n
     return tuple(result)

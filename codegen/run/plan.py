@@ -16,7 +16,7 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of two record types, and of the arguments of these types."""
+"""Each name denotes a record type and the argument of this type."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""
@@ -66,7 +66,7 @@ class Plan:
     @property
     def parameters(self) -> tuple[Term, ...]:
         """The run-time parameters that the kernel reads."""
-        # The functions have separate arguments for times and durations.
+        # Times and durations are omitted, because they are separate arguments of the functions.
         return tuple(map(own, (s for s in self._used if s not in ("t", "h", LEAD, ELAPSED))))
 
     @property
@@ -77,7 +77,7 @@ class Plan:
     @property
     def newton(self) -> bool:
         """True if a loop of the kernel uses Newton's method (not simplified Newton)."""
-        # Newton's method stores its matrix for the next step, but simplified Newton does not.
+        # Only Newton's method stores its matrix for the next step.
         return any(loop.solver == NEWTON for loop in self.kernel.loops)
 
     @property
@@ -88,7 +88,7 @@ class Plan:
     @property
     def remembers(self) -> bool:
         """True if a step stores solutions of equations, or matrices of Newton's method, for the next step."""
-        # A step that stores nothing has no argument for a memory.
+        # If the result is False, the emitted functions have no argument ``memory``.
         return self.start is not None or self.newton
 
     @property
@@ -110,7 +110,7 @@ class Plan:
 
     @property
     def statistics(self) -> Term:
-        """The optional argument for the record with the statistics of a run."""
+        """The optional argument ``statistics``: a record for the statistics of a run."""
         return record(STATISTICS, STATISTICS, optional=True)
 
     @property
@@ -150,7 +150,7 @@ class Plan:
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
         """Return the terms for those names in ``scalars`` that the statements of the kernel read."""
-        # Scheduling may remove statements, so only the remaining statements are searched.
+        # Scheduling may remove statements. Names that occur only in removed statements are omitted.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)
 

@@ -1,8 +1,8 @@
 """Choose where a target language such as C declares each scalar variable.
 
-A variable is declared in the innermost block that contains all its uses, as late as possible. But if all uses
-are in several inner blocks, and each of these blocks assigns the variable before reading it, each of these
-blocks declares the variable.
+A variable is declared in the innermost block that contains all its uses, as late as possible. Exception:
+several inner blocks contain all uses, and each inner block assigns the variable before reading it. Then each
+inner block declares the variable.
 
 Let S be the first statement of the block that mentions the variable. If S assigns only this variable and does
 not read it, S also declares it, as in ``double x = 1.0;``. If then no other statement of the block assigns
@@ -37,7 +37,7 @@ class Declarations:
     """The declarations of a function, in two dictionaries with the keys ``id(statement)``.
 
     - ``before`` contains the variables that are declared before a statement, as pairs (identifier, term).
-    - ``by`` contains the identifiers that a statement itself declares, with the value True for constants.
+    - ``by`` contains the variables that a statement itself declares, and True if the variable is constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -105,7 +105,7 @@ class _Scopes:
                 self.declare(body, places, name, variable)
             for block in deeper:
                 inside.setdefault(id(block), {})[name] = variable
-        # Recursive calls declare the variables of inner blocks.
+        # The recursive call of ``place`` handles the variables of an inner block.
         for statement in body:
             for block in blocks(statement):
                 if id(block) in inside:
@@ -123,7 +123,7 @@ class _Scopes:
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # One inner block may read the value that another inner block has assigned.
+        # If an inner block may read a value from another inner block, ``body`` declares the variable.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result
@@ -141,7 +141,7 @@ class _Scopes:
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
-            # Branches and other While loops may skip their bodies.
+            # Only a While loop with ``at_least_once`` certainly executes its body.
             if isinstance(statement, While) and statement.at_least_once:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):

@@ -86,7 +86,7 @@ class _Kick:
         return [self.loop.sweep(), self.loop.site(), self.loop.all_sites()]
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
-        """Return the call that applies this kick to all sites for the time ``duration``."""
+        """Return the call that applies the kick ``flow`` to all sites for the time ``duration``."""
         shape = shape_of(self.loop.step)
         domain = ExprDomain()
         space = domain.space
@@ -99,13 +99,13 @@ class _Kick:
         # In the kernel of a kick, the symbol h denotes the duration of the kick.
         given = {STEP.text: duration, TIME.text: moment}
         scalars = tuple(given.get(x.text, x) for x in self.loop.scalars)
-        # Only the first flow of a step reads the old state, and the first flow is never a kick.
+        # A kick is never the first flow of a step, so it does not read the old state.
         return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 
 @dataclass(frozen=True)
 class _Part:
-    """Builds the functions of one part of the vector field that is not a kick."""
+    """Builds the functions of one flow other than a kick."""
 
     plan: Plan
     step: SiteStep
@@ -121,24 +121,25 @@ class _Part:
     def special(self) -> bool:
         """True if the flow has the function ``whole_K`` in addition to ``flow_K``.
 
-        The flow must call sines, cosines or Stumpff functions, but no other functions with branches.
+        Then the flow calls sines, cosines or Stumpff functions, and otherwise only ``sqrt``, ``fabs`` or
+        ``choose``.
         """
         _, inside, _ = split(self.own.kernel, set())
         # The functions ``sqrt``, ``fabs`` and ``choose`` never have branches, so they need no fast variant.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
-        # A call of another function with branches prevents vector instructions in the whole loop. Then fast
+        # If a function fails this test, its branches prevent vector instructions in the whole loop. Then fast
         # variants of sines save no time.
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
         return bool(called) and able
 
     @property
     def strided(self) -> bool:
-        """True for pairs along the last axis: consecutive pairs are contiguous in memory."""
+        """True if the pairs are along the last axis. Sites along this axis are adjacent in memory."""
         return self.paired and self.own.axis == self.step.dimension - 1
 
     @property
     def scalars(self) -> tuple[Term, ...]:
-        """The scalars that the flow reads, among its duration and the parameters of the problem."""
+        """The duration and the problem parameters. Scalars that the flow does not read are omitted."""
         read = symbols_of(self.own.kernel)
         return tuple(x for x in (STEP, *self.plan.parameters) if x.text in read)
 
@@ -146,8 +147,8 @@ class _Part:
     def arrays(self) -> tuple[Term, ...]:
         """The arrays that the flow reads or changes, as arguments of the emitted functions.
 
-        A flow of pairs changes the new state in place. A flow of single sites reads the first of two arrays
-        and writes the second.
+        A flow of pairs of sites reads and overwrites one array. A flow of single sites reads the first of
+        two arrays and writes the second.
         """
         # The first flow of a step reads the old state and writes the new state, so no state is copied.
         return (ARRAYS[RESULT],) if self.paired else (ARRAYS[STATE], ARRAYS[RESULT])
@@ -162,7 +163,8 @@ class _Part:
     def entry(self, row: Row, neighbour: int) -> Term:
         """Return the entry of a row at one site.
 
-        If ``neighbour`` is not OWN, the site is the second site of a pair.
+        If ``neighbour`` is OWN, this is a single site or the first site of a pair. Otherwise, it is the
+        second site of a pair.
         """
         place = PLACE if neighbour == OWN else _NEAR
         array = ARRAYS[row.array]
@@ -180,15 +182,15 @@ class _Part:
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
         if self.paired:
-            # With the index PLACE + 1, compilers can load both sites of a pair with one instruction.
+            # If the second index is PLACE + 1, compilers can load both sites of a pair with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # The last flow of a step always changes single sites, so pairs need no test for infinities and NaNs.
+        # The last flow of a step always changes single sites. Only such flows test for infinities and NaNs.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
         loop = For(INDEX, NUMBER, tuple(body), independent=True)
-        # If ``strided`` is True, the second site follows the first site, so one start index is enough.
+        # If ``strided`` is True, the sites of a pair are adjacent, so one start index is enough.
         starts = (SITE, _START) if self.paired and not self.strided else (SITE,)
         parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
         about = f"Consecutive sites: {self.own.about}."
@@ -210,12 +212,12 @@ class _Part:
         body += inside
         body += [Assign(new, end) for new, end in zip(self._news, ends, strict=True)]
         for k, (row, new) in enumerate(zip(self.own.stores, self._news, strict=True)):
-            # The values after the first ``size`` values belong to the second site of a pair.
+            # The first ``size`` values belong to the first site, and the others to the second site of a pair.
             body.append(Assign(self.entry(row, OWN if k < self.step.size else 0), new))
         return body
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
-        """Return the call that applies the flow to all sites, or to one of the two sets of pairs.
+        """Return the call that applies the flow to all sites, or to all pairs of the colour ``flow.colour``.
 
         If ``first`` is True, a flow of single sites reads the old state and writes the new state. All other
         flows change the new state in place.
@@ -226,7 +228,7 @@ class _Part:
         if self.paired:
             given = (WHOLE, shape_of(self.step), whole(flow.colour), SITES, new, *scalars)
             return Call(f"part_{flow.sweep}", given)
-        # Later flows overwrite BAD, because only the value of the last flow of a step is needed.
+        # Each flow overwrites BAD. Only the value after the last flow of a step is needed.
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
@@ -248,7 +250,7 @@ class _Part:
         return Function(name, about, parameters, tuple(body), Kind.COUNT, often=True, near=near)
 
     def _called(self, arguments: tuple[Term, ...], *results: Term) -> list[Statement]:
-        """Return the statements that call ``whole_K`` if it exists and WHOLE is true, else ``flow_K``."""
+        """Return a call of ``flow_K``, or of ``whole_K`` if it exists and WHOLE is true. K is ``index``."""
         given = (*arguments, SITES, *self.arrays, *self.scalars)
         call = Call(f"flow_{self.index}", given, results)
         if not self.special:
@@ -256,7 +258,7 @@ class _Part:
         return [If(WHOLE, (Call(f"whole_{self.index}", given, results),), (call,))]
 
     def all_sites(self) -> Function:
-        """Return the function ``part_K`` for a flow of single sites."""
+        """Return the function ``part_K`` for a flow of single sites. K is ``index``."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
         # Several processors add to the counter BAD, so the loop declares BAD as a sum (a reduction).
@@ -279,20 +281,21 @@ class _Part:
         body: list[Statement]
         if self.strided:
             body = [Assign(_ROW, first_site(outer, shape))]
-            # ``pairs`` does not count the pair of the last and the first site of a row.
+            # In a periodic row, the last and the first site are a pair, too. ``pairs`` does not count it.
             pairs = (COLUMNS - _COLOUR) // 2
-            # Different processors compute different rows. A chain divides its single row into chunks.
+            # Different processors compute different rows. A chain has one row, which is divided
+            # into chunks.
             if last:
                 body += self._called((_ROW + _COLOUR, pairs))
             else:
                 body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
-                # The pair of the last and the first site has colour 1, because the last index is odd.
+                # The number of columns is even, so the first index of this pair is odd (colour 1).
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:
             body = self._rows(outer, shape)
-        # The loop along the axis of the pairs visits pairs of rows.
+        # Along the axis of the pairs, each iteration computes two neighbouring rows.
         for e in range(last - 1, -1, -1):
             mine = e == self.own.axis
             loop = For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))
@@ -326,6 +329,6 @@ def _advance(plan: Plan, step: SiteStep, parts: list[_Part | _Kick]) -> Function
     body: list[Statement] = []
     for number, flow in enumerate(step.flows):
         duration = value(domain.number(flow.duration) * domain.space.sym("h"))
-        # Only the first flow reads the old state.
+        # The first flow reads the old state. All later flows read the new state.
         body.append(parts[flow.sweep].called(flow, duration, number == 0))
     return Function(ADVANCE, ABOUT_STEP, advance_parameters(plan, step), (*body, RETURNED), Kind.STATUS)

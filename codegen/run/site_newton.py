@@ -6,12 +6,12 @@ once. The rows for site i contain three blocks of the matrix: A_i, B_i and C_i. 
 unknowns of the left neighbour, of site i, and of the right neighbour.
 
 Block elimination (the Thomas algorithm) visits the sites from left to right. The pivot block of site i is
-D_i = B_i - A_i D_{i-1}^{-1} C_{i-1}. The products D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i overwrite A_i, B_i
-and C_i. Rows are exchanged only within a pivot block.
+D_i = B_i - A_i D_{i-1}^{-1} C_{i-1}. D_i^{-1} A_i overwrites A_i, D_i^{-1} overwrites B_i, and D_i^{-1} C_i
+overwrites C_i. Rows are exchanged only within a pivot block.
 
 In a periodic chain, the columns of the matrix for the unknowns of the last site are called the border. First,
-the equations of all other sites are solved for the residuals and the columns of the border. Then the
-equations of the last site give its unknowns, and the unknowns of all other sites follow.
+the equations of all other sites are solved. The right-hand sides are the residuals and the columns of the
+border. Then the equations of the last site give its unknowns, and the unknowns of all other sites follow.
 """
 
 from __future__ import annotations
@@ -109,19 +109,19 @@ class ChainSolver:
         return self.work[_BASE + site * (3 * n * n) + inner]
 
     def border(self, site: Term, i: Term, j: Term) -> Term:
-        """Return the entry of the border in column j and in the row of equation i of a site.
+        """Return the entry of the border for equation ``i`` at ``site``, in column ``j``.
 
         The border consists of the columns of the matrix that multiply the unknowns of the last site.
         """
-        # ``substitute`` overwrites a column with a solution, so a column is stored in the same way as the
-        # residuals.
+        # Columns of the border and residuals are right-hand sides for ``substitute``, so they are stored in
+        # the same way.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
         """Return the statements that assign the variables ``_BASE`` and ``_INNER``.
 
-        ``_BASE`` is the index of the first matrix entry in the workspace. ``_INNER`` is the number of sites,
-        in a periodic chain without the last site.
+        ``_BASE`` is the index of the first matrix entry in the workspace. ``_INNER`` is SITES in an
+        open chain, and SITES - 1 in a periodic chain.
         """
         # A periodic chain has at least two sites, so ``SITES - 1`` is positive.
         inner = SITES - 1 if self.step.periodic else SITES
@@ -174,8 +174,8 @@ class ChainSolver:
         def x(site: Term, k: Term) -> Term:
             return self.work[_FIRST + k * STRIDE + site]
 
-        # The function ``factor`` has replaced OWN_BLOCK by the inverse P of the pivot block, and LEFT by P
-        # times LEFT.
+        # After ``factor``, OWN_BLOCK contains the inverse P of the pivot block. LEFT contains P times the old
+        # block LEFT.
         left = self.cell(_SITE, LEFT, _I, _K) * x(_SITE - 1, _K)
         forward = For(
             _I,
@@ -213,7 +213,8 @@ class ChainSolver:
         invert = Call("invert", (whole(n), diagonal), (_REGULAR,))
         # The caller tests the number of singular pivot blocks.
         counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
-        # The pivot block is OWN_BLOCK minus LEFT times the product that replaced RIGHT of the previous site.
+        # The pivot block is B_i - A_i D_{i-1}^{-1} C_{i-1}. At site i - 1, the block RIGHT already contains
+        # D_{i-1}^{-1} C_{i-1}.
         left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
         pivot = (
             Assign(_SUM, self.cell(_SITE, OWN_BLOCK, _I, _J)),
@@ -231,7 +232,7 @@ class ChainSolver:
                 ),
                 Assign(column[_I], _SUM),
             )
-            # Each new entry depends on all old entries of its column, so ``column`` stores the new entries.
+            # Each new entry needs the whole old column, so the new entries are first stored in ``column``.
             back = Assign(self.cell(_SITE, block, _I, _J), column[_I])
             scaled.append(For(_J, whole(n), (For(_I, whole(n), entry), For(_I, whole(n), (back,)))))
         stored = Assign(self.cell(_SITE, OWN_BLOCK, _I, _J), diagonal[_I * n + _J])
@@ -241,7 +242,7 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # Two blocks are copied to the border, because the elimination overwrites both blocks.
+            # The elimination overwrites the matrix, so blocks for the border are copied first.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
@@ -256,12 +257,12 @@ class ChainSolver:
 
     def border_columns(self) -> list[Statement]:
         """Return the statements that copy blocks of the matrix to the border (:meth:`border`)."""
-        # Two blocks multiply the unknowns of the last site: the block LEFT of site 0, and the block RIGHT of
-        # site ``_LAST``. The site ``_LAST`` is the left neighbour of the last site.
+        # The last site is the left neighbour of site 0 and the right neighbour of site ``_LAST``. The blocks
+        # LEFT of site 0 and RIGHT of site ``_LAST`` multiply its unknowns.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # In a chain of two sites, both blocks have the same place in the border (``_LAST`` is 0).
+            # In a chain of two sites, ``_LAST`` is 0, so both blocks are added in the same place.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -270,7 +271,8 @@ class ChainSolver:
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that compute and invert the pivot block of the last site.
 
-        Each column of the border (:meth:`border`) is overwritten with its solution at all other sites.
+        First, ``substitute`` solves the equations of all other sites, with each column of the border
+        (:meth:`border`) as right-hand side. The solution overwrites the column.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
@@ -298,7 +300,7 @@ class ChainSolver:
         inner: list[Statement] = []
         for k, symbol in enumerate(self.step.sweeps[self.block.last].unknowns):
             unknown = entry_of(self.step, rows[symbol], PLACE)
-            # The changes of the unknowns are the solution, which has overwritten the residuals.
+            # The residuals are now overwritten with the solution, the changes of the unknowns.
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
                 Assign(most, greatest([most, size(change)])),
@@ -344,7 +346,7 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
-        # The function ``factor`` has overwritten the columns of the border with solutions.
+        # Each column of the border now contains a solution of the linear equations (:meth:`border_pivot`).
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),
