@@ -44,7 +44,7 @@ from codegen.run.terms import (
 MEASURE, REACH = "measured", "largest_state"
 """The names of two functions that compute maxima over all sites.
 
-MEASURE is for the unknowns and their changes, and REACH is for the state variables."""
+MEASURE computes maxima for the unknowns and their changes. REACH computes the maximum for the state."""
 
 _REACH, _PLACE = real("reach"), count("place")
 
@@ -57,14 +57,13 @@ class _Stopping(Stopping):
         # To save time, ``REACH`` is called only if the changes no longer decrease.
         still = both(self.previous > 0.0, CHANGE >= self.previous)
         measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
-        # Compilers require that ``_REACH`` always has a value, but the stopping rule never uses this zero.
+        # Compilers require an initial value of ``_REACH``. The stopping rule never uses the value 0.
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
         """Return the test for the case *lost* of the stopping rule.
 
-        In this case, the step size times the largest change of an unknown is below the rounding errors of
-        the states.
+        Let h be the step size. The test is true if h times CHANGE is below the rounding errors of the states.
         """
         return CHANGE * size(STEP) <= self.plan.format.scaled(LOST) * _REACH
 
@@ -72,7 +71,7 @@ class _Stopping(Stopping):
 def loop_of(block: SiteBlock) -> Loop:
     """Return the data that the stopping rule needs about a block of equations."""
     newton = None if block.newton is None else Newton((), (), leading=True)
-    # A loop without starting values would count as a warm start.
+    # Without a starting value (third argument), the stopping rule would assume a warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
 
 
@@ -130,7 +129,7 @@ def solvers(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def _measure(step: SiteStep) -> Function:
-    """Return the function that computes the three values of MEASURED in fixed-point iteration."""
+    """Return the function MEASURE for fixed-point iteration."""
     work = ARRAYS[WORK]
     # All blocks of equations use the same two rows of the workspace: one for the changes and one for the
     # absolute values of the unknowns.
@@ -143,8 +142,8 @@ def _measure(step: SiteStep) -> Function:
     body = (
         Assign(change, work[start[0] + _PLACE]),
         Assign(most, greatest([most, change])),
-        # A maximum may ignore a NaN, but this sum is NaN if a change is not finite. Otherwise all terms are
-        # 0, so the order of the additions has no influence.
+        # A maximum may ignore a NaN, but this sum is NaN if a change is not finite. If all changes are
+        # finite, this sum is 0.
         Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )

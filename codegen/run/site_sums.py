@@ -18,7 +18,7 @@ _START, _PLACE, _CHUNK, _SUM, _PART = count("start"), count("place"), count("k")
 
 
 def summed(step: SiteStep, sweep: Sweep) -> list[Statement]:
-    """Return one function call for each sum over all sites that the sweep defines."""
+    """Return a function call for each entry of ``sweep.sums``. Each call computes a sum over all sites."""
     return [
         Call(SUM, (SITES, ARRAYS[WORK], row_of(step, row.number)), (own(name),)) for name, row in sweep.sums
     ]

@@ -18,7 +18,7 @@ Count = TypeVar("Count", int, Term)
 SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
 """SITES is the number of all sites, and COLUMNS is the number of sites in one row of the lattice.
 
-COLUMN is the position of a site in its row. ROW is the index of the first site of this row among all sites.
+COLUMN is the position of a site in its row. The first site of this row has the index ROW among all sites.
 """
 
 STRIDE = count("stride")
@@ -28,8 +28,8 @@ SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), cou
 BAD, WHOLE = count("bad"), flag("whole")
 """BAD is the number of sites whose new state is not finite.
 
-If the flag WHOLE is true, all sites are computed with sines, cosines and Stumpff functions that accept all
-arguments.
+The fast sines, cosines and Stumpff functions are valid only near zero. If the flag WHOLE is true, they are
+not used.
 """
 
 # The size 0 means that the length of an array is known only at run time.
@@ -50,7 +50,7 @@ ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 
 
 def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str, Term], ...] = ()) -> For:
-    """Return a parallel loop over the chunks of ``number`` consecutive sites.
+    """Return a parallel loop over ``number`` consecutive sites, divided into chunks of CHUNK sites.
 
     ``body`` computes the SIZE sites that begin at the index FIRST.
     """
@@ -95,7 +95,7 @@ def padded(sites: Count) -> Count:
 
 
 def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
-    """Return the array entry that ``row`` contains for the site with the index ``place``."""
+    """Return the entry with the index ``place`` in ``row``."""
     array = ARRAYS[row.array]
     # Only the workspace has padded rows.
     if row.array == WORK:
@@ -127,7 +127,7 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
 
     The test is true if ``index + offset`` is in the range 0, ..., ``size`` - 1. Then the returned index is
     ``index + offset``. Otherwise, the returned index is ``index`` in an open lattice, and ``index + offset``
-    minus or plus ``size`` in a periodic lattice. If the offset is zero, the test is None.
+    modulo ``size`` in a periodic lattice. If the offset is zero, the test is None.
     """
     if not offset:
         return None, index

@@ -190,7 +190,7 @@ class Loop:
         return self.entry(load.row, place if load.neighbour == OWN else around[load.neighbour])
 
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
-        """Return the statements that store and test the results ``ends`` of one site."""
+        """Return the statements that store the results ``ends`` of a site and test for infinity and NaN."""
         # For Newton's method, the residuals are stored in place of the new values of the unknowns.
         body, images = self._images(ends)
         tested = []
@@ -210,11 +210,11 @@ class Loop:
     def _images(self, ends: Sequence[Term]) -> tuple[list[Statement], list[Term]]:
         """Return the statements that compute the new values of the unknowns, and these new values."""
         images = [own(f"next {u}") for u in self.own.unknowns]
-        # Only the first results in ``ends`` are new values of unknowns.
+        # ``ends`` begins with the new values of the unknowns. Other results may follow.
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
 
     def _residuals(self, images: Sequence[Term]) -> list[Term]:
-        """Return the residuals g(u) - u of Newton's method for the new values ``images`` = g(u)."""
+        """Return the residuals g(u) - u for Newton's method. ``images`` contains g(u)."""
         return [x - own(u) for x, u in zip(images, self.own.unknowns, strict=True)]
 
     def _measured(self, images: Sequence[Term], place: Term) -> list[Statement]:
@@ -225,8 +225,8 @@ class Loop:
         body: list[Statement] = [
             Assign(c, size(x - u)) for c, x, u in zip(changes, images, unknowns, strict=True)
         ]
-        # A maximum may ignore a NaN. For the sum s of the changes, ``s - s`` is NaN if a change is not
-        # finite.
+        # A maximum may ignore a NaN. The difference of the two equal sums is NaN if a change is not finite,
+        # and 0 otherwise.
         sum_of_changes = real("total")
         body.append(Assign(sum_of_changes, total(changes)))
         largest = (greatest(changes) + (sum_of_changes - sum_of_changes), greatest(map(size, unknowns)))
@@ -251,7 +251,7 @@ class Loop:
         return f"{of}_{self.index}"
 
     def sweep(self) -> Function:
-        """Return the function of this sweep for consecutive sites whose neighbours all exist."""
+        """Return the function ``sweep_K``. It computes consecutive sites whose neighbours all exist."""
         before, inside, ends = split(self.own.kernel, self.shared)
         starts = [count(f"start_{k}") for k in self.neighbours]
         nears = {k: start + INDEX for k, start in zip(self.neighbours, starts, strict=True)}
@@ -303,7 +303,7 @@ class Loop:
         before, inside, ghosts = split(self.own.outside, set())
         body += [*before, *inside]
         for load, ghost in zip(around, ghosts, strict=True):
-            # If the neighbour is missing, this load reads an existing site.
+            # For a missing neighbour, this load reads some existing site. The value is not used.
             there = self.loaded(load, PLACE, nears)
             body.append(Assign(own(load.symbol), select(exist[load.neighbour], there, ghost)))
         return body
@@ -311,8 +311,8 @@ class Loop:
     def rows(self) -> tuple[Term, ...]:
         """Return the arguments that describe one row of the lattice.
 
-        The first arguments are the indices of the first sites of this row and of the neighbours' rows. In an
-        open lattice with several rows, the last arguments are flags for the existence of the neighbours'
+        The arguments ROW and ``row_k`` are the indices at which this row and the row of neighbour k begin. In
+        an open lattice with several rows, the last arguments are flags for the existence of the neighbours'
         rows.
         """
         starts = [count(f"row_{k}") for k in self.neighbours]
@@ -320,7 +320,7 @@ class Loop:
         return (ROW, *starts, *(flag(f"inside_{k}") for k in flags))
 
     def all_sites(self) -> Function:
-        """Return the function of this sweep for all sites."""
+        """Return the function ``pass_K``. It computes this sweep for all sites."""
         body = self._row()
         bad = (("+", BAD),) if self.last else ()
         step, shape = self.step, shape_of(self.step)
@@ -356,16 +356,16 @@ class Loop:
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
         regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
-        # If ``sweep_K`` computes no sites, the first loop computes the whole row.
+        # If ``sweep_K`` computes no sites, ``site_K`` computes all COLUMNS sites of the row.
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
         lead = self._peeled(_LEAD, INDEX)
-        # In a chain, this loop is parallel, because it computes all sites if WHOLE is true.
+        # In one dimension, this loop is parallel. If WHOLE is true, the loop computes all sites.
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER
-        # Several processors compute the chunks of the single row of a chain.
+        # A chain has only one row, so the sites of this row are divided into chunks.
         if chain:
             places, number = [place + FIRST for place in places], SIZE
         arguments = (places[0], number, *places[1:], SITES, *self.arrays, *self.scalars)
@@ -425,12 +425,12 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 def _too_small(step: SiteStep) -> Term:
     """Return a test that is true if the step cannot be computed on a lattice of the given shape.
 
-    In a periodic lattice, the number of sites in the direction of paired neighbours must be even.
+    In a periodic lattice, ``shape[e]`` must be even if a sweep pairs neighbours in dimension e.
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
-        # In a periodic lattice, ``shape[e]`` is added to an index or subtracted only once. Therefore
-        # ``shape[e]`` must be larger than all offsets.
+        # A periodic index is corrected only once, by plus or minus ``shape[e]``. Therefore ``shape[e]`` must
+        # be larger than all offsets.
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
@@ -454,8 +454,8 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
         )
 
     def tried(old: Term, new: Term) -> tuple[Statement, ...]:
-        # The fast sines, cosines and Stumpff functions return NaN for large arguments, and the step is
-        # repeated.
+        # The fast sines, cosines and Stumpff functions return NaN for large arguments. Then the step is
+        # repeated with ``site_K``.
         again = If(STATUS.equals(code(NOT_FINITE)), (advance(old, new, True),))
         return (advance(old, new, False), *((again,) if twice else ()))
 

@@ -1,14 +1,14 @@
 """The choice of a solver for each block of equations: fixed-point iteration, Newton's method or simplified
 Newton.
 
-Newton's method can keep its matrix for several steps. Simplified Newton computes a matrix in each step or
-substep, correct to first order in h. Fixed-point iteration needs no matrix, and each sweep multiplies the
-error by a factor O(h).
+Newton's method can keep its matrix for several steps. Simplified Newton computes a new matrix in each step or
+substep. This matrix is correct to first order in h. Fixed-point iteration needs no matrix, and each sweep
+multiplies the error by a factor O(h).
 
 The solver with the shortest predicted time is chosen, but robust solvers are preferred. The first trial of a
 solver (:mod:`codegen.run.trial`) makes :data:`STEPS` steps from the initial state of the problem's example.
-From the counted sweeps and matrices, the cost model (:mod:`codegen.run.step_cost`) predicts the time of a
-step. ``benchmarks/solver_choice.py`` compares the choices with measured times.
+This trial counts sweeps and matrices. From these numbers, the cost model (:mod:`codegen.run.step_cost`)
+predicts the time of a step. ``benchmarks/solver_choice.py`` compares the choices with measured times.
 
 The first trial uses the step size of the example, called the usual step size. The second trial makes one step
 of :data:`LONGER` times this size. A solver is robust if it converges in both trials and needs at most
@@ -51,11 +51,11 @@ STEPS, FEW_STEPS, LONGER = 20, 5, 8
 """The first trial of a solver makes STEPS steps of the usual size, or FEW_STEPS with more than LARGE
 unknowns.
 
-The second trial makes one step of LONGER times the usual size.
+The second trial makes one step. The step size is the usual size, multiplied by LONGER.
 """
 
 SWEEPS = 50
-"""The largest number of sweeps that a robust solver may need in the long step of the second trial.
+"""A solver is robust only if it needs at most SWEEPS sweeps in a step of LONGER times the usual size.
 
 SWEEPS is half of ``Loop.limit``, the largest number of sweeps of an iteration.
 """
@@ -68,12 +68,12 @@ solver.
 LARGE = 64
 """With more than LARGE unknowns, the first trial makes only FEW_STEPS steps.
 
-Continuation in h is not tried either, because it might take thousands of sweeps.
+With more than LARGE unknowns, continuation in h is not tried. It might take thousands of sweeps.
 """
 
 
 NONLINEAR = 2
-"""The degree of all expressions that are not linear in the unknowns."""
+"""All nonlinear expressions in the unknowns count as degree 2."""
 
 
 @dataclass(frozen=True)
@@ -234,7 +234,7 @@ class Candidate:
 
     def text(self, k: int) -> str:
         """Return a text that describes the results of both trials for block number ``k``."""
-        # If the usual steps did not converge, there was no trial with a longer step.
+        # If the first trial failed, there was no second trial, and ``far`` is None.
         if self.far is None:
             return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
         text = f"{counted(self.usual, k)}, predicted {self.block(k):.0f} ns"
@@ -246,7 +246,7 @@ class Candidate:
 
 
 def counted(trial: Trial, k: int) -> str:
-    """Return a text with the average numbers of sweeps and matrices of block number ``k`` in a step."""
+    """Return a text: the average numbers of sweeps and new matrices in a step for block number ``k``."""
     text = amount(trial.sweeps[k], "sweep", "sweeps")
     if trial.matrices[k]:
         text += f" and {amount(trial.matrices[k], 'matrix', 'matrices')}"
@@ -286,7 +286,7 @@ class _Selection:
 
     def chosen(self) -> tuple[Kernel, tuple[Choice, ...]]:
         """Return the kernel, and the choice of the solver for each block."""
-        # Newton's method is first, because simplified Newton is not tried if Newton's method is fast.
+        # Newton's method is tried first. If it is fast, simplified Newton is not tried.
         for solver in (NEWTON, SIMPLIFIED_NEWTON):
             self.consider(solver)
         able = {s: c for s, c in self.candidates.items() if c.usual.converged}
@@ -295,8 +295,8 @@ class _Selection:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
-        # If no robust solver exists, every solver that converges is allowed. For nonlinear equations, every
-        # such solver is also allowed if each robust solver takes more than PRICE times the shortest time.
+        # If no robust solver exists, every solver that converges is allowed. This rule also applies to
+        # nonlinear equations if every robust solver takes more time than ``PRICE * least``.
         if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
@@ -346,12 +346,13 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return the step time in nanoseconds below which another solver is worth a trial.
+        """Return a limit in ns. Another solver is usually tried only if :meth:`least` is below this limit.
 
         ``candidate`` uses ``solver`` and converges in its first trial.
         """
-        # If ``candidate`` is not robust, a robust solver may take PRICE times as long. For Newton's method
-        # with more than LARGE unknowns, PRICE is omitted, to avoid a slow trial of simplified Newton.
+        # If ``candidate`` is not robust, a robust solver may take PRICE times as long. If Newton's method
+        # converges for more than LARGE unknowns, PRICE is omitted. The lower limit avoids slow trials of
+        # simplified Newton.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -362,9 +363,9 @@ class _Selection:
     def least(self, solver: str) -> float:
         """Return a lower bound of the time of a step with ``solver``, in nanoseconds.
 
-        The bound assumes one sweep for each solution of a block, and omits the inversion of small matrices.
+        The bound assumes one sweep for each block in each substep, and omits the inversion of small matrices.
         """
-        # Here ``total`` is the work without matrices.
+        # The number of matrices is 0 here. The loop below adds the work for matrices.
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
         )
@@ -372,8 +373,8 @@ class _Selection:
             n = len(loop.unknowns)
             # The product of the inverse and a vector takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
-            # Simplified Newton inverts a matrix in each step or substep. Newton's method inverts its
-            # matrix at least once in the whole trial.
+            # Simplified Newton inverts a matrix in each step or substep. Newton's method inverts a matrix at
+            # least once in the steps of its first trial.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -386,7 +387,7 @@ class _Selection:
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
-        """Return the candidate that solves each block with its solver in ``best``.
+        """Return the candidate that solves block number k with the solver ``best[k]``.
 
         If this candidate fails or is less robust, the fastest candidate of ``robust`` is returned instead.
         """
@@ -394,7 +395,7 @@ class _Selection:
         if len(set(best)) == 1:
             return robust[best[0]]
         solvers = {loop.label: s for loop, s in zip(self.fixed.loops, best, strict=True)}
-        # Each solver converged when it solved all blocks, but their combination may fail.
+        # Each solver alone converged for all blocks, but the combination of solvers may fail.
         mixed = Candidate(self.kernel(solvers), self.scene, self.initial)
         return mixed if mixed.robust or (mixed.usual.converged and not uniform.robust) else uniform
 

@@ -61,7 +61,7 @@ REASONS = {
 ``{block}`` is replaced by the label of the implicit block that failed, and ``{h}`` by the step size."""
 
 NOT_FINITE_BLOCK = "{block} computed a number that is not finite"
-"""If an implicit block has failed, this text explains NOT_FINITE instead of the text in REASONS."""
+"""Explains NOT_FINITE if an implicit block has failed. In other cases, the text in REASONS is used."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ class StatusCode:
 
 # All emitted modules use the index in STATUSES as the number of a status.
 MODE_STATUSES = {name: STATUSES.index(name) for name in (OK, NOT_FINITE, BAD_STEP, BAD_SHAPE, BAD_OPERATOR)}
-"""Maps each status that a step on Fourier modes can return to its number."""
+"""Maps each status of a step on Fourier modes to its number."""
 
 MODE_MEANINGS = {
     **{name: MEANINGS[name] for name in (OK, NOT_FINITE, BAD_STEP, BAD_OPERATOR)},

@@ -51,7 +51,7 @@ ADVANCE, SUBSTEP = "advance", "substep"
 
 
 def core(plan: Plan) -> str:
-    """Return the name of the emitted function that evaluates the kernel: SUBSTEP if a step has substeps."""
+    """Return the name of the function that evaluates the kernel: SUBSTEP or, without substeps, ADVANCE."""
     return SUBSTEP if plan.parts else ADVANCE
 
 
@@ -119,7 +119,7 @@ def _aged(plan: Plan) -> list[Statement]:
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # With an older matrix, the iteration would converge slowly.
+        # After more than ``period`` steps, the old matrix would slow down the convergence.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence
@@ -132,7 +132,7 @@ def exact_time(start: Term, steps: Term, h: Term) -> Term:
 
 
 def substep_tables(plan: Plan) -> tuple[Table, ...]:
-    """Return the tables of the lengths and start times of the substeps, in units of h."""
+    """Return tables with two quantities of the substeps in units of h: the lengths and the start times."""
     if not plan.parts:
         return ()
     n, rounded = plan.parts, plan.format.round

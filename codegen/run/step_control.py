@@ -15,8 +15,8 @@ oscillate less, but it would follow the solution more slowly.
 If the caller gives no step size, the first trial step has 1/16 of the length of the interval of integration.
 If the step is accepted, the step size is multiplied by 0.9 norm^(-1/p), limited to [0.2, 16].
 
-Implicit steps do not use solutions of earlier steps, which are bad initial guesses after a change of the step
-size.
+After a change of the step size, the solutions of earlier steps are bad initial guesses. Therefore implicit
+steps do not use these solutions.
 """
 
 from __future__ import annotations
@@ -59,8 +59,8 @@ After the first accepted step, the step size grows at most by the factor FIRST."
 SHARE = 0.2
 """A constant in the exponents of the controller.
 
-Let p be the order of the error estimate. The error norms of the current step and of the previous accepted
-step have the exponents -4 SHARE/p and SHARE/p.
+Let p be the order of the error estimate. In the factor for the step size, the error norm of the current step
+has the exponent -4 SHARE/p. The error norm of the previous accepted step has the exponent SHARE/p.
 """
 
 FLOOR = 1e-4
@@ -150,7 +150,7 @@ class Controlled:
 
     def body(self) -> tuple[Statement, ...]:
         """Return the statements in the body of the emitted function."""
-        # For a NaN, both comparisons are false and no step is made, but ``!=`` would be true.
+        # If a time is NaN, both comparisons are false, and no step is made.
         moving = either(self.now < self.end, self.now > self.end)
         return (
             *self.begin(),
@@ -166,8 +166,8 @@ class Controlled:
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         plan = self.plan
-        # The arguments are tested for NaNs and infinities only here. In the loop, the step size is multiplied
-        # by results of ``between``, which are always finite.
+        # The arguments are tested for NaNs and infinities only here. In the loop, ``between`` returns only
+        # finite factors for the step size.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # If a tolerance is a NaN, this test is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
@@ -244,8 +244,9 @@ class Controlled:
         """Return the statements that are executed after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p), and ``previous`` is the limited ``root`` of the previous accepted step.
-        # If the caller gave no step size, the product in the first accepted step is norm^(-1/p).
+        # ``root`` is norm^(-SHARE/p), and ``previous`` is the ``root`` of the previous accepted step, but at
+        # most ``most``. If the caller gave no step size, ``proposed`` is SAFETY norm^(-1/p) after the first
+        # accepted step.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # If the trial directly before this step was rejected, the step size does not grow after this step
         # (Hairer, Norsett and Wanner).
@@ -258,8 +259,7 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step is often shortened, so after this step ``length`` changes only if the factor
-                # is below 1.
+                # The last step is often shortened. Therefore ``length`` must not grow after the last step.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -271,7 +271,7 @@ class Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed after a rejected step.
 
-        The status is set to OK, unless the shorter step is too short to change the time in floating-point
+        The next step is shorter. The status is set to OK if this step changes the time in floating-point
         arithmetic.
         """
         # If a step fails and no shorter step is possible, the run ends with the status of the failed step.

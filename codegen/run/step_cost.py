@@ -5,11 +5,11 @@ A sweep is one iteration of a solver of implicit equations.
 The predicted time is a sum of amounts of work, each multiplied by its weight (:data:`WEIGHTS`). The amounts
 are:
 
-- Operations (:mod:`codegen.kernel.operations`). Operations of sweeps and matrices are counted at each
-  execution, and all other operations once in each step.
+- Operations (:mod:`codegen.kernel.operations`). Operations in a sweep are counted for each sweep, and
+  operations for a matrix for each matrix. All other operations are counted once in each step.
 - Unknowns. The times of the warm start and of the stopping rule are proportional to the number of unknowns.
-- Corrections. For equations u = g(u), the next sweep of Newton's method must wait for a matrix-vector
-  product. This delay is counted as one correction in each sweep.
+- Corrections. Newton's method for equations u = g(u) multiplies the inverse matrix by g(u) - u. The next
+  sweep must wait for this product. The delay is counted as one correction in each sweep.
 - Cubes. The inversion of an n x n matrix by elimination is counted as n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` measures the time of emitted C for all implicit methods, solvers and
@@ -39,7 +39,7 @@ class Amounts:
     The weights of the cost model (:data:`WEIGHTS`) are also an object of this class.
 
     - ``unknowns`` is the number of unknowns.
-    - ``swept`` counts the unknowns of a loop once in each sweep.
+    - ``swept`` is the number of unknowns times the number of sweeps, summed over all loops.
     - ``arithmetic`` is the number of additions, products and other operations of about one cycle.
     - ``divisions`` is the number of divisions.
     - ``calls`` is the number of function calls.
@@ -56,7 +56,7 @@ class Amounts:
     cubes: float = 0.0
 
     def __add__(self, other: Amounts) -> Amounts:
-        # The method does not name the fields, so it remains correct if the class gets another field.
+        # The code does not name the attributes, so it remains correct with additional attributes.
         return Amounts(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
 
     def times(self, factor: float) -> Amounts:
@@ -94,13 +94,13 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
     True
     """
     arithmetic, divisions = sum(counts.get(name, 0) for name in CHEAP), counts.get("div", 0)
-    # Nearly all calls evaluate Stumpff functions of small arguments, and their times are about equal.
+    # Nearly all calls evaluate Stumpff functions of small arguments. These calls take about the same time.
     calls = sum(counts.values()) - arithmetic - divisions
     return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
 
 
 def of_step(kernel: Kernel, work: Work) -> Amounts:
-    """Return the amounts of work in a step, without the sweeps and the matrices of the loops."""
+    """Return the amounts of work in a step, without the work for sweeps and for matrices."""
     # The time of the warm start is proportional to the number of unknowns in all substeps.
     unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
     return of_operations(work[STEP]) + Amounts(unknowns=unknowns)
@@ -121,14 +121,15 @@ def of_matrix(loop: Loop, work: Work) -> Amounts:
     if loop.newton is None:
         return Amounts()
     return of_operations(work[matrix_of(loop.label)]) + inversion(
-        # If a formula computes the inverse, ``work`` contains its operations, and no elimination is counted.
+        # If a formula computes the inverse, ``work`` contains the operations of the formula. Then no
+        # elimination is counted.
         0 if loop.newton.inverted else len(loop.unknowns)
     )
 
 
 def inversion(n: int) -> Amounts:
     """Return the amounts of work for the inversion of an n x n matrix."""
-    # The weight of ``cubes`` includes the constant factor of the elimination.
+    # The constant factor of n^3 is part of the weight of ``cubes``.
     return Amounts(cubes=n**3)
 
 
@@ -136,11 +137,11 @@ class StepCost:
     """Predicts the cost of a step of one kernel.
 
     ``sweeps`` contains the average number of sweeps in a step for each loop of the kernel. ``matrices``
-    contains the average number of matrices that a loop computes in a step.
+    contains the average number of computed matrices in a step for each loop.
     """
 
     def __init__(self, kernel: Kernel) -> None:
-        # The operations are counted here, because the choice of a solver reads the counts many times.
+        # The operations are counted only once, because the choice of a solver reads the counts many times.
         self.kernel, self.work = kernel, operations(arrange(kernel))
 
     def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:
@@ -151,7 +152,7 @@ class StepCost:
         return total
 
     def block(self, k: int, sweeps: float, matrices: float) -> Amounts:
-        """Return the amounts of work in a step for the loop with the index ``k``.
+        """Return the work of the loop with the index ``k`` in one step.
 
         On average, the loop makes ``sweeps`` sweeps and computes ``matrices`` matrices in a step.
         """

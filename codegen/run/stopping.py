@@ -10,7 +10,7 @@ loop has converged in three cases:
 - *close*: the change and the predicted next change (the rate times the change) are about as small as the
   rounding errors. A small change alone does not prove convergence, because a slow iteration makes small
   changes far from the solution.
-- *still*: the change no longer decreases and is nearly as small as the rounding errors.
+- *still*: the change no longer decreases and is at most the tolerance of the loop times ``scale``.
 - *lost*: the change no longer decreases, and the step size h times the change is below the rounding errors of
   the state. This case is needed if an unknown is a small difference of large numbers.
 
@@ -54,14 +54,13 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""The stopping test of a loop over residuals (equations r(u) = 0) adds this number to the rate of
-convergence.
+"""The stopping test for equations r(u) = 0 adds this number to the rate of convergence.
 
 Even if the measured rate is zero, the estimated error is at least LEAST_RATE times the change.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
-"""A factor in the stopping test of a loop over residuals (:meth:`Stopping.converged_by_residuals`).
+"""A factor in the stopping test for equations r(u) = 0 (:meth:`Stopping.converged_by_residuals`).
 
 The factor is four times 2^-52, the distance between 1 and the next double.
 """
@@ -108,11 +107,11 @@ class Stopping:
         return not self.loop.starts
 
     def before(self) -> list[Statement]:
-        """Return the statements that initialise the previous change and the rate before the first sweep."""
+        """Return the statements that set :attr:`previous` and :attr:`rate` before the first sweep."""
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            # With the rate of the previous step, a loop can end after one sweep (Hairer and Wanner). If no
+            # With the stored rate of convergence, a loop can end after one sweep (Hairer and Wanner). If no
             # rate is stored, the cautious value is 1.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
@@ -136,7 +135,7 @@ class Stopping:
             return []
         first = self.plan.memory.field("first")
         return [
-            # ``first`` is the largest change in the first sweeps of a step. If ``first`` is too large, the
+            # ``first`` is the largest change in the first sweeps of all loops. If ``first`` is too large, the
             # warm start discards the earlier solutions.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
@@ -159,8 +158,8 @@ class Stopping:
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        # Rounding errors can keep the change too large for the test ``close``. If an iteration diverges, the
-        # change does not decrease either, so the change must also be small.
+        # Rounding errors can keep the change too large for the test ``close``. In a divergent iteration, the
+        # change does not decrease and is large. Therefore ``converged`` also tests the size of the change.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -172,12 +171,12 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the test whether the step size times the change is below the rounding errors of the state.
+        """Return the test whether h times CHANGE, the effect on the state, is below the rounding errors.
 
         For equations for a variation (a tangent vector at the state), the rounding errors of the variation
         are used.
         """
-        # The array ``vector`` contains the variation.
+        # The array ``vector`` contains the tangent vector.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -207,7 +206,7 @@ class Stopping:
 
         - The rate is below 1/2, and the predicted next change is at most the bound.
         - The rate is between 1/2 and 1, and the predicted sum of all later changes is at most the bound.
-        - The rate is at least 1, and ``change`` is at most the tolerance of the loop times ``scale``.
+        - The rate is at least 1, and ``change`` is at most ``loop.tolerance * scale``.
         - The rate is at least 1, and the test :meth:`lost` is true.
 
         If the rate is at least 1/2, the loop makes at least two sweeps.
@@ -221,14 +220,15 @@ class Stopping:
                 (Assign(rate, CHANGE / self.previous),),
                 (Assign(first, first + CHANGE),),
             ),
-            # At a constant rate below 1/2, the sum of all later changes is less than twice the next change.
+            # At a constant rate below 1/2, the next change and all later changes add up to less than twice
+            # the next change.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
                 flag("converged"),
                 select(
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
-                    # In the first sweep, the rate is only the stored value and not measured.
+                    # The rate is measured only from the second sweep on.
                     both(
                         SWEEPS > 1,
                         # If the changes decrease slowly, the remaining error is larger than the change.
@@ -250,7 +250,7 @@ class Stopping:
         - OK if the flag ``converged`` and the test ``possible`` are true.
         - NOT_CONVERGED in all other cases.
 
-        If the matrix of Newton's method is singular, the test ``possible`` is false. For loops without this
+        If the matrix of Newton's method is singular, the test ``possible`` is false. If there is no such
         test, ``possible`` is None.
         """
         # Comparisons with a NaN are false, so a NaN never sets the flag ``converged``.
@@ -270,8 +270,8 @@ class Stopping:
     def after(self) -> list[Statement]:
         """Return the statements that store the rate of a converged loop for the next step.
 
-        If a loop for equations u = g(u) makes only one sweep, the stored rate is doubled. After several
-        doublings, the loop makes a second sweep and measures the rate.
+        For equations u = g(u), the stored rate of convergence is doubled after a loop with only one sweep.
+        After several doublings, the loop makes a second sweep and measures the rate.
         """
         if not self.warm:
             return []
