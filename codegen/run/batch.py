@@ -3,10 +3,10 @@
 Every lane has its own state, parameters, inputs and status. All lanes have the same time and step size.
 In an array of the batch, component k of lane i has the index ``k * stride + i``.
 
-An explicit step is computed by one loop over many lanes. In the loop, sines, cosines and Stumpff functions
-are NaN unless their arguments are near zero. If the new state of a lane is not finite, the step function for
-one system (the scalar step) is called for this lane. In all other lanes, the loop has the same rounding
-errors as the scalar step.
+An explicit step is computed by one loop over many lanes. The loop calls fast variants of the sine, the
+cosine and the Stumpff functions. The variants return NaN for large arguments. If the new state of a lane is
+not finite, the step function for one system (the scalar step) is called for this lane. For all other lanes,
+the loop and the scalar step give exactly the same state.
 
 If one loop is not possible (:func:`obstacle`), the function ``run`` is called for each lane.
 """
@@ -61,7 +61,7 @@ BATCH, LANES = "run_batch", "advance_lanes"
 """The names of the public function that runs a batch, and of the function for one step of many lanes."""
 
 BLOCK = 128
-"""The number of lanes in a block.
+"""The number of lanes (systems) in a block.
 
 During all steps, the states of a block stay in the cache.
 """
@@ -70,7 +70,7 @@ VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 """The names of functions, besides the Stumpff functions, that can be computed without branches."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
-# In a loop over the lanes of a block, ``_PLACE`` is the index of the lane ``_LANE`` in the batch.
+# In a loop over a block of lanes, ``_LANE`` is the index in the block, ``_PLACE`` the index in the batch.
 _LANE, _DONE, _ENDED = count("lane"), count("step"), count("ended", 1)
 _STATE, _PARAMETERS, _INPUTS = real("state", 0), real("parameters", 0), real("inputs", 0)
 _STOPPED, _FAILED, _ALONE, _HELD = "stopped", "failed", "alone", "held"
@@ -126,7 +126,7 @@ def _statements(plan: Plan) -> list[Statement]:
 
 
 def near(name: str) -> str:
-    """Return the name of the variant of the function ``name`` without branches.
+    """Return the name of the branch-free variant of the function ``name``.
 
     If there is no such variant, return ``name``.
 
@@ -154,14 +154,14 @@ def _entry(array: Term, row: int, place: Term) -> Term:
 
 
 def _advance_lanes(plan: Plan) -> Function:
-    """Return the function that makes one step of many lanes."""
+    """Return the emitted function that advances all lanes of a block by one step."""
     stopped, failed = real(_STOPPED, 0), real(_FAILED, 0)
     # The statements ``before`` have the same results in all lanes, so they are executed once before the loop.
     before, inside = _split(plan)
     loaded = [Assign(own(s), _entry(_STATE, k, _PLACE)) for k, s in enumerate(plan.symbols)]
     loaded += [Assign(p, _entry(_PARAMETERS, k, _PLACE)) for k, p in enumerate(plan.parameters)]
     read = plan.arrangement.symbols()
-    # In a batch the inputs of a lane are constant, so all samples of the kernel have the same values.
+    # The inputs of a lane are constant in time, so the samples at all times are equal.
     for sample in plan.kernel.samples:
         loaded += [
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
@@ -177,7 +177,7 @@ def _advance_lanes(plan: Plan) -> Function:
         *loaded,
         *inside,
         *ends,
-        # If a lane stopped in an earlier step, ``check`` is 1 or NaN, and the lane keeps its state.
+        # ``check`` is 0 only if the new state is finite and the lane has not stopped in an earlier step.
         Assign(check, paired([x - x for x in (*new, *unread)]) + stopped[_LANE]),
         *(
             # A selection between the new and the old value is used, because a branch would prevent vector
@@ -219,7 +219,7 @@ def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
 
 
 def _batch(plan: Plan, work: list[Statement]) -> Function:
-    """Return the public function of the batch, where ``work`` makes the steps of all lanes."""
+    """Return the public function of the batch. The statements ``work`` make the steps of all systems."""
     statuses, ended = _statuses(), count("completed", 0)
     bad = count("bad")
     flag = Term("name", (), Kind.FLAG, bad.text)

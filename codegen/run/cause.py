@@ -19,8 +19,8 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # If there is a warm start, the continuation finds the cause. A step of size zero cannot show that a
-    # run-time input at a later time is the cause.
+    # After a failed step with a warm start, :mod:`codegen.run.continuation` determines the status. A step of
+    # size zero does not read the run-time inputs at later times, but these inputs may be NaN.
     return plan.start is None and not plan.kernel.inputs
 
 
@@ -32,13 +32,13 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
     """
     state, same = plan.state(), plan.state("same")
     parameters = (state, *plan.moment(), *plan.parameters)
-    # The step of size zero uses a new, empty memory, so it does not depend on data from earlier steps.
+    # The new memory is empty: it contains no data from earlier steps.
     memory = [Array(plan.memories, zero=True)] if plan.remembers else []
     body: tuple[Statement, ...] = (
         Array(same),
         Assign(same, state),
         *memory,
-        # If the step size were the constant 0, a compiler might generate a second copy of the step function.
+        # The step size is 0 times h. For the constant 0, a compiler might copy the step function.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )
@@ -50,7 +50,7 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
 
 
 def step_arguments(plan: Plan) -> tuple[Term, ...]:
-    """Return the arguments that a step function has after the step size."""
+    """Return the arguments of a step function, except the state, the time and the step size."""
     # The step of size zero is only a test, so the statistics of the caller do not count it.
     counted = tuple(absent(x) for x in plan.counted)
     # If a step consists of substeps, its function has no argument for an error estimate.

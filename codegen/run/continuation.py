@@ -1,8 +1,8 @@
 """Continuation in h: find the solution of a step from the solutions of shorter steps.
 
-The first attempt repeats a failed step without the solutions of earlier steps. If the first attempt fails,
-the step is halved until an attempt succeeds. Each solution is then the initial guess for a longer step.
-The continuation finds the solution that changes continuously as h grows from 0.
+The first attempt repeats a failed step. Its initial guess does not use the solutions of earlier steps. If the
+first attempt fails, the step is halved until an attempt succeeds. Each solution is then the initial guess for
+a longer step. The continuation finds the solution that changes continuously as h grows from 0.
 """
 
 from __future__ import annotations
@@ -71,8 +71,8 @@ class _Continuation:
     The class attributes are variables of the emitted function.
     """
 
-    # The step size of an attempt is ``part`` times h, and ``solved`` is the largest fraction that succeeded.
-    # After the first success, the next fraction is ``factor`` times ``solved``.
+    # The step size of an attempt is the fraction ``part`` of h. ``solved`` is the largest successful
+    # fraction. After the first success, the next fraction is ``factor`` times ``solved``.
     solved, part, factor = real("solved"), real("part"), real("factor")
     tries, done = count("tries"), flag("done")
 
@@ -92,7 +92,7 @@ class _Continuation:
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of size zero leaves the state unchanged.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # If ``factor`` is near 1, the fraction of h hardly grows.
+        # If ``factor`` is near 1, the step size would hardly grow, so the attempts end.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -131,9 +131,9 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of the last failed attempt.
 
-        If a shorter step succeeded and there are no run-time inputs, NOT_FINITE is replaced by TOO_FAR.
+        NOT_FINITE is replaced by TOO_FAR if a shorter step succeeded and no run-time input can be the cause.
         """
-        # Even if a shorter step succeeds, the cause may be a run-time input at another time.
+        # If a run-time input is NaN at a later time, a shorter step can succeed. The cause is then the input.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
@@ -146,7 +146,7 @@ class _Continuation:
         """
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # No rates of convergence are known for the step size of this attempt, so each rate gets the default
+        # The convergence rates of the iterations are unknown for this step size. Each rate gets the default
         # value 1.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
@@ -155,7 +155,7 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # Only step-size control needs the error estimate, and such runs do not use the continuation.
+        # Only step-size control needs the error estimate, but it does not use the continuation.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state and time.
@@ -173,8 +173,8 @@ class _Continuation:
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         # A successful attempt has stored its solution in row ``place`` of the memory.
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # A success squares ``factor``. After the first success, a failure replaces ``factor`` by its square
-        # root.
+        # A success squares ``factor``. Failures before the first success do not change ``factor``. Each later
+        # failure replaces ``factor`` by its square root.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),

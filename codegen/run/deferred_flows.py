@@ -1,4 +1,4 @@
-"""Runs of a splitting method that defer flows to later steps.
+"""Runs of a splitting method with deferred flows.
 
 The last flow of a step and the first flow of the next step are computed as one flow. Flows that commute with
 all other flows are applied once for many steps. In exact arithmetic, deferring flows does not change the
@@ -57,7 +57,7 @@ from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
 """The names of three emitted functions.
 
-- BEGIN applies the first flow of a step, unless the previous step includes this flow.
+- BEGIN applies the first flow of a step. BEGIN is not called if the previous step has applied this flow.
 - FINISH applies the flows that commute with all other flows of the method.
 - COMPLETE applies all flows of one step.
 """
@@ -93,7 +93,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _plan(plan: Plan, kernel: Kernel) -> Plan:
-    # A splitting solves no implicit equations, so it needs no limit ``tries`` of the attempts to solve them.
+    # A splitting solves no implicit equations, so the argument ``tries`` is not needed.
     return Plan(kernel, plan.format)
 
 
@@ -101,8 +101,8 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies the kernel of ``plan`` to the state."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The callers test the state after all deferred flows have been applied. Until then, a non-finite state
-    # remains non-finite.
+    # The callers test whether the state is finite, but only after all deferred flows. Until then, a
+    # non-finite state remains non-finite.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
@@ -118,14 +118,14 @@ def _read(plan: Plan) -> tuple[Term, ...]:
 
 
 class _Deferring:
-    """Builds the emitted functions ``step``, ``run`` and COMPLETE.
+    """Builds three emitted functions: ``step``, ``run`` and ``complete_step``.
 
-    The class attributes are local variables of these functions.
+    The class attributes represent local variables of the emitted functions.
     """
 
     # ``lead`` is the duration of the last flow of the step. ``stop`` is True if all deferred flows are
-    # applied after the step. ``begun`` is True if the last flow of the previous step includes the first flow
-    # of this step.
+    # applied at the end of the step. ``begun`` is True if the last flow of the previous step includes the
+    # first flow of this step.
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
     # ``shown`` is True if the new state is written to the trajectory. ``careful`` is True if every step
     # applies all flows. ``good`` is True if the last complete state is finite.
@@ -144,7 +144,7 @@ class _Deferring:
     def call(self, name: str, kernel: Kernel | None, t: Term, elapsed: Term) -> list[Statement]:
         """Return a list with the call of the function ``name``, or an empty list if ``kernel`` is None.
 
-        The function applies ``kernel``. Deferred flows have the duration ``elapsed``.
+        The function applies ``kernel``. ``elapsed`` is the duration of a deferred flow.
         """
         if kernel is None:
             return []
@@ -176,7 +176,7 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
-            # The new state must be complete, so the flows in FINISH are not deferred.
+            # No flow is deferred, so FINISH is called in the same step.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),
@@ -220,8 +220,8 @@ class _Deferring:
         """Return the statements of one attempt to make all steps."""
         state = self.plan.state()
         failed = (
-            # If ``careful`` is True, this attempt has tested the state after every step. Therefore DONE is
-            # the number of successful steps.
+            # If ``careful`` is True, this attempt has tested the state after every step. The first DONE steps
+            # were successful.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
@@ -237,7 +237,7 @@ class _Deferring:
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
-            # If a complete state is not finite, another attempt follows.
+            # If ``good`` is False, a state was not finite, and another attempt follows.
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
@@ -248,8 +248,8 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # When the emitted code evaluates ``elapsed``, LATE includes the current step. Repeated additions of h
-        # would have one rounding error for each step.
+        # The emitted code evaluates ``elapsed`` after it has increased LATE for the current step. Repeated
+        # additions of h would have one rounding error for each step.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
@@ -261,7 +261,7 @@ class _Deferring:
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # If ``stop`` is False, the last flow of this step includes the first flow of the next step.
+                # If ``stop`` is False, the last flow of this step is merged with the first flow of the next.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

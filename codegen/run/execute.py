@@ -53,7 +53,7 @@ Action = Callable[[Environment], bool]
 """An action executes a statement and returns True if the statement ended the function."""
 
 RESULT = "result of the function"
-"""The key of the result in an environment, different from every identifier."""
+"""The key of a function's result in an ``Environment``. Identifiers contain no spaces."""
 
 _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -101,7 +101,7 @@ class Machine:
 
     def record(self, name: str) -> Any:
         """Return a record whose fields are all zero."""
-        # The fields are attributes, so an access is a single call of ``getattr``.
+        # The executed code reads a field by ``getattr``, so the fields are attributes.
         record = SimpleNamespace()
         self.clear(record, name)
         return record
@@ -135,7 +135,7 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return the result of a function whose execution raised an arithmetic error.
+        """Return the result of ``function`` after an arithmetic error in its execution.
 
         If the function returns a status, the result is NOT_FINITE. Otherwise the result is NaN, and all
         output arrays are filled with NaNs.
@@ -452,11 +452,11 @@ def _power(x: Any, exponent: Any) -> Any:
 
 
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
-    """Return a Python version of the library function ``function``, or None for all other functions."""
+    """Return a Python version of ``function`` if it is a library function, otherwise None."""
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
-        # A vector function of the domain is faster than the execution of the emitted statements.
+        # The method ``domain.vector`` is faster than the execution of the emitted statements.
         return lambda *x: x[-1].__setitem__(slice(None), domain.vector(function, [*chain(*x[:-1])])) or ()
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]

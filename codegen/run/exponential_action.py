@@ -27,7 +27,8 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
     # If the norm is at most ``bounds[k]``, a Taylor polynomial of degree ``sizes[k]`` is accurate enough. The
-    # outermost conditional expression tests the lowest degree, so the loop constructs this expression last.
+    # loop nests conditional expressions from the inside to the outside. The outermost test is for the lowest
+    # degree.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
@@ -63,7 +64,7 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         Assign(scale, number(1.0)),
         Assign(parts, whole(1)),
         While(
-            # Each halving of the matrix doubles the computing time, so at most HALVINGS halvings are made.
+            # Each halving doubles ``parts`` and the computing time, so at most HALVINGS halvings are made.
             both(norm * scale > bounds[-1], parts < 2**HALVINGS),
             (Assign(scale, number(0.5) * scale), Assign(parts, parts * 2)),
         ),
@@ -87,8 +88,8 @@ def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
     """Return the statements that compute ``norm``, the largest sum of absolute values in a row of ``a``."""
     row = real("row_sum")
     larger = Assign(norm, select(row > norm, row, norm))
-    # For a small matrix, the emitted code contains one sum for each row, without the entries that are always
-    # zero.
+    # For a large matrix, loops compute the sums. For a small matrix, each row has its own sum, and entries
+    # that are always zero are omitted.
     if function.n > SPARSE:
         added = Assign(row, row + size(a[function.n * _ROW + _COLUMN]))
         inner = (Assign(row, number(0.0)), For(_COLUMN, whole(function.n), (added,)), larger)

@@ -1,6 +1,7 @@
 """Arithmetic in doubles with the same roundings as in emitted code.
 
-In a trial step (:mod:`codegen.run.trial`), other rounding errors could change the number of iterations.
+With different rounding errors, a trial step (:mod:`codegen.run.trial`) and the emitted code could need
+different numbers of iterations.
 """
 
 from __future__ import annotations
@@ -18,8 +19,7 @@ class EmittedFloats(FloatDomain):
     """Doubles with the same roundings as in emitted code.
 
     ``chain`` is the largest number of nested Stumpff functions in a step (:mod:`codegen.ir.angle_depth`).
-    ``chain`` determines the largest argument that these functions accept
-    (:func:`codegen.snippets.stumpff.limit`).
+    The largest argument of a Stumpff function depends on ``chain`` (:func:`codegen.snippets.stumpff.limit`).
     """
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
@@ -89,8 +89,8 @@ class EmittedFloats(FloatDomain):
         return total
 
     def _slope(self, k: int, z: float, *, signed: bool) -> float:
-        # The derivative of c_k is (c_(k-1) - k c_k)/(2 z). For small |z| the difference loses digits, so a
-        # Taylor polynomial is evaluated below.
+        # The derivative of c_k is (c_(k-1) - k c_k)/(2 z). For |z| <= 1 the difference loses digits, so a
+        # Taylor polynomial is used.
         if abs(z) > 1.0:
             if signed:
                 before, c = (self.call(f"signed_stumpff{i}", z) for i in (k - 1, k))
@@ -124,7 +124,7 @@ def _hyperbolic(k: int, z: float) -> float:
 def _terms(k: int, name: str) -> tuple[float, ...]:
     if name == "series":
         return constants(k)
-    # The function ``economised`` returns exact rational coefficients, so they are rounded to doubles.
+    # The rational coefficients from ``economised`` are rounded to doubles.
     return tuple(DOUBLE.round(c) for c in economised(k, TINY if name == "tiny" else SMALL))
 
 

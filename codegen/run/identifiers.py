@@ -17,7 +17,7 @@ from codegen.run.terms import Term, names
 
 @dataclass(frozen=True)
 class Identifiers:
-    """The identifiers that replace the names of the kernel in one function.
+    """The identifiers in one emitted function. They replace the names of the kernel.
 
     An identifier is a variable, or an entry ``array[k]`` of an array.
     """
@@ -26,12 +26,12 @@ class Identifiers:
 
     def of(self, name: Term) -> str:
         """Return the identifier of ``name``. A name that is not from the kernel is returned unchanged."""
-        # A name of the kernel may be illegal in the target language, so a missing identifier raises a
-        # KeyError.
+        # If a name of the kernel has no identifier, a KeyError is raised. The name itself is not returned,
+        # because it may be illegal in the target language.
         return self.by_name[name.text] if name.own else name.text
 
     def variable(self, name: Term) -> str:
-        """Return the variable that contains ``name``. If the identifier is ``array[k]``, return ``array``."""
+        """Return the identifier of ``name``. If the identifier is ``array[k]``, return only ``array``."""
         return self.of(name).partition("[")[0]
 
 
@@ -42,7 +42,7 @@ def plain_names(function: Function) -> frozenset[str]:
 
 
 def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
-    """Return the identifiers for each function of the unit, by the name of the function.
+    """Return a dictionary from the name of each function in the unit to its identifiers.
 
     No identifier is a ``reserved`` word.
     """

@@ -106,7 +106,7 @@ class _Constant:
             If(negated(numbers), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
-            # If ``own_step`` is False, ``run`` makes the steps, and ``run`` declares its own memory.
+            # If ``own_step`` is False, the function ``run`` makes the steps and declares the memory.
             *(own_memory(plan) if self.own_step else []),
             Array(self.trial),
             Array(self.stop, zero=True),
@@ -164,7 +164,7 @@ class _Constant:
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
             return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
-        # ``run`` is called for one step, without outputs for the trajectory and for the number of completed
+        # ``run`` makes one step. Two optional outputs are absent: the trajectory and the number of completed
         # steps.
         time = (self.now,) if plan.time else ()
         nothing = (absent(Rows(plan).trajectory), whole(0))
@@ -238,7 +238,7 @@ class _Adaptive(Controlled):
 
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed if a step is rejected."""
-        # The run ends if a step of size LEAST or a shorter last step is rejected.
+        # The run ends if a rejected step is not longer than LEAST.
         short = both(LEAST > 0.0, size(self.taken) <= LEAST, STATUS.equals(code(OK)))
         return (
             *super().refuse(),

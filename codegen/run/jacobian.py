@@ -99,7 +99,7 @@ class _Jacobian:
         """Return the emitted function."""
         plan, dim = self.plan, self.dim
         matrix = real("jacobian", dim * dim)
-        # The run-time inputs are constant during the step, so the caller gives an array of values.
+        # The run-time inputs are constant during the step. The array ``inputs`` contains their values.
         given = (self.given,) if plan.held else ()
         # ``vector`` contains one column of the Jacobian matrix, which is stored row by row.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
@@ -113,7 +113,7 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
-            # The given inputs are copied, because the caller's array is ``const`` in C.
+            # A constant function of time needs a writable array. In C, the caller's array is ``const``.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),
@@ -134,7 +134,7 @@ class _Jacobian:
     def composed(self) -> list[Statement]:
         """Return the loop over the substeps. Each substep advances first the variation and then the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
-        # A substep stores data of its equations in a memory, so each substep has its own memory.
+        # Substep k stores data of its equations in ``memories[k]``.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
         # The substep only computes the state for the next call of ``vary``, so the caller's statistics do not

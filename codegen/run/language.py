@@ -9,8 +9,8 @@ translation to array languages. Array languages express a loop by ``while_loop``
 - A function returns its status as a value. There are no pointers, but a function may overwrite entries of the
   arrays in its arguments.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
-- If Python raises an exception where C computes an infinity or a NaN, ``Function.guard`` determines the
-  result.
+- Where C computes an infinity or a NaN, Python may raise an exception. Then ``Function.guard`` determines the
+  result of the Python function.
 """
 
 from __future__ import annotations
@@ -59,11 +59,11 @@ class For:
     count: Term
     body: tuple[Statement, ...]
     reverse: bool = False
-    # Compilers cannot vectorise a loop that calls functions, so such a loop is not independent.
+    # An independent loop calls only functions without branches. Branches prevent vector instructions.
     independent: bool = False
     parallel: bool = False
     reductions: tuple[tuple[str, Term], ...] = ()
-    # ``when`` may test the amount of work, because a short loop is slower on several processors than on one.
+    # For a short loop ``when`` may fail, because several processors are then slower than one.
     when: Term | None = None
 
 
@@ -150,7 +150,7 @@ class Function:
     parameters: tuple[Term, ...]
     body: Body
     returns: Kind | None = None
-    # If ``guard`` is empty, an arithmetic error in Python raises an exception in the caller.
+    # If ``guard`` is empty, the Python function does not catch arithmetic errors.
     guard: str = ""
     # A function that is not public is not visible outside the unit, so compilers may inline it.
     public: bool = False
@@ -162,8 +162,8 @@ class Function:
 class Record:
     """A record type, for values that the emitted functions keep from one call to the next.
 
-    ``fields`` contains a pair for each value: a term with its name and type, and a comment for the emitted
-    code. If ``public`` is True, the caller of the emitted code creates the records.
+    ``fields`` contains a pair for each value. The first entry is a term (name and type). The second entry is
+    a comment for the emitted code. If ``public`` is True, the caller of the emitted code creates the records.
     """
 
     name: str

@@ -62,12 +62,12 @@ from codegen.run.terms import (
 HALVINGS = 16
 """The largest number s of halvings of the matrix in an exponential.
 
-With s = 16, the 2^s multiplications by a Taylor polynomial take seconds for a tridiagonal matrix with 1000
-rows. If a step needs more halvings, it fails with the status TOO_FAR.
+For s = 16, the exponential of a tridiagonal matrix with 1000 rows takes seconds. If a step
+needs more halvings, it fails with the status TOO_FAR.
 """
 
 EXPONENTIAL = "exponential"
-"""The name of the function that multiplies the state by the exponential of a letter.
+"""The name of the function that computes state = exp(X) state. The matrix X is a letter.
 
 A linear combination of the matrices h A(t_i), where t_i are times in the step, is called a letter.
 """
@@ -100,7 +100,7 @@ class _Step:
         step = self.step
         self.size = step.argument.size
         self.stored: StoredMatrix = stored_matrix(step.matrix, step.argument.columns, len(step.times))
-        # Each element with commutators has its own function. For letters, the function PRODUCT is used.
+        # Each element with commutators has its own function. All other elements use the function PRODUCT.
         self.elements: list[Element] = []
         for pair in step.commutators:
             self.elements += [e for e in pair if e.commutators and e not in self.elements]
@@ -113,26 +113,29 @@ class _Step:
         """Return all functions of the step. Each function comes after the functions that it calls."""
         listed = self.stored.functions(self.plan.moment(), self.plan.parameters)
         done: set[int] = set()
-        # The function of a commutator [X, Y] calls the functions of X and Y, so these are listed first.
+        # The function for a commutator [X, Y] calls the functions for X and Y, so these come first.
         for number_of, pair in enumerate(self.step.commutators):
             listed += [self.element(e, done) for e in pair if e.commutators and id(e) not in done]
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
-            # An exponent without commutators is a letter. All letters share the function EXPONENTIAL, so
-            # ``Element(0)`` is only a placeholder.
+            # All exponents without commutators use the function EXPONENTIAL. The matrix is an argument of
+            # this function, so the emitted code does not depend on the index 0.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
-        # For two equal elements in different objects, the same function is listed twice.
+        # Equal elements may be different objects. ``_unique`` removes functions that are listed twice.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
-        """Return the array that contains letter number ``number_of`` of the step, counted from 0."""
+        """Return the array of the matrix ``step.letters[number_of]``."""
         return real(f"letter_{number_of + 1}", self.stored.letter_size)
 
     def letters(self, element: Element) -> tuple[Term, ...]:
-        """Return the arrays of all letters in an element, sorted by number. Commutators are searched, too."""
+        """Return the arrays of all letters in an element, sorted by number.
+
+        Letters in commutators are included.
+        """
         return tuple(map(self.letter, sorted(self._letters(element))))
 
     def _letters(self, element: Element) -> set[int]:
@@ -159,7 +162,7 @@ class _Step:
     def element(self, element: Element, done: set[int]) -> Function:
         """Return the function that computes result = X x, where the matrix X is ``element``.
 
-        ``done`` contains ``id(e)`` for each element e with a function. The method adds ``id(element)``.
+        If the function of an element e exists, ``done`` contains ``id(e)``. The method adds ``id(element)``.
         """
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))
@@ -181,10 +184,10 @@ class _Step:
     def commutator(self, number_of: int) -> Function:
         """Return the function that multiplies a vector x by a commutator: result = X (Y x) - Y (X x).
 
-        The matrices X and Y form the commutator number ``number_of`` of the step, counted from 0.
+        The pair (X, Y) is ``step.commutators[number_of]``.
         """
         left, right = self.step.commutators[number_of]
-        # The argument of ``letters`` must be an element, here 1 times the commutator.
+        # The method ``letters`` needs an ``Element``: here the commutator with the coefficient 1.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
@@ -225,15 +228,16 @@ class _Step:
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
         # Horner's rule computes the vector p, the sum of (m!/j!) b^(j - 1) y over j = 1, ..., m. Here m is
-        # the degree, y is the state, and b is X times ``scale``. The integers m!/j! are exact, but rounding
-        # errors of 1/j! would accumulate over many steps.
+        # the degree, y is the state, and b is X times ``scale``. The integers m!/j! are exact. The usual
+        # coefficients 1/j! have rounding errors that would accumulate over many steps.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
             applied,
             self.over(p, scale * work[_PLACE] + weight * state[_PLACE]),
         )
-        # After Horner's rule, ``weight`` is m!, and the Taylor polynomial of exp(b) y is y + b (p/m!).
+        # At the end of Horner's rule, ``weight`` is m!, where m is the degree. The Taylor polynomial of
+        # exp(b) y is y + b (p/m!), where b is ``scale`` times X.
         part = (
             Assign(p, state),
             Assign(weight, number(1.0)),
@@ -250,7 +254,8 @@ class _Step:
             *norms,
             # Halving X cannot make an infinite norm finite.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
-            # Commutators are not linear in the letters, so scaled letters would not give a scaled X.
+            # Products with X are multiplied by ``scale``. The arguments are not scaled, because commutators
+            # in X are nonlinear functions of the arguments.
             Assign(scale, number(1.0)),
             Assign(parts, whole(1)),
             While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),
@@ -337,7 +342,7 @@ class _Step:
         ``x`` is the time t or the step size h.
         """
         # For a banded matrix, the function computes h A(t). For a full matrix, the function computes
-        # subexpressions of A(t) without h.
+        # only subexpressions of A(t), and h is not an argument.
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:
