@@ -63,7 +63,7 @@ class RunRequest:
 
     @property
     def observed(self) -> bool:
-        """True if the module contains a run to an end time."""
+        """True if the module contains a function for a run to an end time."""
         return self.integrate or self.events > 0 or self.dense
 
     @property
@@ -75,7 +75,7 @@ class RunRequest:
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
     """Raise :class:`MethodError` if one of ``options`` is requested.
 
-    ``options`` are the options that exclude compensated summation.
+    The keys of ``options`` are the names of options that cannot be combined with compensated summation.
     """
     for option, requested in options.items():
         if requested:

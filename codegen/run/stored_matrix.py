@@ -24,7 +24,7 @@ from codegen.run.plan import STEP
 from codegen.run.terms import Kind, Term, count, number, own, real, select, size, value, whole
 
 VALUE, ROW_SUM, PRODUCT = "matrix_value", "row_sum", "product"
-"""The names of the functions for A(t), the infinity norm, and the product of a matrix with a vector."""
+"""The names of emitted functions: the matrix A(t), the infinity norm of a matrix, and a matrix product."""
 
 _PRODUCT = "result = a x."
 
@@ -106,7 +106,7 @@ class StoredMatrix(ABC):
 
     @abstractmethod
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that compute ``target``, the array of the linear combination ``letter``.
+        """Return the statements that store the linear combination ``letter`` in the array ``target``.
 
         For each time t_i, ``nodes`` contains the array of the matrix at this time.
         """
@@ -116,15 +116,14 @@ class StoredMatrix(ABC):
         """Return the functions :data:`VALUE`, :data:`ROW_SUM` and :data:`PRODUCT`."""
 
     def vector(self, name: str) -> Term:
-        """Return an array called ``name`` for n x k numbers. A has n rows, and the state has k columns."""
+        """Return an array called ``name`` for a state with n rows and k columns."""
         return real(name, self.n * self.columns)
 
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
         """Return an entry of a linear combination of constant matrices.
 
         For each constant matrix, ``entries`` contains the index of its coefficient, its entries, and the name
-        of a table. If the entries of a matrix are numbers, its entry is read from its table at the index
-        ``place``.
+        of a table. If the entries are numbers, the number at the index ``place`` of the table is used.
         """
         total: Term | None = None
         for term, given, table in entries:
@@ -139,12 +138,12 @@ class StoredMatrix(ABC):
         return total
 
     def before(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term) -> list[Statement]:
-        """Return the statements that convert i and j to real numbers for the formulas in ``entries``."""
+        """Return the statements that convert ``row`` and ``column`` to reals for formulas in ``entries``."""
         indices: dict[str, Statement] = {}
         for _, given, table in entries:
             for statement in constant_entry(self.hoist(given), table, row, column, row)[0]:
                 assert isinstance(statement, Assign)
-                # An index is converted only once, even if several formulas contain it.
+                # Each index is converted to a real only once, even if several formulas contain it.
                 indices.setdefault(statement.target.text, statement)
         return list(indices.values())
 
@@ -164,7 +163,7 @@ class BandedMatrix(StoredMatrix):
         """The length of the array for the matrix h A(t_i) at one time t_i."""
         return self.n * len(self.matrix.offsets)
 
-    # The matrices A(t_i) and their linear combinations have the same diagonals. Therefore the array of a
+    # A letter (a linear combination) has diagonals with the same offsets as A(t_i). Therefore the array of a
     # letter is as long as the array for a time t_i.
     letter_size = node_size
 
@@ -265,9 +264,9 @@ class FullMatrix(StoredMatrix):
         return self.nodes * (1 + self.node_size)
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that compute ``target``, the array of the linear combination ``letter``.
+        """Return the statements that store the linear combination ``letter`` in the array ``target``.
 
-        ``target`` contains h times the coefficients, followed by copies of the arrays in ``nodes``.
+        The coefficients of ``letter``, multiplied by h, come first. Copies of the arrays in ``nodes`` follow.
         """
         weights = dict(letter)
         # If the linear combination does not contain the matrix A(t_i), its coefficient is zero.
@@ -291,7 +290,7 @@ class FullMatrix(StoredMatrix):
         named = named or [Assign(result[0], number(0.0))]
         about = "The subexpressions of the entries of A(t) that contain neither the row i nor the column j."
         # The subexpressions do not depend on h, so h is not a parameter. The method ``letter`` multiplies the
-        # coefficients by h.
+        # coefficients of a linear combination by h.
         time = tuple(t for t in moment if t.text != STEP.text)
         evaluated = Function(VALUE, about, (*time, *parameters, result), tuple(named))
         return [evaluated, self._row_sum(a), self._product(a, x, y)]
@@ -325,8 +324,8 @@ class FullMatrix(StoredMatrix):
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
         """Return the statement that adds ``weight`` times an entry of a diagonal to ``_ENTRY``."""
-        # In the table of the diagonal, the index of an entry is the smaller of i and j. A difference of
-        # unsigned indices could be negative, so the test adds |offset| to one index.
+        # In the table of the diagonal, the index of an entry is the smaller of i and j. The test
+        # adds |offset| to one index, because a difference of unsigned indices could wrap around.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]

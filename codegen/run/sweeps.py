@@ -61,8 +61,7 @@ WIDE = 12
 """The largest number of unknowns for which each entry of a matrix has its own emitted statement."""
 
 WIDEST = 20
-"""The largest number of unknowns for which fixed-point iteration computes the changes in separate
-statements."""
+"""For more unknowns, fixed-point iteration computes the changes of the unknowns in a loop over arrays."""
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
@@ -79,7 +78,7 @@ def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
 
 @dataclass(frozen=True)
 class _Loop:
-    """The code that fixed-point iteration and Newton's method share.
+    """The common code of fixed-point iteration and Newton's method.
 
     If ``counting`` is True, the statistics count the sweeps of the loop.
     """
@@ -105,9 +104,9 @@ class _Loop:
 
     @cached_property
     def images(self) -> list[Term]:
-        """The variables that contain the images: the components of g(u) or r(u).
+        """The variables for the images of the unknowns (the components of g(u) or r(u)).
 
-        An image without its own variable gets a variable called ``next`` and the name of the unknown.
+        If the image of the unknown u has no variable of its own, its variable is called "next u".
         """
         loop = self.iteration.loop
         return [
@@ -131,7 +130,7 @@ class _Loop:
         return [*sequence, *self.rule.before()]
 
     def computed(self) -> list[Statement]:
-        """Return the statements of one sweep that compute the components of g(u) or r(u)."""
+        """Return the statements that compute the components of g(u) or r(u) in one sweep."""
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
@@ -177,9 +176,8 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # After convergence the unknowns keep their values, because later statements read results that the
-        # last sweep has computed from these values. A single ``If`` is cheaper than a ``select`` for each
-        # unknown.
+        # After convergence the unknowns keep their values. Later statements read results computed from
+        # these values. A single ``If`` is cheaper than a ``select`` for each unknown.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
@@ -192,11 +190,11 @@ class _FixedPoint(_Loop):
             for change, x, u in zip(changes, self.images, self.unknowns, strict=True)
         ]
         # CHANGE is a maximum, and a maximum may ignore a NaN, because comparisons with a NaN are false. The
-        # sum of the sizes shows whether all changes are finite.
+        # sum of the sizes is not finite if a change is not finite.
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return the statements of a loop that measures the changes, and the sum of their sizes."""
+        """Return the statements that compute the changes in a loop, and the sum of the absolute changes."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
         # The loop also computes the sum of the sizes, because the maximum may ignore a NaN.
@@ -224,7 +222,7 @@ class _Newton(_Loop):
 
     @property
     def newton(self) -> Newton:
-        """The form of Newton's method and its matrix."""
+        """The description of Newton's method for this loop."""
         assert self.iteration.loop.newton is not None
         return self.iteration.loop.newton
 
@@ -273,14 +271,14 @@ class _Newton(_Loop):
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
-        # ``SCALE`` belongs to the unknowns before this correction.
+        # ``SCALE`` is the largest absolute value of an unknown before this correction.
         body += self.corrected(changes)
         body += rule.converged()
         # The function ``invert`` sets the age to 1 on success, and to 0 if the matrix is singular. With a
         # singular matrix the changes are meaningless, so even small changes do not mean convergence.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
-            # If the change does not decrease with a new matrix, more sweeps are useless, and the loop fails.
+            # If a new matrix does not reduce the change of the unknowns, the loop fails.
             stalled = both(flag("still"), self.making)
             if not self.newton.inverted:
                 stalled = either(stalled, negated(self.age > 0))
@@ -302,7 +300,7 @@ class _Newton(_Loop):
         return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
     def by_residuals(self) -> list[Statement]:
-        """Return the loop for equations r(u) = 0. The variables ``images`` contain the residuals r(u)."""
+        """Return the loop for equations r(u) = 0. The images are the residuals r(u)."""
         rule, changes = self.rule, [own(c) for c in self.newton.changes]
         sequence, body = self.begin(), self.computed()
         inverted = not self.newton.inverted
@@ -314,8 +312,7 @@ class _Newton(_Loop):
         body += self.corrected(changes)
         body += rule.converged_by_residuals()
         body.append(rule.decided(CHANGE, self.age > 0 if inverted else None))
-        # At most one matrix is computed in a step. A second matrix would cost more than the sweeps that it
-        # saves.
+        # At most one matrix is computed in a step. A second matrix would cost more than further sweeps.
         body.append(Assign(self.making, truth(False)))
         body.append(Assign(rule.previous, CHANGE))
         astray = negated(self.age > 0) if inverted else None
@@ -344,7 +341,7 @@ class _Newton(_Loop):
         return [count_matrix(self.plan)] if self.counting else []
 
     def prepared(self) -> list[Statement]:
-        """Return the statements that compute and invert the matrix of one step, before its sweeps.
+        """Return the statements that compute and invert the matrix before the sweeps of a step.
 
         If elimination finds a singular matrix, the emitted function returns the status SINGULAR.
         """

@@ -78,14 +78,14 @@ ORDER_TERM = own(ORDER)
 def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the function of the run with step control, and the functions that it calls.
 
-    If the kernel has no outputs, the functions that :func:`polynomial_step` already returns are omitted. If
-    the kernel has no Taylor expansion with step control, the tuple is empty.
+    If the kernel has no outputs, :func:`polynomial_step` returns the functions of the polynomial, and this
+    function omits them. If the kernel has no Taylor expansion with step control, the tuple is empty.
     """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
-    # If the kernel has no outputs, ``polynomial_step`` returns the functions of the polynomial.
+    # If the kernel has no outputs, the tuple of ``polynomial_step`` contains these functions.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 
@@ -100,15 +100,15 @@ def polynomial_step(plan: Plan) -> tuple[Function, ...]:
 def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list[Statement]:
     """Return the statements that compute the inner sums for products of Taylor series.
 
-    The inner sum of order n = k + 1 of two series a and b is the sum of a_j b_{n-j} over 0 < j < n. Each of
-    the ``width`` products has one column in the arrays ``left`` and ``right`` and one entry in ``sums``. Row
-    j - 1 of ``left`` contains a_j, and row j - 1 of ``right`` contains b_j.
+    The inner sum of order n = k + 1 of two series a and b is the sum of a_j b_{n-j} over 0 < j < n. The
+    number of products is ``width``. Product c uses column c of ``left``, column c of ``right``, and entry c
+    of ``sums``. Row j - 1 of ``left`` contains a_j, and row j - 1 of ``right`` contains b_j.
     """
-    # The row index of a coefficient is its order minus 1, so the row indices of two factors add up to k - 1.
+    # The factors a_j and b_{n-j} are in the rows j - 1 and n - j - 1. The sum of these indices is k - 1.
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
-        """Return the entry of ``left`` in row ``first`` + i times the entry of ``right`` in row ``last`` - i.
+        """Return the product of two entries: row ``first + i`` of ``left`` and row ``last - i`` of ``right``.
 
         Both factors are in the column ``lane``.
         """
@@ -156,7 +156,7 @@ class _Controlled:
     def __init__(self, plan: Plan, expansion: Expansion) -> None:
         self.plan, self.expansion = plan, expansion
         self.degree = expansion.degree
-        # In this plan, the state consists of the coordinates of the Taylor polynomial.
+        # The state of the plan ``own`` consists of the coordinates of the Taylor polynomial.
         self.own = Plan(expansion.coefficients, plan.format)
         self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
@@ -204,7 +204,7 @@ class _Controlled:
 
     def arrays(self) -> tuple[Statement, ...]:
         """Return the declarations of all local arrays of a step."""
-        # ``start`` can be the array ``state``, and ``moved`` can be the array ``trial``.
+        # ``start`` and ``moved`` are not declared if they are the arrays ``state`` and ``trial``.
         separate = [x for x, y in ((self.start, self.state), (self.moved, self.trial)) if x is not y]
         return tuple(map(Array, (self.series, self.trial, *separate)))
 

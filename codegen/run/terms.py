@@ -156,8 +156,8 @@ class Term:
 
 Operand = Term | float | int
 
-# The index of an array has no other operand that determines its kind. The placeholder _COUNT makes the index
-# a count.
+# In ``x[2]``, no other operand determines the kind of the number 2. The placeholder _COUNT makes the index a
+# count.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
@@ -176,7 +176,7 @@ def _arithmetic(op: str, x: Term, y: Operand) -> Term:
 
 
 def _comparison(op: str, x: Term, y: Operand) -> Term:
-    # The term on the left determines the kind of a Python number on the right.
+    # If ``y`` is a Python number, ``x`` determines whether it becomes a real or a count.
     return Term(op, (x, _term(y, x)), Kind.FLAG)
 
 
@@ -196,7 +196,7 @@ def flag(name: str) -> Term:
 
 
 def own(name: str, *shape: int) -> Term:
-    """Return a real variable, or an array of reals with the given shape. The name is from the kernel."""
+    """Return a real variable with a name from the kernel, or an array of reals with the given shape."""
     return Term("name", (), Kind.REAL, name, shape=shape, own=True)
 
 
@@ -240,7 +240,7 @@ def truth(x: bool) -> Term:
 
 def value(x: Expr) -> Term:
     """Return the expression ``x`` as a term. A symbol becomes the variable with the name of the symbol."""
-    # A single symbol becomes a term with the operation ``name``, like every other variable.
+    # For every variable, the attribute ``op`` of the term is "name".
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
@@ -271,7 +271,7 @@ def select(test: Term, yes: Operand, no: Operand) -> Term:
 
     An array language computes both values and selects one (:mod:`codegen.run.language`).
     """
-    # If only one of ``yes`` and ``no`` is a term, this term determines the kind of the Python number.
+    # If only one of ``yes`` and ``no`` is a Python number, the other one determines the kind of this number.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)
@@ -305,7 +305,7 @@ def is_finite(x: Term) -> Term:
 
 
 def all_finite(*terms: Term) -> Term:
-    """Return the term that tests whether all reals are finite. For an array, all entries are tested."""
+    """Return the term that tests whether all ``terms`` are finite. For an array, all entries are tested."""
     return Term("finite", terms, Kind.FLAG)
 
 
@@ -358,7 +358,7 @@ def narrow(x: Term) -> Term:
 
 
 def names(terms: Iterable[Term]) -> Iterator[Term]:
-    """Yield the named terms in ``terms``, and a variable for each symbol in an expression."""
+    """Yield the variables in ``terms``, including a variable for each symbol of an expression."""
     # ``pop`` takes the last term of the list, so the terms are listed in reverse order.
     waiting = list(terms)[::-1]
     while waiting:

@@ -46,7 +46,7 @@ RAISING = frozenset({"sqrt", "log", "exp", *(f.name for f in ELEMENTARY.values()
 REGISTERS = 6
 """The largest size of a state for which the kernel is inlined in the loop of a run.
 
-A larger state and the intermediate values of a step do not fit into the registers of the processor.
+For a larger state, the values of a step do not fit into the registers of the processor.
 """
 
 DONE = count("step")
@@ -55,13 +55,13 @@ DONE = count("step")
 COMPLETED = count("completed", 1, optional=True, cell=True)
 
 LOOP = "loop"
-"""The name of the emitted function with the loop of a run in which the kernel is inlined."""
+"""The name of the emitted function for the loop over the steps. The loop contains the inlined kernel."""
 
 
 def is_looped(plan: Plan) -> bool:
     """Return True if the kernel is inlined in a run.
 
-    The state must be small, and the step must be explicit.
+    The kernel is inlined only if the state is small and the step is explicit.
     """
     kernel = plan.kernel
     # In an inlined kernel, a small state remains in registers. A function call would store it in memory.
@@ -72,8 +72,8 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Return True if Python may raise an exception where C computes an infinity or a NaN."""
-    # In Python, the function that contains the kernel catches exceptions. Therefore a kernel that may raise
-    # an exception is not inlined.
+    # In Python, the function for a step catches exceptions, but ``run`` does not. Therefore ``run`` calls the
+    # function for a step if the kernel may raise an exception.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
@@ -87,7 +87,7 @@ class Rows:
 
     @property
     def trajectory(self) -> Term:
-        """The array of the caller for the trajectory, with one state in each row. The array is optional."""
+        """The array for the trajectory, with one state in each row. The array is optional."""
         return real("trajectory", 0, self.plan.size, optional=True)
 
     def begin(self, state: Term) -> list[Statement]:
@@ -108,7 +108,7 @@ class Rows:
     def add(self, state: Term) -> list[Statement]:
         """Return the statements that write the next row."""
         return [
-            # The rows are counted, because a row index from the step number would need a division.
+            # Counting the rows is cheaper than dividing the step number by the stride.
             Assign(self.written, self.written + 1),
             Assign(self.trajectory[self.written], state),
         ]
@@ -138,7 +138,7 @@ def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, 
 def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statements that make one step from ``state`` and set the status.
 
-    Without substeps, a failed step of a kernel with a warm start is repeated by continuation in h.
+    A failed step is repeated by continuation in h, if it has a warm start and no substeps.
     """
     # Steps of constant size need no error estimate, so no array is passed for the estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
@@ -149,7 +149,8 @@ def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list
 def step(plan: Plan) -> Function:
     """Return the public function for one step. Run-time inputs are constant during this step."""
     state = plan.state()
-    # For a single step, the inputs are numbers. The caller can change these numbers between two steps.
+    # The inputs of a single step are numbers and not functions of time. The caller can change these numbers
+    # between two steps.
     held = real("inputs", len(plan.kernel.inputs))
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
@@ -214,8 +215,8 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # LEAVE adds the increase of the momentum to the initial momentum. Therefore ``rows.add`` first
-            # copies the initial state ``state`` to the row.
+            # LEAVE adds the increase of the momentum to the initial momentum in the row. ``rows.add`` copies
+            # the initial state to the row before this call.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.
@@ -225,8 +226,8 @@ def run(plan: Plan) -> Function:
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
     if carried:
-        # If the momentum overflows in the space frame, LEAVE fails. ``state`` remains the initial state, so
-        # the number of completed steps is set to zero.
+        # LEAVE (the conversion to the space frame) fails if the momentum overflows. ``state`` remains the
+        # initial state, so the number of completed steps is set to zero.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))
@@ -241,7 +242,7 @@ def completed() -> list[Statement]:
 
 
 def _looped(plan: Plan, rows: Rows) -> list[Statement]:
-    """Return the loop of a run in which the kernel is inlined."""
+    """Return the loop over the steps of a run. The loop contains the inlined kernel."""
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
@@ -261,8 +262,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
-        # The compiler cannot exclude that the trajectory overlaps ``state``. Without local copies, the
-        # compiler would therefore store ``state`` to memory in each step.
+        # The compiler must assume that the arrays ``trajectory`` and ``state`` overlap. Without local copies,
+        # the compiler would therefore store ``state`` to memory in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

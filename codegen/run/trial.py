@@ -1,7 +1,7 @@
-"""Trials of solvers: a kernel makes a few steps from the initial state, and sweeps and matrices are counted.
+"""Trials of solvers: the sweeps and the Newton matrices of a few steps from the initial state are counted.
 
-Python executes the statements of the emitted code (:mod:`codegen.run.execute`). Therefore a trial
-and the emitted code need equal numbers of sweeps and matrices.
+Python executes the statements of the emitted code (:mod:`codegen.run.execute`). Therefore the counts are
+those of the emitted code.
 """
 
 from __future__ import annotations
@@ -73,13 +73,13 @@ class Trials:
         time = [float(first)] if self.plan.time else []
         # The user chooses the run-time inputs later. In a trial they are zero.
         signals = [lambda t: (0.0,) * number] if number else []
-        # The quotient is exact and is rounded once, as in the emitted example.
+        # The exact step size is rounded once, as in the emitted example.
         h = float(longer * (last - first) / PARTS)
         # No trajectory is stored. A trial needs only the numbers of sweeps and matrices.
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
         status = self.machine.call("run", *arguments)
-        # ``counts.matrices`` is the total of all blocks with Newton's method. The number of each block is
-        # unknown, so the total is divided equally.
+        # The matrices of all blocks with Newton's method are counted together. Each of these blocks gets an
+        # equal share of ``counts.matrices``.
         newton = [loop.solver for loop in loops].count(NEWTON)
         of_solver = {
             NEWTON: counts.matrices / steps / newton if newton else 0.0,

@@ -132,10 +132,10 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
 
     The step replaces a polynomial P in the matrix H by i^k/k! + H P, modulo H^3 = ``trace`` H + ``det``.
     ``part`` contains the real or the imaginary parts of the coefficients of P. ``added`` is
-    (1/k!, k modulo 4), or None if ``part`` does not depend on i^k/k!.
+    (1/k!, k modulo 4). It is None if i^k/k! is imaginary and ``part`` is the real part, or the reverse.
     """
     last = real("last")
-    # ``added[1]`` is k modulo 4. The sign is negative for k = 2 and k = 3, because i^2 = -1 and i^3 = -i.
+    # ``added[1]`` is k modulo 4. For 2 and 3, 1/k! is subtracted, because i^2 = -1 and i^3 = -i.
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [
         # The old coefficient of H^2 is saved, because the last two statements still need it.

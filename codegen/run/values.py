@@ -11,7 +11,7 @@ from codegen.run.terms import Term, own, value
 
 
 def simple(statement: Simple) -> list[Statement]:
-    """Return the statements for one statement of a kernel: an assignment, or a call of a function."""
+    """Translate one assignment or one call in a kernel to statements of the run representation."""
     if isinstance(statement, Assignment):
         return [Assign(own(statement.name), value(statement.value))]
     if isinstance(statement, Invocation):
@@ -48,7 +48,7 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 
 
 def _part(arguments: Sequence[Expr]) -> Term | None:
-    """Return the part of a result array that consists of ``arguments``, in this order, or None."""
+    """Return the part of a result array with the entries ``arguments``, or None if there is no such part."""
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
     # If a function has a single result, the result is a scalar and not an array.
     if results[0] is None or len(results) == 1:

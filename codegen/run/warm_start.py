@@ -5,8 +5,8 @@ to the sizes of the backward differences. If the error of the guess exceeds ``St
 of the unknowns over the step, the earlier solutions are discarded. The next guess is then the latest
 solution.
 
-For at most :data:`FEW` unknowns, loops over arrays would take as long as the iterations that the warm start
-saves. Therefore scalar variables are used for these unknowns.
+For at most :data:`FEW` unknowns, loops over arrays would be too slow. Therefore scalar variables are used for
+these unknowns.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ def memory_record(plan: Plan) -> Record:
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
         words.append("solutions of the implicit equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
-        # Simplified Newton computes a new matrix in each step, so it stores no matrix.
+        # Simplified Newton (``leading`` is true) stores no matrix, because each step computes a new matrix.
         if loop.newton is not None and not loop.newton.leading:
             n = len(loop.unknowns)
             fields += [
@@ -203,7 +203,7 @@ class WarmStart:
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # The latest solution is known last, so the loop ends at the latest solution.
+            # The latest solution is added last, so the other additions need not wait for it.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
@@ -268,7 +268,7 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # If the guess were the previous solution, its error would be ``moved``. An extrapolation must be
+            # The previous solution is the simplest guess, with the error ``moved``. An extrapolation must be
             # better than this simplest guess.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
@@ -276,7 +276,7 @@ class WarmStart:
     def chosen(self, place: Term) -> list[Statement]:
         """Return the statements that adapt the degree of the extrapolation.
 
-        The degree changes by at most one, towards the smaller backward difference.
+        The degree changes by at most one, and only if this makes the backward difference smaller.
         """
         size_now = real("size")
 
@@ -306,8 +306,8 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
-        # The number of rows is a multiple of SELDOM, and ``place`` changes by one in each step. Therefore
-        # ``place`` can count the steps.
+        # ``place`` decreases by one in each step, modulo ``depth``. SELDOM divides ``depth``, so ``place`` is
+        # a multiple of SELDOM once in SELDOM steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(

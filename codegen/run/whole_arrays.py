@@ -15,14 +15,14 @@ from codegen.run.language import Array, Call, Statement, terms
 from codegen.run.terms import Term, own
 
 SHORTEST = 25
-"""The least number of entries of an array that is passed, tested or copied as a whole.
+"""Arrays with at least this number of entries are passed, tested and copied as a whole.
 
 The entries of a shorter array are scalar variables, which a compiler can keep in registers.
 """
 
 
 def whole_result(outputs: Sequence[Expr]) -> Term | None:
-    """Return the array of the results of a call, if ``outputs`` are these results.
+    """Return the array with the entries ``outputs``, if the outputs are the results of one call.
 
     None is returned if the outputs are not the results of one call, or if they are fewer than SHORTEST.
     """
@@ -54,7 +54,7 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
             read = [places.get(x.text) if x.op == "name" else None for x in statement.values]
             first = read[0]
             if first is not None and read == list(range(first, first + len(read))):
-                # The copy is not declared. Calls use the part of ``state`` instead.
+                # Calls use the part of ``state`` and not the copy.
                 parts[statement.name.text] = state.part(first, len(read))
                 continue
         if isinstance(statement, Call):
