@@ -190,9 +190,9 @@ def _advance_lanes(plan: Plan) -> Function:
     # Each iteration of the loop changes only the entries of its own lane, so the iterations are independent.
     loop = For(_LANE, _NUMBER, tuple(body), independent=True)
     about = (
-        "Make one step of the lanes first, ..., first + number - 1. The loop over lanes has no branches, so "
-        "compilers can use vector instructions. A lane keeps its state if it has stopped, or if its new "
-        "state is not finite. For these lanes, the entries of failed are 1. All other entries are 0."
+        "Make one step of 'number' lanes. The index of the first lane is 'first'. The loop over lanes has no "
+        "branches, so compilers can use vector instructions. A lane keeps its state if it has stopped, or if "
+        "its new state is not finite. The array 'failed' is 1 for these lanes, and 0 for all others."
     )
     parameters = _lane_parameters(plan, stopped, failed)
     return Function(LANES, about, parameters, (*before, loop), often=True, near=True)

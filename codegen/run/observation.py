@@ -183,7 +183,7 @@ class Observation:
         run = (inner, *time, STEP, whole(1), *plan.parameters, *plan.sampled(), *nothing)
         body = (Assign(inner, state), Call("run", run, (STATUS,)), Return(STATUS))
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled(), inner)
-        about = "Compute a state inside a step: make a step of size h from the beginning of the step."
+        about = "Compute the state at the time h after the beginning of a step."
         return Function(INSIDE, about, parameters, body, Kind.STATUS)
 
     def state_at(self, state: Term, elapsed: Term) -> tuple[Statement, ...]:

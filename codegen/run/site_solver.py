@@ -147,8 +147,8 @@ def _measure(step: SiteStep) -> Function:
         Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )
-    about = "Compute the largest change and the largest absolute value of an unknown at all sites. The third "
-    about += "number is 0 if all changes are finite, and NaN otherwise."
+    about = "Compute the largest change of the unknowns and their largest absolute value. The third result is 0 "
+    about += "if all changes are finite, and NaN otherwise."
     return Function(
         MEASURE,
         about,

@@ -330,7 +330,7 @@ class Loop:
             loop = For(outer[e], shape[e], tuple(body))
             body = [loop if e else distributed(loop, bad)]
         parameters = (WHOLE, shape, SITES, *self.arrays, *self.scalars)
-        about = f"All sites of sweep {self.index}. If 'whole' is true, each site has a separate call."
+        about = f"All sites of sweep {self.index}. If 'whole' is true, a function is called for each site."
         first = [Assign(COLUMNS, shape[step.dimension - 1])]
         return self.function(self.name("pass"), about, parameters, [*first, *body])
 

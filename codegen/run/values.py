@@ -50,7 +50,7 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 def _part(arguments: Sequence[Expr]) -> Term | None:
     """Return the part of a result array with the entries ``arguments``, or None if there is no such part."""
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
-    # If a function has a single result, the result is a scalar and not an array.
+    # A single argument is passed as a scalar, not as an array.
     if results[0] is None or len(results) == 1:
         return None
     name, start = results[0]
