@@ -44,9 +44,9 @@ digits must agree.
 class BodyField:
     """The field in the body frame, as formulas in q and in the momentum P in the body frame.
 
-    The formulas use the symbols of the momentum mu in the space frame for the components of P. The equations
-    of motion are q' = q.W and P' = N, where ``velocity`` is W and ``force`` is N. If W = A P with a constant
-    invertible matrix A, ``inverse`` contains the rows of A^-1.
+    P_a has the same symbol as mu_a, a component of the momentum in the space frame. The equations of motion
+    are q' = q.W and P' = N, where ``velocity`` is W and ``force`` is N. If W = A P with a constant invertible
+    matrix A, ``inverse`` contains the rows of A^-1.
     """
 
     velocity: tuple[Expr, ...]
@@ -56,7 +56,7 @@ class BodyField:
     def momentum(self, domain: Domain, W: Vector[S]) -> Vector[S]:
         """Return the momentum P in the body frame, given the velocity W in the body frame.
 
-        The caller ensures that ``inverse`` is not None.
+        The attribute ``inverse`` must not be None.
         """
         assert self.inverse is not None
         result: list[S] = []
@@ -96,10 +96,10 @@ def body_field(group: BodyFrame, q: Sequence[str], mu: Sequence[str], hamiltonia
 def field_in_body(
     group: LeftTranslation, q: Sequence[str], mu: Sequence[str], roots: Sequence[Expr]
 ) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-    """Return the velocity W and the force N in the body frame, as formulas in q and P.
+    """Return the velocity W and the force N in the body frame.
 
     ``roots`` are the velocity xi and the force n in the space frame, as formulas in q and mu. The result is
-    W = Ad_{q^-1} xi and N = Ad*_q n, with P = Ad*_q mu. The formulas of W and N use the symbols of mu for P.
+    W = Ad_{q^-1} xi and N = Ad*_q n, as formulas in q and P = Ad*_q mu. P_a has the same symbol as mu_a.
     A component that does not depend on q has a formula without q.
     """
     space = roots[0].space
@@ -138,8 +138,8 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        # If the potential is singular at the neutral element, ``split`` lacks the kinetic energy, and the
-        # test ``_same`` fails.
+        # The potential is singular at the neutral element. If H has kinetic energy,
+        # the test ``_same`` fails.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)

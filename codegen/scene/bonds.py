@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 class Bond:
     """The energy of the sites with the lattice indices i and i + offset.
 
-    ``energy`` is a formula in the coordinates y of the site i and ``neighbour(y, offset)`` of the site
-    i + offset. In a Hamiltonian scene, y contains only the coordinates of q.
+    ``energy`` is a formula in the coordinates of both sites: y for the site i, and ``neighbour(y, offset)``
+    for the site i + offset. In a Hamiltonian scene, y contains only the coordinates of q.
     """
 
     offset: Sequence[int]
@@ -37,8 +37,8 @@ def energies_of_bonds(
     """Return a pair (k, V) for each bond of a site.
 
     V is the energy of the bond, and ``offsets[k]`` is the offset from the site to its neighbour. V can depend
-    on the coordinates ``y`` of the site. Each element of ``bonds`` gives the energies V(y_i, y_{i+offset})
-    and V(y_{i-offset}, y_i) of the site i.
+    on the coordinates ``y`` of the site. Each element of ``bonds`` gives two pairs, with the energies
+    V(y_i, y_{i+offset}) and V(y_{i-offset}, y_i).
 
     SceneError is raised if an energy does not contain coordinates of both sites, or if an energy contains
     coordinates of the site that are not in ``y``.

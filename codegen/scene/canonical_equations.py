@@ -22,7 +22,7 @@ from codegen.ir.formulas import Formulas
 def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
     """Return the components of the force.
 
-    Component a is -d/deps H(exp(eps e_a) q, mu) at eps = 0, with basis element e_a of the Lie algebra.
+    Component a is -d/deps H(exp(eps e_a) q, mu) at eps = 0, where e_a is a basis element of the Lie algebra.
     ``slope`` contains the partial derivatives of the Hamiltonian H with respect to the coordinates
     ``qs`` of q.
     """
@@ -39,7 +39,7 @@ def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr
 
 
 def velocity(group: LieGroup, qs: Sequence[str], mus: Sequence[str], H: Expr) -> tuple[Expr, ...]:
-    """Return the time derivatives of the coordinates ``qs`` of q and ``mus`` of mu along the flow of H."""
+    """Return q' and mu' along the flow of H. The names of the coordinates are ``qs`` and ``mus``."""
     space, names = H.space, (*qs, *mus)
     slopes = gradient(H, names)
     field = (*slopes[len(qs) :], *force(space, group, qs, slopes[: len(qs)]))

@@ -1,9 +1,9 @@
 """Classical forms of a scene: its equations in the coordinates that are usual for a general ODE solver.
 
 A form is a problem on R^n with a map to the state of the scene. The first form uses the coordinates of the
-scene. If the group has left translations, another form can use the body frame
-(:mod:`codegen.scene.body_frame`). If a factor of the group has a covering group, a form uses coordinates of
-the covering group. The covering group has fewer coordinates than the factor.
+scene. Another form can use the body frame (:mod:`codegen.scene.body_frame`). If a factor of the group has a
+covering group, a form uses coordinates of the covering group. The covering group has fewer coordinates than
+the factor.
 """
 
 from __future__ import annotations
@@ -59,11 +59,11 @@ class ClassicalForm:
         return self.key == PRINTED
 
     def scene_state(self, domain: Domain, state: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the state of the scene, computed from the state ``state`` of the form."""
+        """Convert a state of this form to the state of the scene."""
         return tuple(evaluate(self.to_scene, domain, self.problem.values(domain, tuple(state))))
 
     def form_state(self, domain: Domain, state: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the state of the form, computed from a state of the scene near the initial state."""
+        """Convert a state of the scene to a state of this form. ``state`` must be near the initial state."""
         return tuple(evaluate(self.from_scene, domain, self.scene.values(domain, tuple(state))))
 
 
@@ -71,7 +71,8 @@ def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
     """Return the classical forms of a scene.
 
     The first form uses the coordinates of the scene. Each later form uses the body frame, coordinates of
-    covering groups, or both. A later form uses the frame in which its equations need fewer operations.
+    covering groups, or both. The choice of the frame, space or body, minimises the number of operations in
+    the equations.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)
@@ -111,7 +112,7 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # In all other cases, the form would have the equations of an earlier form.
+        # Other changes repeat a form that is already in the list.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -138,11 +139,11 @@ class _Leaf:
         return (self.group if self.cover is None else self.cover.cover).coordinates
 
     def element(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the element of the factor as a formula in ``own``, for the right-hand sides of equations."""
+        """Return the element of ``group`` that has the coordinates ``own``."""
         return own if self.cover is None else self.cover.covering(d, own)
 
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the element of the factor as a formula in ``own``, for the state of the scene.
+        """Return the element of ``group`` that has the coordinates ``own``, after a projection.
 
         Numerical errors can move ``own`` off a covering group, so the formula first projects ``own`` onto
         this group.
@@ -160,9 +161,9 @@ class _Leaf:
         return group.require(LeftTranslation).left_velocity(d, own, x) if body else group.velocity(d, x, own)
 
     def start(self, d: ExprDomain, initial: Vector[float]) -> Vector[Expr]:
-        """Return formulas for the coordinates ``own`` in the symbols of the scene.
+        """Return formulas that compute the coordinates ``own`` from the coordinates ``symbols``.
 
-        The formulas hold near the coordinates ``initial`` of the factor in the initial state.
+        The formulas hold near ``initial``, the initial values of ``symbols``.
         """
         g = tuple(d.space.sym(s) for s in self.symbols)
         if self.cover is None:
@@ -212,8 +213,8 @@ def fresh(name: str, count: int, taken: set[str]) -> tuple[str, ...]:
 class _Change:
     """A change of coordinates from a scene to a classical form.
 
-    If ``covered`` is True, each factor of the group that has a covering group is replaced by the covering
-    group. If ``body`` is True, velocities and momenta are in the body frame.
+    If ``covered`` is True, the factors of the group are replaced by their covering groups, if these exist. If
+    ``body`` is True, velocities and momenta are in the body frame.
     """
 
     problem: Problem
@@ -250,7 +251,7 @@ class _Change:
         problem, key = self.problem, self.key()
         to_scene, from_scene = self.to_scene(), self.from_scene()
         known = dict(zip(problem.symbols, to_scene, strict=True))
-        # In the invariants, the formulas of ``to_scene`` replace the symbols of the scene.
+        # Express the invariants in the coordinates of the classical form.
         invariants = {name: self.evaluated((x,), known)[0] for name, x in problem.invariants.items()}
         constants = self.evaluated([e for block in problem.state for e in block.initial], {})
         initial = self.evaluated(from_scene, dict(zip(problem.symbols, constants, strict=True)))
@@ -352,7 +353,7 @@ class _Change:
     def field(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the field in the frame of the classical form, as formulas in the symbols of the scene.
 
-        In the body frame, the symbols of the momentum mu denote the momentum P = Ad*_q mu.
+        In the body frame, the momentum is P = Ad*_q mu. P_a and mu_a have the same symbol.
         """
         problem = self.problem
         if not self.body:
@@ -380,7 +381,7 @@ class _Change:
         return tuple(normal(x) for x in group.Adinv(ExprDomain(space), g, own))
 
     def to_scene(self) -> tuple[Expr, ...]:
-        """Return formulas for the state of the scene in the coordinates of the classical form."""
+        """Return formulas that compute the state of the scene from the coordinates of the classical form."""
         d = self.domain
         element = tuple(x for leaf, own in self.blocks() for x in leaf.end(d, own))
         momenta = tuple(d.space.sym(s) for s in self.momenta)
@@ -389,7 +390,7 @@ class _Change:
         return (*element, *momenta)
 
     def from_scene(self) -> tuple[Expr, ...]:
-        """Return formulas for the coordinates of the classical form in the symbols of the scene."""
+        """Return formulas that compute the coordinates of the classical form from the state of the scene."""
         d, problem = self.domain, self.problem
         initial = dict(zip(problem.symbols, problem.initial(FloatDomain(0.0)), strict=True))
         own = [x for leaf in self.leaves for x in leaf.start(d, tuple(initial[s] for s in leaf.symbols))]

@@ -32,8 +32,8 @@ If the second formula is None, the first formula must be the velocity: the actio
 
 
 STEP_DIGITS, SLOPE_DIGITS = 10, 12
-"""Central differences use the step eps = 10^-STEP_DIGITS, with an error of about eps^2. The comparison uses
-SLOPE_DIGITS digits.
+"""Central differences use the step eps = 10^-STEP_DIGITS, with an error of about eps^2. A velocity and its
+central difference must agree to SLOPE_DIGITS digits.
 """
 
 

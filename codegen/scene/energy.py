@@ -46,7 +46,7 @@ class Conservative(Protocol):
 
     @property
     def roots(self) -> tuple[Expr, ...]:
-        """The components of the field f."""
+        """The components of the field f in the equation y' = f.y."""
 
     @property
     def hamiltonian(self) -> Expr | None:
@@ -71,8 +71,8 @@ class Conservative(Protocol):
 def energy_of(problem: Conservative) -> Expr | None:
     """Return the energy of a problem, or None if the problem has no energy.
 
-    For one site of a lattice, the result includes the energies of all bonds of the site. For a problem
-    without a Hamiltonian, the result is the invariant with the name ``energy``.
+    If ``problem`` describes one site of a lattice, the result includes the energies of its bonds. For a
+    problem without a Hamiltonian, the result is the invariant with the name ``energy``.
     """
     if problem.sites is not None:
         return problem.sites.energy
@@ -150,9 +150,9 @@ def _canonical(group: LieGroup, d: Domain, y: Vector[S], alpha: Vector[S]) -> Ve
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
     """Return the discrete gradient for a displacement by exp(x) (eq. 2.31 of Marthinsen's thesis).
 
-    The covector g approximates the differential of the energy between both points. Among all covectors p for
-    which <p, x> is the energy increment ``after - before``, the result is nearest to g in the Euclidean norm.
-    If x is zero, the result is g.
+    The covector g approximates the differential of the energy. Among all covectors p for which <p, x> is the
+    energy increment ``after - before``, the result is nearest to g in the Euclidean norm. If x is zero, the
+    result is g.
     """
     factor: S = d.call("quotient", after - before - dot(g, x), dot(x, x))
     return tuple(a + factor * b for a, b in zip(g, x, strict=True))

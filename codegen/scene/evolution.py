@@ -7,8 +7,8 @@ In a Hamiltonian scene with the group element q, the momentum mu can be replaced
 in the body frame. The equations are then q' = q.W and P' = N with the velocity W and the force N in the body
 frame (:mod:`codegen.scene.body_frame`).
 
-Coordinates of q are omitted if the remaining coordinates determine them, and if the equations of the
-remaining coordinates do not contain them.
+Coordinates of q are omitted if two conditions hold: the remaining coordinates determine them, and the
+remaining equations do not contain them.
 """
 
 from __future__ import annotations
@@ -40,11 +40,11 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 @dataclass(frozen=True)
 class Evolution:
-    """Coordinates in which Taylor polynomials of a scene are computed, and their equations.
+    """The coordinates for the Taylor polynomials of a scene, and the equations in these coordinates.
 
     - ``inner``: the equations, as a problem on R^m for m coordinates.
     - ``outer``: the scene as a field y' = f(y).y.
-    - ``body``: the group of q if the coordinates contain the momentum in the body frame, otherwise None.
+    - ``body``: the group G, for coordinates on T*G with the momentum in the body frame; otherwise None.
     - ``missing``: the indices of the coordinates of the state that are omitted.
     """
 
@@ -56,7 +56,7 @@ class Evolution:
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
         """Convert the state y to these coordinates.
 
-        Pass the group of q as ``frame`` if and only if y contains the momentum in the body frame.
+        ``frame``: the group of q if y contains the momentum in the body frame, otherwise None.
         """
         if self.body is not None and frame is None:
             q, mu = self._split(y)
@@ -85,8 +85,8 @@ class Evolution:
             return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
-        # Only the increment of the momentum is converted, because rounding errors of q change the length of a
-        # converted momentum.
+        # ``before`` is mu with rounding errors. The difference ``after`` - ``before`` cancels most of these
+        # errors.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
@@ -98,8 +98,7 @@ class Evolution:
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:
-            # The old value ``first`` is added last, because the sum of the other coefficients is
-            # usually small and has small rounding errors.
+            # To reduce rounding errors, add the old value ``first`` to the sum of all other terms.
             change = None
             for x in further:
                 change = x if change is None else change if x is None else change + x
@@ -157,14 +156,14 @@ def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
 
 
 def evolution(scene: Problem) -> Evolution:
-    """Return the coordinates whose equations contain the fewest products of two power series.
+    """Return the :class:`Evolution` whose equations contain the fewest products of two power series.
 
-    For a lattice, these are the coordinates of one site.
+    For a lattice, the result uses all coordinates of one site.
     """
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
     if scene.sites is not None:
-        # The formulas of a site may contain any coordinate of its neighbours, so no coordinate is omitted.
+        # The formulas of a site may contain any coordinate of its neighbours, so all coordinates are kept.
         return forms[0]
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:
@@ -174,7 +173,7 @@ def evolution(scene: Problem) -> Evolution:
 
 
 def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
-    """Return the :class:`Evolution` in all coordinates of ``outer``, with the time derivatives ``roots``."""
+    """Return an :class:`Evolution` without omitted coordinates. ``roots`` are the time derivatives."""
     return Evolution(_problem(scene, outer.symbols, gathered(roots)), outer, body)
 
 
@@ -196,7 +195,7 @@ def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) 
 def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
     """Return formulas for the time derivatives of q and P, where P is the momentum in the body frame.
 
-    The components of P have the symbols of the momentum mu of the scene.
+    P_a has the same symbol as the component mu_a of the momentum of the scene.
     """
     body = scene.body
     assert body is not None
@@ -208,7 +207,7 @@ def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
 
 
 def _shorter(form: Evolution) -> Iterator[Evolution]:
-    """Yield variants of ``form`` without some coordinates that the other coordinates determine."""
+    """Yield variants of ``form`` with fewer coordinates. The omitted coordinates depend on the others."""
     on_itself = form.outer.action.on_itself
     group = _of_element(form.outer.group).offers(DependentCoordinates) if on_itself else None
     inner = form.inner

@@ -28,9 +28,9 @@ def extended(problem: Problem) -> Problem:
     The problem must have a Hamiltonian that depends on time, or it must be a linear Hamiltonian equation
     y' = A(t).y. For all other problems SceneError is raised.
 
-    The new coordinates are the time tau and its conjugate momentum u; for a linear problem only u. If a name
-    is already used, underscores are appended. If the Hamiltonian has parts, u is added to the first part that
-    does not depend on time, or becomes a new part.
+    The new coordinates are the time tau and its conjugate momentum u. A linear problem has no coordinate tau.
+    If a name is already used, underscores are appended. If the Hamiltonian has parts, u is added to the first
+    part that does not depend on time. If all parts depend on time, u becomes a new part.
     """
     if problem.linear and not problem.paired and not problem.carries_momentum:
         return extended_linear(problem, _fresh("u", {*problem.symbols, *problem.parameters}))
@@ -88,7 +88,7 @@ def _timed(problem: Problem) -> Expr:
         raise SceneError(
             f"the Hamiltonian of {problem.name} does not depend on time",
             expected="a Hamiltonian that depends on t",
-            hint="remove +u from the name of the scene, because u would be constant",
+            hint="remove +u from the name of the scene",
         )
     return problem.hamiltonian
 

@@ -1,8 +1,8 @@
 """The figures of a scene, which draw the values of formulas along runs of emitted code.
 
 A scene file lists its figures in the variable ``figures``. Formulas are sympy formulas in the symbols of the
-scene, in its parameters and in the time ``t``. In a formula, the name of an invariant of the scene means the
-formula of the invariant.
+scene, in its parameters and in the time ``t``. The name of an invariant
+can replace a formula.
 """
 
 from __future__ import annotations
@@ -71,7 +71,8 @@ class Figure:
     """A figure: its name, its title, its caption, and the runs that it shows.
 
     ``source`` is the published figure that is reproduced, for example "Fig. 2.6 of Marthinsen's thesis".
-    The other runs are compared with the run ``reference``, or this run is drawn as a thin line.
+    Some figures compare the other runs with the run ``reference``. Other figures draw ``reference`` as a thin
+    line.
     """
 
     shows_lattices: ClassVar[bool] = False
@@ -225,7 +226,7 @@ class Deviation(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class Scan(Figure):
-    """The distance of the final state of a run from that of the reference run, plotted against a parameter.
+    """The distance between the final states of a run and of the reference run, plotted against a parameter.
 
     Each run needs a :class:`Sweep` with the values of the parameter. The figure marks the parameter value
     with the least distance, computed by minimisation.

@@ -161,6 +161,6 @@ def _flat(formulas: Iterable[sympy.Expr]) -> Iterator[sympy.Expr]:
 
 
 def _free_symbols(formula: sympy.Expr) -> Iterable[sympy.Symbol]:
-    """Return the symbols of a formula, which may be a Python number."""
+    """Return the symbols of a formula. A Python number has no symbols."""
     symbols: Iterable[sympy.Symbol] = getattr(formula, "free_symbols", ())
     return symbols

@@ -61,7 +61,7 @@ def HamiltonianScene(
     - ``wrench``: a force that has no potential, in the space frame. A scene with a wrench has no ``parts``.
     - ``coordinates``: only "exp" is permitted.
 
-    :class:`SceneError` is raised for a formula that contradicts H, and for the errors of :func:`FieldScene`.
+    SceneError is raised for a formula that contradicts H, and for the errors that ``FieldScene`` lists.
     """
     _check_coordinates(name, coordinates)
     reader = phase_space_reader(name, group, q, mu)

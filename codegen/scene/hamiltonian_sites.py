@@ -4,7 +4,7 @@ The site i has the Hamiltonian h(q_i, mu_i). A bond with the offset d has the en
 total energy E is the sum of h over all sites and of V over all bonds.
 
 The equations are q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i. Here xi_i is the derivative of h with
-respect to mu_i. The force n_i = -D_i.q_i^-1 contains the derivative D_i of E with respect to q_i
+respect to mu_i. Let D_i be the derivative of E with respect to q_i. The force is n_i = -D_i.q_i^-1
 (:mod:`codegen.scene.canonical_equations`).
 """
 
@@ -135,9 +135,9 @@ def _of_bonds(
 def _with_momenta(
     outside: Column | Mapping[Sequence[int], Column] | None, mu: Column
 ) -> Column | dict[Sequence[int], Column] | None:
-    """Return ``outside`` with ``mu`` appended to each column, because a state consists of q and mu.
+    """Return ``outside`` with ``mu`` appended to each column.
 
-    The appended values have no effect.
+    The equations contain no momenta of neighbours.
     """
     if outside is None:
         return None

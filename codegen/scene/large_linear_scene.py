@@ -56,8 +56,8 @@ def LargeLinearScene(
 
     The scene permits methods of the families magnus, cf_magnus, fer, rkmk, cf and cg.
 
-    :class:`SceneError` is raised if ``A`` is not square or contains :func:`codegen.scene.unknown`, and if
-    ``y0`` has a wrong size.
+    :class:`SceneError` is raised if ``A`` is not square, if ``A`` contains :func:`codegen.scene.unknown`, or
+    if ``y0`` has a wrong size.
     """
     if not isinstance(A, MatrixFormula):
         raise SceneError(

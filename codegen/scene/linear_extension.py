@@ -4,9 +4,9 @@ The canonical coordinates are y = (q, p) in R^2n. Let J be the 2n x 2n block mat
 in sp(2n), y' = A(t).y is Hamilton's equation for H = (q'.p - p'.q)/2 = -y^T J A y/2.
 
 The momentum u conjugate to the time has the initial value -H and satisfies u' = -dH/dt. Let a step of a
-method map y to M(t) y, where M(t) is symplectic and t is the time at the start of the step. The step is a
-canonical transformation of (q, p, t, u) if it maps u to u + y^T M^T J M' y/2 with M' = dM/dt (H. Marthinsen's
-thesis, equation (4.15)).
+method map y to M(t) y, where M(t) is symplectic and t is the time at the start of the step. Let M' = dM/dt.
+The step in (q, p, t, u) is canonical if the new u is u + y^T M^T J M' y/2 (H. Marthinsen's thesis, equation
+(4.15)).
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def _hamiltonian(problem: Problem) -> Expr:
         raise SceneError(
             f"the Hamiltonian of {problem.name} does not depend on time",
             expected="a Hamiltonian that depends on t",
-            hint="remove +u from the name of the scene, because u would be constant",
+            hint="remove +u from the name of the scene",
         )
     return hamiltonian
 

@@ -39,9 +39,10 @@ def LinearScene(
 
     - ``A``: a column of ``group.dim`` formulas in ``t`` and in parameters. For a group of n x n matrices,
       ``A`` can also be an n x n matrix of formulas.
-    - ``y``: the symbols in ``velocity`` and ``invariants``; by default, the real symbols y0, y1 and so on.
-    - ``steps``: methods that map the state y to M y with a matrix M. Each value contains
-      a formula for M (:mod:`codegen.scene.matrix_step`) and the order. In commands, write ``step:NAME``.
+    - ``y``: the symbols of the state in ``velocity`` and ``invariants``; by default, the real symbols y0, y1
+      and so on.
+    - ``steps``: a map from names to methods y1 = M y0 with a matrix M. Each value contains a formula for M
+      (:mod:`codegen.scene.matrix_step`) and the order. In commands, write ``step:NAME``.
 
     :func:`codegen.scene.FieldScene` describes the other arguments. For y' = y A(t), use the action
     ``RightMultiplication()`` and pass -A in place of A. :class:`SceneError` is raised if ``A`` depends on the
@@ -82,7 +83,7 @@ def LinearScene(
 
 
 def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> dict[str, MatrixStep]:
-    """Return the methods that the scene defines by formulas, by name.
+    """Return a :class:`MatrixStep` for each name in ``steps``.
 
     SceneError is raised for a formula or an order that the scene does not permit.
     """

@@ -42,8 +42,7 @@ from codegen.scene.matrix_formula import (
 )
 
 ARGUMENT, RESULT = "point", "velocity"
-"""The names of two arrays in an array program: the array for X, and the array for the value of the formula.
-"""
+"""The names of the input and the output of an array program."""
 
 
 @dataclass(frozen=True)
@@ -165,7 +164,7 @@ class _Compiler:
                 yield c, (self.factor(formula, transposed),)
 
     def factor(self, formula: MatrixFormula, transposed: bool) -> _Factor:
-        """Return a formula as a factor; raise :class:`SceneError` for an unknown other than X."""
+        """Return a formula as a factor; raise :class:`SceneError` for an unknown matrix other than X."""
         if isinstance(formula, Unknown) and formula is not self.x:
             raise SceneError(
                 "the velocity contains an unknown matrix other than x",
@@ -192,9 +191,10 @@ class _Compiler:
                 return self.reader.space.one, (self.factor(formula, transposed),)
 
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
-        """Expand sums with a constant term and large sums in a product, and yield the products times c.
+        """Yield products whose sum is c times the product of ``factors``.
 
-        The program cannot add a constant matrix, and a large sum would need a large array.
+        A factor is expanded if it is a large sum, or a sum with a constant matrix. The program cannot add a
+        constant matrix, and a large sum would need a large array.
         """
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
@@ -223,7 +223,7 @@ class _Compiler:
         return Matrix(f"value {len(self.body) + 1}", rows, columns)
 
     def product(self, factors: tuple[_Factor, ...]) -> _Stored:
-        """Return the product of the factors. Only the first call with given factors appends statements."""
+        """Return the product of the factors. A second call with the same factors appends no statements."""
         if factors not in self.known:
             self.known[factors] = self._product(factors)
         return self.known[factors]
@@ -310,7 +310,7 @@ def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
 
 
 def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
-    """Return the least number of scalar multiplications for a product of matrices, and a number k.
+    """Return the pair (number of scalar multiplications, k) for the best order of a product of matrices.
 
     In the best order, the last multiplication is (product of the first k factors) times (product of the
     other factors).
@@ -371,7 +371,7 @@ def _transposed(given: Constant) -> Constant:
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
     """Return the entries of the diagonal ``-offset`` of A^T from those of the diagonal ``offset`` of A.
 
-    The row i of A^T contains an entry from the row i - offset of A.
+    On the diagonal ``-offset``, the row i of A^T contains the entry of the row i - offset of A.
     """
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 
@@ -389,7 +389,7 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
         return ConstantMatrix(name, given.rows, given.columns, (), entry)
     matrix = ConstantMatrix(name, given.rows, given.columns)
     diagonals = []
-    # The main diagonal comes first, because it can set every row of a product with a square matrix.
+    # The main diagonal comes first. For square matrices, it has an entry in every row.
     for offset in sorted(given.diagonals, key=lambda x: (abs(x), x)):
         length = matrix.length(Diagonal(offset, ()))
         entry = _entry(reader, given.diagonals[offset], (row,), length, f"the diagonal {offset}")

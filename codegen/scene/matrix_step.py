@@ -2,9 +2,9 @@
 
 The formula contains the step size :data:`h`, numbers, the matrix :data:`IDENTITY` and matrices A(t + c h),
 where c is a number (:func:`A`). Sums, products and the functions :func:`bracket`, :func:`projected`,
-:func:`expm` and :func:`logm` combine these matrices. The type of a formula (:class:`Place`) is a set that
-contains the values of the formula: the Lie algebra, the group, or all square matrices. Logarithms, and
-exponentials of matrices outside the Lie algebra, are available only for 2 x 2 matrices.
+:func:`expm` and :func:`logm` combine these matrices. The type of a formula (:class:`Place`) is one of three
+sets: the Lie algebra, the group, or all square matrices. This set contains all values of the formula.
+Logarithms, and exponentials of matrices outside the Lie algebra, are available only for 2 x 2 matrices.
 
 >>> projection = expm(projected(logm(IDENTITY + h * A(0))))
 >>> projection.place, projection.text()
@@ -85,7 +85,7 @@ class MatrixFormula(ABC):
     @property
     @abstractmethod
     def place(self) -> Place:
-        """The type of the formula: a set that contains all values of the formula."""
+        """The set that contains all values of the formula."""
 
     @abstractmethod
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -132,7 +132,7 @@ class Generator(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """The type is ALGEBRA, because the matrix A(t) is in the Lie algebra at all times t."""
+        """ALGEBRA, because the matrix A(t) is in the Lie algebra at all times t."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -150,7 +150,7 @@ class Unit(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """The type is GROUP, because the unit matrix is an element of the group."""
+        """GROUP, because the unit matrix is an element of the group."""
         return Place.GROUP
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -303,7 +303,7 @@ class Exponential(Unary):
 
     @property
     def place(self) -> Place:
-        """GROUP if the argument is an element of the algebra, otherwise MATRIX."""
+        """GROUP if the argument X of exp(X) is in the Lie algebra, otherwise MATRIX."""
         return Place.GROUP if self.of.place is Place.ALGEBRA else Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
@@ -332,7 +332,7 @@ class Logarithm(Unary):
 
     @property
     def place(self) -> Place:
-        """The type is MATRIX, because it is not known whether the logarithm is in the Lie algebra."""
+        """MATRIX, because a logarithm can be outside the Lie algebra."""
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
@@ -398,7 +398,7 @@ class MatrixStep:
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
     """Return the matrix of the orthogonal projection onto the Lie algebra of the group.
 
-    The result acts on the vector of the n^2 entries of an n x n matrix, row by row.
+    The result acts on vectors of n^2 entries: the entries of an n x n matrix, listed row by row.
     """
     from sympy import Matrix, Rational
 
@@ -442,7 +442,7 @@ def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     s, traceless, z = _split(d, m)
     one, half = d.rational(1), d.rational(1, 2)
     r = d.call("sqrt", d.call("fabs", z))
-    # ``choose`` evaluates both alternatives, so the argument 1 prevents the logarithm of a negative number.
+    # ``choose`` evaluates both alternatives. If z > 0, the argument of the logarithms is 1.
     above, below = (d.call("log", d.call("choose", z, one, x)) for x in (s + r, s - r))
     angle = d.call("choose", z, d.call("atan2", r, s), half * (above - below))
     g = d.call("choose", r, d.call("quotient", angle, r), d.call("quotient", one, s))

@@ -1,4 +1,4 @@
-"""The frame, space or body, in which emitted code accepts and returns momenta."""
+"""The frame (space or body) of the momenta in the input and output of emitted code."""
 
 from __future__ import annotations
 

@@ -26,12 +26,11 @@ if TYPE_CHECKING:
 DIGITS = 40
 TOLERANCE = Fraction(1, 10**20)
 """The relative tolerance of the test whether a sum is zero: |sum| <= TOLERANCE * (sum of |terms|) + FLOOR.
-TOLERANCE exceeds the unit roundoff, because cancellation may increase the rounding errors of the terms.
 """
 
 FLOOR = Fraction(1, 10**28)
-"""The absolute tolerance of the test whether a sum is zero. By cancellation, the rounding error of a term may
-be larger than TOLERANCE times the term.
+"""The absolute tolerance of the test whether a sum is zero. Rounding errors of a term can
+exceed the term.
 """
 
 POINTS = 4
