@@ -105,7 +105,7 @@ ORDERS = {
 }
 
 
-LONG = ("vcg:triple_jump6", "vrkmk(0):gauss2", "vcg:gauss2")
+LONG = ("vcg:triple_jump6", "vrkmk(0):gauss2")
 """Methods of families that others represent."""
 
 
