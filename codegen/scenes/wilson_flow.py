@@ -12,7 +12,7 @@ Source: M. Luescher, Properties and uses of the Wilson flow in lattice QCD, JHEP
 
 from random import Random
 
-from sympy import Expr, Matrix, Rational, eye, symbols
+from sympy import Add, Expr, Matrix, Rational, eye, symbols
 
 from codegen.groups import SU, Columns, FactorwiseAction, Product
 from codegen.scene import FieldScene
@@ -26,6 +26,21 @@ def full(c: Matrix) -> Matrix:
     ``c`` is the 6 x 3 matrix of V: Re V above Im V. The transpose of the result is the 6 x 6 matrix of V^H.
     """
     return c.row_join(Matrix.vstack(-c[3:, :], c[:3, :]))
+
+
+def product(*factors: Matrix) -> Matrix:
+    """Return the product of matrices, multiplied from right to left.
+
+    The product of sympy asks of each entry whether it may be infinite, which takes seconds for long formulas.
+    """
+    *others, total = factors
+    for a in reversed(others):
+        entries = [
+            [Add(*(a[i, k] * total[k, j] for k in range(a.cols))) for j in range(total.cols)]
+            for i in range(a.rows)
+        ]
+        total = Matrix(entries)
+    return total
 
 
 def start() -> Matrix:
@@ -55,10 +70,10 @@ def generator(loop: Matrix) -> list[Expr]:
 V = [Matrix(6, 3, symbols(f"v{k}_0:6(0:3)", real=True)) for k in range(4)]
 A, B, C, D = map(full, V)
 loops = [
-    A * (B * (C.T * D.T[:, :3])),
-    B * (C.T * (D.T * V[0])),
-    C * (B.T * (A.T * V[3])),
-    D * (C * (B.T * A.T[:, :3])),
+    product(A, B, C.T, D.T[:, :3]),
+    product(B, C.T, D.T, V[0]),
+    product(C, B.T, A.T, V[3]),
+    product(D, C, B.T, A.T[:, :3]),
 ]
 
 scene = FieldScene(

@@ -23,7 +23,7 @@ from sympy import Matrix, Symbol, eye, symbols, zeros
 from codegen.groups import SU, Columns, FactorwiseAction, Product
 from codegen.scene import SiteScene, neighbour
 from codegen.scene.figure import LatticeMeans, Run
-from codegen.scenes.wilson_flow import full, generator
+from codegen.scenes.wilson_flow import full, generator, product
 
 DIMENSION = 4
 axes = range(DIMENSION)
@@ -45,8 +45,8 @@ def staples(a: int) -> Matrix:
     """Return the sum of the staples of the link along axis ``a``, as a 6 x 3 matrix."""
     total = zeros(6, 3)
     for b in [b for b in axes if b != a]:
-        total += link(b, (a, 1)) * (link(a, (b, 1)).T * link(b).T[:, :3])
-        total += link(b, (a, 1), (b, -1)).T * (link(a, (b, -1)).T * link(b, (b, -1))[:, :3])
+        total += product(link(b, (a, 1)), link(a, (b, 1)).T, link(b).T[:, :3])
+        total += product(link(b, (a, 1), (b, -1)).T, link(a, (b, -1)).T, link(b, (b, -1))[:, :3])
     return total
 
 
@@ -67,7 +67,7 @@ def start(shape: Sequence[int]) -> np.ndarray:
 
 # Each entry is the 6 x 3 matrix of a plaquette P: Re P above Im P.
 plaquettes = [
-    link(a) * (link(b, (a, 1)) * (link(a, (b, 1)).T * link(b).T[:, :3])) for a, b in combinations(axes, 2)
+    product(link(a), link(b, (a, 1)), link(a, (b, 1)).T, link(b).T[:, :3]) for a, b in combinations(axes, 2)
 ]
 energy = sum(6 - 2 * plaquette[:3, :].trace() for plaquette in plaquettes)
 scene = SiteScene(
@@ -75,7 +75,7 @@ scene = SiteScene(
     group=Product(*(SU(3) for _ in axes)),
     action=FactorwiseAction(*(Columns(3) for _ in axes)),
     y=links,
-    f=[x for a in axes for x in generator(link(a) * staples(a))],
+    f=[x for a in axes for x in generator(product(link(a), staples(a)))],
     y0=[*Matrix.vstack(eye(3), zeros(3, 3))] * DIMENSION,
     span=(0, 1),
 )

@@ -16,7 +16,7 @@ from codegen.emitter import emit
 
 @pytest.mark.parametrize("key", emitted.CASES)
 # At five times the step the equations of VCF4 have no solution by simplified Newton, and the step says so.
-@pytest.mark.parametrize("longer", [3.0, 0.625])
+@pytest.mark.parametrize("longer", [3.0, pytest.param(0.625, marks=pytest.mark.slow)])
 def test_a_hand_written_step_is_the_method_it_is_timed_against(
     key: str, longer: float, tmp_path: Path
 ) -> None:

@@ -22,7 +22,7 @@ from codegen.lower import lower, problem_for
 from codegen.method import Method, with_estimate
 from codegen.passes import optimise
 from codegen.scenes import load as load_scene
-from tests.promises import clean_c, clean_python
+from tests.promises import COMPILERS, clean_c, clean_python
 from tests.strategies import field_scene, shipped
 
 METHODS = {
@@ -217,8 +217,17 @@ def test_run_time_inputs_and_implicit_stages_are_taken_along(target):
     assert min(counts.sweeps) >= found.accepted
 
 
-@pytest.mark.parametrize("precision", ["double", "single"])
-@pytest.mark.parametrize(("scene", "method"), [CASES[2], CASES[3], ("linear_oscillator", "rk:kvaerno3")])
+@pytest.mark.parametrize(
+    ("compiler", "scene", "method", "precision"),
+    [
+        # Every run compiles doubles with gcc and floats with clang.
+        pytest.param(c, *case, p, marks=() if (c == "gcc") == (p == "double") else pytest.mark.slow)
+        for c in COMPILERS
+        for case in (CASES[2], CASES[3], ("linear_oscillator", "rk:kvaerno3"))
+        for p in ("double", "single")
+    ],
+    indirect=["compiler"],
+)
 def test_modules_that_choose_their_steps_are_clean(scene, method, precision, compiler: Compiler, tmp_path):
     (tmp_path / "c").mkdir()
     emission = emitted(scene, method, "c", precision=precision)

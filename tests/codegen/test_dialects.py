@@ -12,7 +12,7 @@ from codegen.build import Compiler
 from codegen.printers.c.words import RESERVED
 from tests.dialects import DIALECTS, HEADERS, objections, surroundings
 from tests.emissions import emitted
-from tests.promises import usage_program
+from tests.promises import COMPILERS, usage_program
 
 GENERATED = sorted((Path(__file__).parents[2] / "generated").glob("*/*.c"))
 
@@ -24,6 +24,9 @@ WITH_OPTIONS = (
 
 # These dialects lie between C11 and C2x. A file that compiles in both usually compiles in these, too.
 BETWEEN = ("c17", "gnu11", "gnu17")
+
+QUICK = [("gcc", d) for d in DIALECTS if d not in BETWEEN] + [("clang", "c2x")]
+"""Compilers and dialects of every run: each dialect that is not between others, and each compiler."""
 
 dialects = pytest.mark.parametrize(
     "dialect",
@@ -49,7 +52,15 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     return [*GENERATED, *sorted(folder.rglob("*.c"))]
 
 
-@dialects
+@pytest.mark.parametrize(
+    ("compiler", "dialect"),
+    [
+        pytest.param(c, d, id=f"{c}-{d or 'default'}", marks=() if (c, d) in QUICK else pytest.mark.slow)
+        for c in COMPILERS
+        for d in DIALECTS
+    ],
+    indirect=["compiler"],
+)
 def test_no_file_has_a_warning_alone_or_beside_the_usual_headers(
     compiler: Compiler, dialect: str, files: list[Path]
 ) -> None:

@@ -21,8 +21,17 @@ from codegen.regenerate import entries
 from codegen.scenes import load as load_scene
 from orderconds.errors import InputError, UnknownName, ZeroWeight
 from tests.compilations import compiled
+from tests.promises import COMPILERS
 
 KEPT = [(e.scene, e.method) for e in entries()]
+
+BOTH_COMPILERS = (
+    ("free_rigid_body", "rkmk:rk4"),
+    ("dipole", "vcg:midpoint"),
+    ("duffing_sl2", "cf4"),
+    ("fast_heavy_top", "splitting:blanes_moan_rkn4"),
+)
+"""Explicit and implicit steps, another group, and flows: every run compiles them with clang, too."""
 
 
 def interpreted(made):
@@ -40,7 +49,15 @@ def interpreted(made):
     return step
 
 
-@pytest.mark.parametrize(("scene", "method"), KEPT)
+@pytest.mark.parametrize(
+    ("compiler", "scene", "method"),
+    [
+        pytest.param(c, *case, marks=() if c == "gcc" or case in BOTH_COMPILERS else pytest.mark.slow)
+        for c in COMPILERS
+        for case in KEPT
+    ],
+    indirect=["compiler"],
+)
 def test_the_gallery_is_emitted_clean_and_agrees_with_the_interpreter(check_codegen, scene, method):
     made = compiled(scene, method)
     c, python = emit_compiled(made, "c"), emit_compiled(made, "python")

@@ -159,7 +159,7 @@ def test_jacobians_of_symplectic_steps_are_symplectic(method):
     assert defect(method) < 1e-12
 
 
-@pytest.mark.parametrize("method", ["rkmk:rk4", "cf:cf4"])
+@pytest.mark.parametrize("method", ["rkmk:rk4", pytest.param("cf:cf4", marks=pytest.mark.slow)])
 def test_those_of_others_are_not(method):
     assert defect(method) > 1e-9
 

@@ -37,6 +37,10 @@ AS_LONG_AS_ASKED = MEASURING | EXPANDING
 Such options are --order, --steps and --budget, which is 50 s by default."""
 
 
+QUICK = 20
+"""The number of lines that every run of the tests tries."""
+
+
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[subprocess.Popen[str]]:
     with running(tmp_path_factory.mktemp("cache")) as process:
@@ -143,8 +147,16 @@ def test_lines_are_drawn_over_every_option(name: str) -> None:
 def test_mutated_command_lines_end_with_a_documented_status(
     server: subprocess.Popen[str], tmp_path: Path
 ) -> None:
-    endings = [examine(server, seed, tmp_path)[1] for seed in range(40)]
+    endings = [examine(server, seed, tmp_path)[1] for seed in range(QUICK)]
     assert {ending.status for ending in endings} >= {0, 2}
+
+
+@pytest.mark.slow
+def test_more_mutated_command_lines_end_with_a_documented_status(
+    server: subprocess.Popen[str], tmp_path: Path
+) -> None:
+    for seed in range(QUICK, 40):
+        examine(server, seed, tmp_path)
 
 
 @pytest.mark.slow

@@ -87,7 +87,8 @@ def test_a_scene_with_large_numbers_is_compiled(
     ("where", "family", "name", "old"),
     [
         ("free_rigid_body", "cf", "cf4", '"-1/2", "0", "1"'),
-        ("dipole", "vcf", "cf4", '"-1/2", "0", "1"'),
+        pytest.param("dipole", "vcf", "cf4", '"-1/2", "0", "1"', marks=pytest.mark.slow),
+        ("driven_spin", "cg", "gauss1", '"1/2"'),
         ("free_rigid_body", "cg", "rk4", '"0", "0", "1"'),
         ("free_rigid_body", "rkmk(3)", "dormand_prince5", '"1/5"'),
     ],

@@ -27,8 +27,23 @@ HAMILTONIANS = [
     for group in ("S^3", "SE(2)", "SO(3) x R^2")
     for method, order in (("vcg:midpoint", 2), ("vrkmk(1):kutta3", 3), ("cf:cf4", 4), ("slgi:midpoint", 2))
 ]
-ALL = [pytest.param("field", *case, id="-".join(map(str, case))) for case in FIELDS]
-ALL += [pytest.param("hamiltonian", *case, id="T*" + "-".join(map(str, case))) for case in HAMILTONIANS]
+
+
+def tried(kind, prefix, cases):
+    """Return the parameters of the tests: every second pair of a group and a method is for the slow run."""
+    places, methods = (list(dict.fromkeys(case[k] for case in cases)) for k in (0, 1))
+    return [
+        pytest.param(
+            *(kind, place, method, order),
+            id=f"{prefix}{place}-{method}-{order}",
+            marks=pytest.mark.slow if (places.index(place) + methods.index(method)) % 2 else (),
+        )
+        for place, method, order in cases
+    ]
+
+
+ALL = [*tried("field", "", FIELDS), *tried("hamiltonian", "T*", HAMILTONIANS)]
+"""Every run tries each group and each method."""
 
 
 @cache

@@ -56,6 +56,7 @@ for family, cases in CASES.items():
 LONG = frozenset(
     {
         "vcg:gauss2",
+        "vrkmk(2):gauss2",
         "vrkmk(4):gauss3",
         "slgi:radau2a1",
         "slgi:gauss2",

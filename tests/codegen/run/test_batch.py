@@ -189,8 +189,15 @@ def test_a_python_module_has_no_batch():
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="gcc reports the loops that it vectorises")
-@pytest.mark.parametrize("given", [False, True], ids=["constants", "parameters"])
-@pytest.mark.parametrize(("scene", "method", "parameters"), CASES[:5])
+@pytest.mark.parametrize(
+    ("scene", "method", "parameters", "given"),
+    [
+        # A case without parameters is the same module twice.
+        pytest.param(*case, given, marks=() if given == bool(case[2]) or not k else pytest.mark.slow)
+        for k, case in enumerate(CASES[:5])
+        for given in (False, True)
+    ],
+)
 def test_the_loop_over_systems_is_vectorised(scene, method, parameters, given, tmp_path):
     artifact = emitted(scene, method, parameters if given else ())
     name = next(n for n in artifact.files if n.endswith(".c"))

@@ -28,6 +28,7 @@ from codegen.passes import optimise
 from codegen.passes.rewrite import rewrite
 from codegen.scenes import load
 from orderconds.ring import QQ
+from tests.promises import COMPILERS
 from tests.strategies import full, shipped, starting
 
 SCENE = load("linear_oscillator")
@@ -190,7 +191,15 @@ def test_nothing_is_left_of_brackets_and_exponentials(spelling):
     assert operations(arrange(lie.kernel)) == operations(arrange(plain.kernel))
 
 
-@pytest.mark.parametrize("spelling", ["vcg:midpoint", "cf4", "rk:gauss2"])
+@pytest.mark.parametrize(
+    ("compiler", "spelling"),
+    [
+        pytest.param(c, m, marks=() if c == "gcc" or m == "cf4" else pytest.mark.slow)
+        for c in COMPILERS
+        for m in ("vcg:midpoint", "cf4", "rk:gauss2")
+    ],
+    indirect=["compiler"],
+)
 def test_emitted_code_reads_the_time(check_codegen, spelling):
     made = compile_method("linear_oscillator", spelling)
     c, python = emit_compiled(made, "c"), emit_compiled(made, "python")

@@ -236,12 +236,16 @@ def test_files_are_certified_where_nothing_is_changed(name: str) -> None:
     assert (found.order, found.certificate) == (KNOWN[name], "ball")
 
 
+LONG = (4, 17)
+"""Seeds whose files take seconds and have no certificate."""
+
+
 def test_no_certificate_of_a_perturbed_file_is_false() -> None:
-    proved = sum(examined(seed) for seed in range(60))
+    proved = sum(examined(seed) for seed in range(60) if seed not in LONG)
     assert proved > 5  # else the files were broken, and nothing was tested
 
 
 @pytest.mark.slow
 def test_no_certificate_of_many_perturbed_files_is_false() -> None:
-    proved = sum(examined(seed) for seed in range(1000, 3000))
+    proved = sum(examined(seed) for seed in (*LONG, *range(1000, 3000)))
     assert proved > 200

@@ -47,6 +47,8 @@ NEEDS = (
     ("manifold",),
     ("explicit", "fixed"),
 )
+QUICK_NEEDS = (("adaptive",), ("explicit", "symplectic"), ("manifold",), ("explicit", "fixed"))
+"""Each need occurs in one of them; the slow run tries the others."""
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -61,7 +63,11 @@ def _short_samples() -> Iterator[None]:
         yield
 
 
-@pytest.fixture(scope="module", params=NEEDS, ids=lambda needs: "+".join(needs) or "none")
+@pytest.fixture(
+    scope="module",
+    params=[pytest.param(n, marks=() if n in QUICK_NEEDS else pytest.mark.slow) for n in NEEDS],
+    ids=lambda needs: "+".join(needs) or "none",
+)
 def found(request: pytest.FixtureRequest) -> Recommendation:
     return recommend(Request(SCENE, 1e-6, request.param, tableaux=FEW))
 

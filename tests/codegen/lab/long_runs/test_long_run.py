@@ -124,7 +124,10 @@ def test_too_few_samples_are_refused():
         fit([1.0, 2.0], [0.0, 0.0])
 
 
-@pytest.mark.parametrize("method", ["vcg:midpoint", "vrkmk(2):gauss2", "splitting:strang"])
+@pytest.mark.parametrize(
+    "method",
+    ["vcg:midpoint", pytest.param("vrkmk(2):gauss2", marks=pytest.mark.slow), "splitting:strang"],
+)
 def test_symplectic_steps_have_no_defect(method):
     made = compile_method("dipole", method)
     state = [1.0, 0.0, 0.0, 0.0, 0.6, -0.8, 0.0, 0.8, 0.6, 0.3, 0.01, 0.002]
@@ -322,7 +325,10 @@ def test_table_2_1_is_reproduced():
     [
         ("heavy_top", "-m", "rkmk(0):euler", "--h", "0.05", "--steps", "100000"),
         ("free_rigid_body_s3", "-m", "rkmk:heun", "--h", "0.015625", "--steps", "64000"),
-        ("linear_oscillator+u", "-m", "rk:lobatto3c2", "--h", "0.3", "--steps", "40000"),
+        pytest.param(
+            ("linear_oscillator+u", "-m", "rk:lobatto3c2", "--h", "0.3", "--steps", "40000"),
+            marks=pytest.mark.slow,
+        ),
         ("duffing", "-m", "rkmk(0):euler", "--h", "0.02", "--steps", "10000"),
     ],
 )

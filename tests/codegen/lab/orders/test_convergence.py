@@ -47,6 +47,12 @@ PUBLISHED = {
     "dipole vcg:triple_jump": ((5, 10, 20, 40), (6.128e-4, 4.173e-5, 2.668e-6, 1.677e-7)),
 }
 
+QUICK = {
+    "python": ("free_rigid_body rkmk(0):euler", "free_rigid_body rkmk:rk4", "dipole vcg:triple_jump"),
+    "interpreter": ("free_rigid_body rkmk(0):euler", "free_rigid_body rkmk:rk4"),
+}
+"""Explicit and implicit methods that every run executes in other targets than C."""
+
 
 def parse_for(problem: Problem, spelling: str) -> Method:
     return parse(spelling, families_for(problem))
@@ -70,7 +76,7 @@ def measure(
 @pytest.mark.parametrize(
     ("case", "target"),
     [
-        pytest.param(c, t, marks=pytest.mark.slow if t == "interpreter" and "dipole" in c else ())
+        pytest.param(c, t, marks=() if t == "c" or c in QUICK[t] else pytest.mark.slow)
         for c in sorted(PUBLISHED)
         for t in TARGETS
     ],
@@ -99,7 +105,18 @@ ORDERS = {
 }
 
 
-@pytest.mark.parametrize(("scene", "method"), [(s, m) for s, found in ORDERS.items() for m in found])
+LONG = ("vcg:triple_jump6", "vrkmk(0):gauss2")
+"""Methods of families that others represent."""
+
+
+@pytest.mark.parametrize(
+    ("scene", "method"),
+    [
+        pytest.param(s, m, marks=pytest.mark.slow if m in LONG else ())
+        for s, found in ORDERS.items()
+        for m in found
+    ],
+)
 def test_emitted_c_shows_its_order_and_no_other(scene: str, method: str, exact: Exact) -> None:
     order = ORDERS[scene][method]
     found = measure(exact, scene, method, order)

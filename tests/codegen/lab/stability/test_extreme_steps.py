@@ -33,7 +33,8 @@ class Spoilt:
         ("heavy_top", "vcg:midpoint"),
         ("driven_spin", "cf:cf4"),
         ("linear_oscillator", "rk:rk4"),
-        ("fast_heavy_top", "splitting:strang"),
+        ("linear_oscillator", "splitting:strang"),
+        pytest.param("fast_heavy_top", "splitting:strang", marks=pytest.mark.slow),
     ],
 )
 def test_each_answer_is_accurate_or_a_status(scene, method):
@@ -52,7 +53,9 @@ def test_each_answer_is_accurate_or_a_status(scene, method):
     assert usual.error < 1e-14
 
 
-@pytest.mark.parametrize("name", ["usual step", "backward", "angle pi"])
+@pytest.mark.parametrize(
+    "name", ["usual step", *(pytest.param(n, marks=pytest.mark.slow) for n in ("backward", "angle pi"))]
+)
 def test_an_iteration_that_contracts_slowly_is_continued_to_the_solution(name):
     """Each sweep of this step reduces the change by a third only, so a small change is no small error."""
     made = compile_method("fast_heavy_top", "vcf:vcf_gauss2")

@@ -29,7 +29,9 @@ def source(module):
     return text[text.index("*/") :]
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    "method", [pytest.param(m, marks=pytest.mark.slow if m == "cg:cg5" else ()) for m in METHODS]
+)
 def test_arrays_of_arguments_change_no_bit(method, monkeypatch):
     apart, together = (emitted(method, wide, monkeypatch) for wide in (10**9, 2))
     assert packing.PACKED not in source(apart)
