@@ -83,9 +83,10 @@ class Spectral(ArrayModule, ABC):
     def _call(
         self, u: Floats, moment: tuple[float, float, int], values: list[float]
     ) -> tuple[Floats, Status, int]:
-        """Return the solution after steps from ``u``, the status, and the number of completed steps.
+        """Return the final solution, the status, and the number of completed steps.
 
-        ``moment`` contains the start time, the step size and the number of steps.
+        ``u`` is the initial solution. ``moment`` contains the start time, the step size and the number of
+        steps.
         """
 
 
@@ -180,7 +181,7 @@ class CompiledSpectral(Spectral):
         return u, status, int(completed[0])
 
     def _memory(self, name: str, n: int) -> Floats:
-        """Return an uninitialised array of the length that the C function ``name`` returns for n."""
+        """Return an uninitialised array. The C function ``name`` computes its length from n."""
         import numpy as np
 
         return np.empty(int(self._function(name)(n)))

@@ -42,7 +42,10 @@ class StateForm:
     arrays: tuple[bool, ...]
 
     def restore(self, values: Sequence[Any]) -> Any:
-        """Return ``values`` in the stored form. ``values`` is one flat state or a list of flat states."""
+        """Return ``values`` with the shapes and types of the caller's state.
+
+        ``values`` is one flat state or a list of flat states.
+        """
         if not self.is_tuple and self.shapes == ((len(values),),) and not self.arrays[0]:
             return list(values)
         import numpy as np
@@ -98,9 +101,10 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
 
 
 def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
-    """Raise ValueError if an entry of a tuple does not fill one field or several consecutive fields.
+    """Raise ValueError if the entries of a tuple with the sizes ``sizes`` do not match the fields.
 
-    If there are fewer than two fields, every size is permitted: the entries may be the rows of a matrix.
+    An entry matches one field, or several consecutive fields together. If there are fewer than two fields,
+    every size is permitted. For example, the entries may be the rows of a matrix.
     """
     if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
         return
@@ -130,7 +134,7 @@ class Batch:
     states: tuple[State, ...]
 
     def joined(self, results: Sequence[Any]) -> Any:
-        """Return all results as an array or a tuple of arrays. The first index numbers the states."""
+        """Return all results as an array or a tuple of arrays. The first index is the index of the state."""
         import numpy as np
 
         if isinstance(results[0], tuple):

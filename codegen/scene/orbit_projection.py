@@ -16,8 +16,9 @@ DISPLACEMENT = 1e-4
 """The distance from the initial state to the points that the test :func:`reaches_orbit` projects."""
 
 REDUCED = 1e-2
-"""The factor by which the projection in :func:`reaches_orbit` must reduce a displacement perpendicular to the
-orbit. The factor is not zero, because the orbit may deviate from its tangent space by about DISPLACEMENT^2.
+"""In :func:`reaches_orbit`, the projection must multiply a displacement perpendicular to the orbit by at most
+this factor. The factor is not zero, because the orbit may deviate from its tangent space by about
+DISPLACEMENT^2.
 """
 
 INDEPENDENT = 1e-8
@@ -29,7 +30,7 @@ INDEPENDENT * max(1, |v|).
 
 
 def reaches_orbit(problem: Problem) -> bool:
-    """Return True if the projection of the action maps points near the initial state onto the orbit.
+    """Return True if :meth:`Action.to_orbit` maps points near the initial state onto the orbit.
 
     If the orbit is open, the result is True.
     """

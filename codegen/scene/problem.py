@@ -1,4 +1,4 @@
-"""Problems: the form of scenes that the interpreter and the compiler use.
+"""Problems: the data of a scene for the interpreter and the compiler.
 
 The sympy formulas of a scene are converted to exact expressions that share equal subexpressions. Derivatives
 are computed by reverse differentiation.
@@ -74,9 +74,9 @@ class Problem:
     - ``paired``: True if the state is (q, mu).
     - ``parts``: summands of the Hamiltonian, by name.
     - ``flows``: the exact flow of each part.
-    - ``stated``: for some parts, formulas of the scene for (q, mu) after the time tau along the flow.
+    - ``stated``: formulas of the scene for some of these exact flows: q and mu at the time tau.
     - ``runtime``: the parameters that are arguments of emitted code.
-    - ``fixed``: the names and values of parameters with a new value in place of the default.
+    - ``fixed``: the names of parameters with a replaced default, and their new values.
     - ``open_roots``: the expressions of ``roots`` before the signals are replaced by their formulas.
     - ``inputs``: the signals that emitted code reads at run time.
     - ``forced``: True if n contains a force that is not a derivative of the Hamiltonian.
@@ -148,12 +148,11 @@ class Problem:
 
     @property
     def linear(self) -> bool:
-        """True if the field does not depend on the state: y' = A(t).y.
+        """True if the field f in y' = f.y does not depend on the state y.
 
         On a lattice, the field of a site must not depend on the states of neighbours either.
         """
-        # A test of ``roots`` would be wrong, because ``roots`` may be empty if formulas of matrices define
-        # the field.
+        # For large matrices, ``roots`` is empty, and ``matrices`` contains the field.
         if self.matrices is not None:
             return self.matrices.linear
         if self.semilinear is not None:
@@ -173,7 +172,7 @@ class Problem:
     def require_formulas(self) -> None:
         """Raise :class:`codegen.errors.SceneError` if the field has no formulas in coordinates.
 
-        Semilinear equations and fields on matrices with more than eight rows have no such formulas.
+        Two cases have no such formulas: semilinear equations, and matrices with more than eight rows.
         """
         if self.semilinear is not None:
             raise SceneError(
@@ -184,15 +183,15 @@ class Problem:
             )
         if not self.roots:
             raise SceneError(
-                f"a field without formulas in coordinates, because the dimension {self.group.dim} of "
-                f"{self.group.name} is too large",
+                f"a field without formulas in coordinates: {self.group.name} has the large dimension "
+                f"{self.group.dim}",
                 where=self.name,
-                expected="a scene with formulas in coordinates, that is, a matrix with at most eight rows",
+                expected="a matrix with at most eight rows",
                 hint='use a smaller matrix; the commands "emit" and "converge" work for every matrix size',
             )
 
     def as_field(self) -> Problem:
-        """Return a Hamiltonian problem as an equation y' = f(y).y, where y = (q, mu) and f = (xi, n).
+        """Return a Hamiltonian problem as y' = f(y).y. Here y is (q, mu), and f is (velocity, force).
 
         The group T*G of the result acts on itself by left multiplication. If the state is not (q, mu), the
         problem is returned unchanged.
@@ -269,7 +268,7 @@ class Problem:
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return W(ad_x) v, where W is the product of the functions of one variable in ``word``.
+        """Return W(ad_x) v, where W(t) is the product of the factors in ``word``.
 
         If ``dual`` is true, return W(ad*_x) v.
         """

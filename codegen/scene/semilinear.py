@@ -17,7 +17,8 @@ TERMS = 20
 """The index of the last term in the series of dexp^{-1} for the model problem.
 
 Term k is about (z/(2 pi))^k, where z is the step size times the eigenvalue -1/2 of the model problem. The
-compiler passes are tested with step sizes up to 1/4, so the omitted terms are below (16 pi)^-21 = 2e-36.
+tests of the compiler passes use step sizes up to 1/4. Then |z| <= 1/8, and the omitted terms are below
+(16 pi)^-21 = 2e-36.
 """
 
 
@@ -30,8 +31,7 @@ class Semilinear:
       if it is not zero.
     - ``length``: the period.
     - ``initial``: the initial state as a formula in x.
-    - ``formulas``, ``outer``: formulas g_i and orders m_i. N is the sum over i of the x-derivatives of g_i of
-      order m_i.
+    - ``formulas``, ``outer``: formulas g_i and orders m_i. N is the sum of all (d/dx)^m_i g_i.
     - ``inner``: for each derivative of u in ``formulas``, its order and its symbol.
     - ``kept``: the fraction of the Fourier modes of N that is kept; the highest modes are replaced by zero.
     - ``timed``: True if N depends on the time.
@@ -77,10 +77,10 @@ class ExactExponential(CoordinateMap):
 
 
 def model_of(scene: Problem) -> Problem:
-    """Return the model problem u' = -u/2 + N(u) for one number u, on which the compiler passes run.
+    """Return the scalar model problem u' = L u + N(u), L = -1/2, for the compiler passes.
 
-    N(u) is u^2 + t if the nonlinear term of the scene depends on the time, otherwise u^2. The operations of a
-    step do not depend on the values of L and N.
+    N(u) is u^2 + t if the nonlinear term of the scene depends on the time, otherwise u^2. A step
+    has the same operations for all values of L and N.
     """
     assert scene.semilinear is not None
     (block,) = scene.state

@@ -57,8 +57,8 @@ def SemilinearScene(
 
     - ``L``: the factor by which the linear operator multiplies exp(i k x), a formula in the wave number ``k``
       and parameters, for example I*k for d/dx.
-    - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters, plus terms c Dx(g, m).
-      Here g is a formula in u, Dx(u, m), x, t and parameters, and c depends on neither u nor x.
+    - ``N``: a formula g0 plus terms c Dx(g, m). Here g0 and g are formulas in ``u``, its derivatives
+      Dx(u, m), ``x``, t and parameters, and c depends on neither u nor x.
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
     - ``dealias``: the fraction of the Fourier modes of N that is kept. True means 2/3, False means 1.
 
@@ -67,8 +67,8 @@ def SemilinearScene(
     u -> exp(t L) u + c.
 
     :class:`SceneError` is raised if L does not map real functions to real functions, or if a formula g
-    contains derivatives other than those of ``u``. Another reason for SceneError is an unknown symbol in a
-    formula, or a choice between formulas, for example Piecewise.
+    contains derivatives other than those of ``u``. Other reasons for SceneError are unknown symbols, and
+    functions such as Piecewise and Max.
     """
     parser = _Parser(name, u, k, x)
     reader, symbol = parser.reader, parser.symbol(L)
@@ -132,9 +132,9 @@ class _Parser:
         return tuple(read)
 
     def nonlinear(self, N: sympy.Expr) -> tuple[tuple[tuple[int, str], ...], dict[int, Expr]]:
-        """Return (order, symbol) of each derivative of u in N, and the formulas g_m by their orders m.
+        """Return (order, symbol) of each derivative of u in N, and a mapping from m to the formula g_m.
 
-        N is the sum of the x-derivatives of order m of g_m.
+        N is the sum of (d/dx)^m g_m over all m.
         """
         import sympy
 
@@ -180,9 +180,10 @@ class _Parser:
         return inner, terms
 
     def pointwise(self, formula: sympy.Expr, what: str, more: Iterable[str]) -> Expr:
-        """Convert a sympy formula in the symbols ``more``, t and parameters to an expression.
+        """Convert a sympy formula to an expression.
 
-        SceneError is raised if the formula contains a derivative, or a choice such as Piecewise or Max.
+        The formula may contain t, parameters, and the symbols with the names ``more``. SceneError is raised
+        if the formula contains a derivative, or a choice such as Piecewise or Max.
         """
         import sympy
 

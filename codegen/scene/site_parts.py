@@ -5,8 +5,8 @@ f(y).y over all parts is the velocity of a site, where the dot denotes the actio
 constant along the solutions of y' = f(y).y. The exact flow of the part over a time tau is then
 y -> exp(tau f(y)).y.
 
-The pairs along an axis form two sets: the first site of each pair has an even or an odd index. Two pairs of
-one set share no site, so their flows commute.
+The pairs along an axis form two sets. The index of the first site is even in one set, and odd in the other
+set. Two pairs of one set share no site, so their flows commute.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Pair:
     """The interaction of the sites i and i + offset.
 
     ``first`` contains the generators of site i, and ``second`` contains the generators of site i + offset.
-    The generators of a site are the components of an element of the Lie algebra, as formulas in the
+    The generators of a site are the components of an element of the Lie algebra. They may depend on the
     coordinates of both sites.
     """
 
@@ -133,7 +133,7 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
 
 
 def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, mpmath.mpf]:
-    """Return the values of all symbols for a site at point ``number`` and a neighbour at the next point.
+    """Return the values of the symbols of two neighbours: point ``number`` of ``orbit``, and the next point.
 
     ``partner`` contains the symbols of the neighbour's coordinates.
     """
@@ -186,7 +186,7 @@ def _with_outside(
 ) -> dict[str, mpmath.mpf]:
     """Return the values of all symbols in the field of a site.
 
-    The argument ``outside`` of the scene gives the states of the neighbours with the offsets ``absent``.
+    For an offset in ``absent``, ``sites.outside`` replaces the state of the neighbour.
     """
     values = dict(point)
     for k, offset in enumerate(sites.offsets):

@@ -63,8 +63,8 @@ def SiteScene(
     - ``y0``: the initial state of every site.
     - ``boundary``: "periodic" or "open".
     - ``outside``: at an open boundary, the state that replaces a missing neighbour, as a column of formulas
-      in ``y``, t and parameters, or as a mapping from offsets to columns. At a free end, the state must exert
-      no force: write zeros or ``y``.
+      in ``y``, t and parameters, or as a mapping from offsets to columns. At a free end, this state must
+      exert no force. Examples are zeros and ``y``.
     - ``parts``: the summands of the field. A part is a column of formulas in ``y``, or a
       :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: the energy of a site, and the energies of pairs of neighbours (:class:`Bond`).
@@ -72,8 +72,8 @@ def SiteScene(
       function must be constant along the solutions.
 
     :class:`SceneError` is raised in the cases of :func:`codegen.scene.FieldScene`, for offsets of different
-    lengths, and if ``outside`` lacks a neighbour. Other reasons are: the parts do not add up to the field, a
-    part has no exact flow, or the total energy of an autonomous scene is not constant.
+    lengths, and if ``outside`` has no state for a neighbour. Other reasons are: the parts do not add up to
+    the field, a part has no exact flow, or the total energy of an autonomous scene is not constant.
     """
     check_group(name, group)
     reader = Reader(name, list(y))
@@ -115,7 +115,7 @@ def _with_energy(
 ) -> Sites:
     """Add the energies of a site and of its bonds to ``sites``, and return the result.
 
-    SceneError is raised for a bond with the offset d if the field does not read the neighbours at d and -d.
+    For a bond with the offset d, ``sites.offsets`` must contain d and -d, else SceneError is raised.
     """
     if energy is None and not bonds:
         return sites
@@ -158,7 +158,7 @@ def _check_energy(problem: Problem) -> None:
 def with_frozen_neighbours(scene: Problem) -> Problem:
     """Return the problem of one site, with the coordinates of the neighbours as parameters.
 
-    The fixed states of the neighbours are near the initial state.
+    The values of these parameters are near the initial state of the site.
     """
     sites = scene.sites
     assert sites is not None

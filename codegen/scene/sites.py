@@ -114,8 +114,7 @@ class Sites:
     - ``force``: in a Hamiltonian scene, the force of all bonds on a site
       (:mod:`codegen.scene.hamiltonian_sites`).
     - ``energy``: the energy of a site plus the energies of all its bonds.
-    - ``bonds``: for each bond of a site, the index of the neighbour in ``offsets`` and the energy of the
-      bond.
+    - ``bonds``: for each bond of a site, a pair (k, energy). The neighbour has the offset offsets[k].
     """
 
     dimension: int

@@ -14,13 +14,12 @@ from codegen.scene.site_scene import with_frozen_neighbours
 
 
 def reads_only_static(scene: Problem) -> bool:
-    """Return True if all coordinates that the field of a scene reads are static.
+    """Return True if the field of a scene reads only static coordinates.
 
-    On a lattice, the coordinates of neighbours and the coordinates in the formulas ``outside`` of an open
-    boundary must be static, too.
+    On a lattice, the coordinates of neighbours must be static, too. At an open boundary, the formulas
+    ``scene.sites.outside`` must also contain only static coordinates.
     """
-    # Without a zero component of the generator, static coordinates are rare, and the formulas below are
-    # expensive.
+    # If no component of the generator is zero, static coordinates are rare. The expensive test is skipped.
     if not any(map(_vanishes, scene.roots)):
         return False
     one = scene if scene.sites is None else with_frozen_neighbours(scene)

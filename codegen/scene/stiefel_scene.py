@@ -28,15 +28,16 @@ if TYPE_CHECKING:
     import sympy
 
 MOST_ROWS = 8
-"""The largest number n of rows for which a scene contains formulas for the components of the generator.
+"""A scene with more than MOST_ROWS rows has no formulas for the components of the generator.
 
-The length of the formulas grows as n^3.
+For n rows, the length of the formulas grows as n^3.
 """
 
 TOLERANCE = 1e-10
 """The largest permitted absolute value of an entry of y0^T y0 - I.
 
-For X with n rows and the velocity V, the limit for entries of X^T V + V^T X is TOLERANCE n (1 + max |V_ij|).
+The limit for entries of X^T V + V^T X is TOLERANCE * n * (1 + max |V_ij|). Here X is a matrix with n rows,
+and V is the velocity at X.
 """
 
 
@@ -112,8 +113,10 @@ def _roots(
 
 
 def _check(problem: Problem, field: MatrixField) -> None:
-    """Raise :class:`SceneError` if the columns of the initial matrix are not orthonormal, or if V is not
-    tangent at the initial matrix or at a second matrix.
+    """Test whether the initial matrix has orthonormal columns, and whether the velocity is tangent.
+
+    :class:`SceneError` is raised if a test fails. The velocity is tested at two matrices: the initial matrix
+    and the result of :func:`_elsewhere`.
     """
     domain = FloatDomain(0.0)
     start = [float(value) for value in problem.initial(domain)]

@@ -155,8 +155,8 @@ def _joined(
     """Return the piecewise polynomial with the given rows of coefficients."""
     if outside == HOLD:
         return PiecewisePolynomial(tuple(xs), (xs[0], *xs), ((ys[0],), *rows, (ys[-1],)))
-    # A table with two points has no inner point, so its first point is the knot between two equal
-    # polynomials.
+    # The knots are the inner points. For a table with two points, the first point is the only knot, and
+    # the polynomials on both sides are equal.
     knots, starts = (xs[1:-1], xs[:-1]) if len(xs) > 2 else (xs[:1], (xs[0], xs[0]))
     return PiecewisePolynomial(tuple(knots), tuple(starts), tuple(rows if len(xs) > 2 else rows * 2))
 

@@ -25,7 +25,7 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 
     The last index of a site changes fastest. Every site has the initial state of the scene. If the scene is
     Hamiltonian, each site has the group T*G, and the Hamiltonian of the result is the total energy of the
-    lattice. If another scene defines an energy, the total energy is an invariant of the result.
+    lattice. If it is not Hamiltonian but defines an energy, the total energy is an invariant of the result.
 
     :class:`SceneError` is raised for a scene without sites, for a shape of the wrong length, and for too few
     or too many sites.
@@ -84,8 +84,8 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 def small(scene: Problem) -> Problem:
     """Return a small lattice of the scene as one system.
 
-    In a periodic lattice, no site is its own neighbour. In an open lattice, at least one site has all its
-    neighbours, unless this needs more than :data:`MOST_SITES` sites.
+    In a periodic lattice, no site is its own neighbour. In an open lattice, at least one site has all
+    neighbours. If this needs more than :data:`MOST_SITES` sites, the lattice is smaller.
     """
     assert scene.sites is not None
     offsets, dimension = scene.sites.offsets, scene.sites.dimension

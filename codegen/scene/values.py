@@ -5,4 +5,4 @@ from __future__ import annotations
 from codegen.ir.domain import Scalar
 
 Bindings = dict[str, Scalar]
-"""The value of each symbol in a formula, by the name of the symbol. All values belong to one domain."""
+"""A mapping from the names of symbols to their values. All values belong to one domain."""

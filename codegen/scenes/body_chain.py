@@ -3,8 +3,8 @@
 Each body has joints at x + R b and x - R b, where x is its centre of mass, R its rotation matrix, and b a
 constant vector. A stiff spring joins the point x - R b of a body to the point x' + R' b of the next body. The
 spring replaces the constraint of a ball joint (R. Grossman, P. S. Krishnaprasad and J. E. Marsden 1988, see
-``coupled_rigid_bodies``). The first body is joined to a fixed body with x = b and R = 1. At the free end, the
-joint of a fictitious next body coincides with the joint x - R b of the last body.
+``coupled_rigid_bodies``). A spring joins the point x + R b of the first body to the origin. The end of the
+chain is free.
 """
 
 from sympy import Matrix, Rational, eye

@@ -60,7 +60,7 @@ figures = [
     ),
     Orders(
         name="found_methods",
-        title="Errors for the dipole: methods found with orderconds solve",
+        title='Errors for the dipole: methods found with the command "orderconds solve"',
         caption="Methods of the families vcf and vcg beside VRKMK4 and VCG4 of the thesis.",
         halvings=5,
         orders=(4, 6),

@@ -2,8 +2,8 @@
 
 The equation is m' = f(m) x m with f = -I^-1 m and the inertia I (H. Marthinsen's thesis, section 2.2,
 equation (2.8)). The scene adds the term alpha m to f, where the parameter alpha is the isotropy. This term
-changes only the numerical solutions, because m x m = 0. In equation (2.19),
-the thesis prints the Lie-Euler step m -> exp(h (f + alpha m)) m without h.
+changes only the numerical solutions, because m x m = 0. The Lie-Euler step is m -> exp(h (f + alpha m)) m.
+Equation (2.19) of the thesis omits h.
 """
 
 from sympy import Matrix, Rational, cos, diag, sin

@@ -24,7 +24,7 @@ axis = Matrix(q[1:])
 def turned(real: Expr, v: Matrix) -> Matrix:
     """Return the vector v rotated by a unit quaternion.
 
-    The quaternion has the real part ``real``, and its imaginary part is the imaginary part of the attitude.
+    The quaternion has the real part ``real`` and the imaginary part ``axis``.
     """
     c = 2 * axis.cross(v)
     return v + real * c + axis.cross(c)

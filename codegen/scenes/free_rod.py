@@ -51,20 +51,19 @@ bending = sum(D * d.dot(d) for D, d in zip((GJ / 2, GJ / 2, EI - GJ / 2), turns,
 Ends = Mapping[Sequence[int], Sequence[sympy.Expr]]
 """Coordinates of additional cross sections, just beyond the ends of the rod.
 
-The key is (-1,) before the first section of the rod, and (1,) after the last section.
+The section before the rod has the key (-1,). The section after the rod has the key (1,).
 """
 
 normal = R[:, 0].cross(R[:, 1])
 FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
-"""Additional cross sections for free ends. The centres of the additional sections make all strains zero, even
-if R has rounding errors."""
+"""Additional cross sections for free ends. All strains between them and the ends are zero, even if R has
+rounding errors."""
 
 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:
     """Return the scene of a rod. The acceleration ``gravity`` acts in the direction of -e1.
 
-    ``ends`` contains additional cross sections beyond the ends of the rod. An end without an additional
-    section is free.
+    ``ends`` contains additional cross sections (:data:`Ends`). An end without an additional section is free.
     """
     parts = {"kinetic": kinetic, **({} if gravity is None else {"weight": MASS * gravity * x[0]})}
     return HamiltonianSiteScene(

@@ -53,7 +53,10 @@ W = G.point("w")
 
 
 def cubic(i: int, d: int) -> Expr:
-    """Return the mean E[y_i^3 x_d] as a polynomial in W. x are the whitened signals, and y = W x."""
+    """Return the mean E[y_i^3 x_d] as a polynomial in W.
+
+    The vector x contains the whitened signals, and y is W x.
+    """
     terms = product(PLACES, repeat=3)
     return sum(W[i, a] * W[i, b] * W[i, c] * moments[*sorted((a, b, c, d))] for a, b, c in terms)
 

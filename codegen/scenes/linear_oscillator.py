@@ -1,7 +1,7 @@
 """Linear oscillator with a time-dependent frequency, on T*R^4: every method reduces to a classical method.
 
 The Hamiltonian is H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (H. Marthinsen's thesis,
-paper 3, Table 4.1). In the group R^4 brackets vanish and exponentials are translations. Therefore RKMK, CG
+paper 3, Table 4.1). In the group R^4, brackets vanish, and exponentials are translations. Therefore RKMK, CG
 and CF methods are Runge-Kutta methods, and variational methods are symplectic partitioned Runge-Kutta
 methods.
 """

@@ -21,7 +21,7 @@ OWN = frozenset({"codegen", "orderconds"})
 
 
 class Neighbours(MetaPathFinder):
-    """Finds the neighbours with the given names in a folder."""
+    """An import hook for the modules ``names`` in the folder ``folder``."""
 
     def __init__(self, folder: Path, names: frozenset[str]) -> None:
         self.folder, self.names = folder, names

@@ -1,7 +1,7 @@
 """Heisenberg spins on a plane lattice: the Landau-Lifshitz equation with exchange, anisotropy and a field.
 
-Each site has a spin S of length one. The spin turns about the effective field H: S' = H x S. L. D. Landau and
-E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169) gave this equation, with damping in addition. H is the
+Each site has a spin S of length one. The spin turns about the effective field H: S' = H x S. The equation of
+L. D. Landau and E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169) has another term for damping. H is the
 sum of three terms: the exchange field, the anisotropy field and an external field. The exchange field is J
 times the sum of the four neighbouring spins. The lattice is periodic.
 

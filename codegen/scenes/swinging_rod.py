@@ -1,9 +1,8 @@
 """Geometrically exact rod that is clamped at one end and swings under gravity, a chain on T*SE(3).
 
 As in the scene ``free_rod``, the rod is a chain of N cross sections. Section i is at the distance i ds from
-the clamp. Each section is the middle of a piece of the length ds, so the rod ends ds/2 beyond section N.
-J. C. Simo and L. Vu-Quoc (Comput. Methods Appl. Mech. Engrg. 66 (1988) 125-161) compute the motion of such
-rods.
+the clamp. The free end of the rod has the distance ds/2 from section N. J. C. Simo and L. Vu-Quoc (Comput.
+Methods Appl. Mech. Engrg. 66 (1988) 125-161) compute the motion of such rods.
 """
 
 from sympy import eye

@@ -3,8 +3,8 @@
 The scene is from section 2.4.1 of H. Marthinsen's thesis (Figure 2.5). The points on the circles are (cos
 theta, sin theta) and (cos varphi, sin varphi). The function phi = (y - 8)^2 with y = (1 + cos theta) sin
 varphi is the squared distance of a point of the torus from the plane y = 8. Let gamma = dphi/dtheta and
-delta = dphi/dvarphi. The generator f = (-gamma, -delta) is the negative gradient of phi. The thesis prints
-phi = |y - 8|, but its gamma and delta are the derivatives of (y - 8)^2.
+delta = dphi/dvarphi. The velocity of (theta, varphi) is (-gamma, -delta). The thesis prints phi = |y - 8|,
+but its gamma and delta are the derivatives of (y - 8)^2.
 """
 
 from sympy import Matrix, Rational, atan2, cos, sin, symbols

@@ -37,7 +37,7 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
     """Return all helpers of emitted code.
 
     If ``batch`` is True, sine, cosine and the Stumpff functions also have variants without branches. If
-    ``batch`` is False, Stumpff functions in double precision use shorter polynomials near zero.
+    ``batch`` is False, Stumpff functions in double precision use short polynomials for z <= stumpff.SMALL.
     """
     listed = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
     listed.append(Snippet("choose", "choose"))
@@ -94,7 +94,7 @@ def _shared_angle(
     # Arguments far from zero are rare, so a separate function that is not inlined computes their c_k.
     far, small = f"{name}_far", float(stumpff.SMALL)
     listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-    # With three or more ``orders``, both polynomials would make the function too long for inlining in C.
+    # For three or more ``orders``, polynomials of both sizes would prevent the inlining in C.
     sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
     calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
     tiny = float(stumpff.TINY) if "tiny" in sizes else ""

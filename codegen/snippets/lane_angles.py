@@ -34,7 +34,7 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
     - ``largest``: the largest angle that can be reduced.
     - ``per_quarter``: 2/pi.
     - ``parts``: numbers whose sum is pi/2.
-    - ``round``: a number whose floating-point sum with 2x/pi is an integer.
+    - ``round``: the constant that rounds 2x/pi to an integer (see the docstring of this module).
 
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])

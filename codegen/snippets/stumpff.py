@@ -26,7 +26,7 @@ For z > 4 the closed form c_3 = (1 - c_1)/z has no cancellation, because c_1 < 1
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
-"""For z <= SMALL a short polynomial is used for c_k(z), and for z <= TINY the shortest polynomial."""
+"""Upper bounds of z for two short polynomials for c_k(z). The polynomial for z <= TINY is shorter."""
 
 PI = Fraction("3.14159265358979323846264338327950288")
 
@@ -40,16 +40,17 @@ LEFT = 10
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
-    """Return the largest z = a^2 for which c_k is computed, where a is the angle of a rotation.
+    """Return the largest z for which the Stumpff functions c_k(z) are computed.
 
-    For larger z the value of c_k is NaN, because too few digits of the rotated vector would be correct. Let
-    eps = 2^-bits, with bits = ``precision.bits``, be the relative rounding error of the angle. The error of
-    the rotated vector is a eps. The error of the field at the rotated vector is assumed to be 8 a eps.
+    For a rotation by the angle a, z is a^2. For larger z the value of c_k is NaN, because too few digits of
+    the rotated vector would be correct. Let eps = 2^-bits, with bits = ``precision.bits``, be the relative
+    rounding error of the angle. The error of the rotated vector is a eps. The error of the field at the
+    rotated vector is assumed to be 8 a eps.
 
     The angle of each of ``chain`` rotations is computed from the result of the preceding rotation
-    (:func:`codegen.ir.angle_depth.chain`). The error of the last vector is therefore a^chain 8^(chain-1) eps.
-    The largest angle is the highest power of two with an error of at most 2^-LEFT (:data:`LEFT`). But the
-    exponent is at least bits/6 and at most 2 bits/5, both rounded down.
+    (:func:`codegen.ir.angle_depth.chain`). Each further rotation multiplies the error by 8 a. The error of
+    the last vector is a^chain 8^(chain-1) eps. The largest angle is 2^m with the largest integer m such that
+    this error is at most 2^-LEFT. But m is at least bits/6 and at most 2 bits/5, both rounded down.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
@@ -62,7 +63,7 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
     """Return the coefficients of a Taylor polynomial of c_k that is accurate from z = 0 to z = ``last``.
 
-    The first omitted term has an absolute value of at most 2^-(bits + 3) c_k(0) at z = ``last``. The default
+    At z = ``last``, the absolute value of the first omitted term is at most 2^-(bits + 3) c_k(0). The default
     of ``last`` is SWITCH[k].
 
     >>> coefficients(1)[:3], len(coefficients(1)), len(coefficients(1, SMALL))
@@ -85,7 +86,7 @@ def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     The error is at most about 2^-(bits + 4) c_k(0). To lower the degree of the Taylor polynomial, multiples
     of shifted Chebyshev polynomials are subtracted. The value at z = 0 is exact.
 
-    The bound is below the rounding error, because the errors of the steps of a steady motion add up.
+    If z is the same in many steps, the errors add up. Therefore the bound is below the rounding error.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]
@@ -124,7 +125,7 @@ def constants(k: int, last: Fraction | int | None = None, precision: Precision =
 
 
 def curvatures(k: int, precision: Precision = DOUBLE) -> tuple[float, ...]:
-    """Return the coefficients of a Taylor polynomial of the second derivative of c_k, for z from 0 to 1.
+    """Return the coefficients of a Taylor polynomial for c_k''(z) on 0 <= z <= 1.
 
     >>> [round(1 / x) for x in curvatures(2)[:2]]
     [360, -6720]
