@@ -99,8 +99,9 @@ def test_a_program_at_an_equilibrium_is_judged_elsewhere():
     "name",
     ["abelian", "fold_zeros", "value_numbering", "equal_unknowns", "blocks", "factor_linear", "fuse"],
 )
-def test_a_broken_pass_is_the_compilers_fault(monkeypatch, name):
-    view, program = lowered("vcg", "midpoint", hamiltonian_scene("SO(3)"))
+@pytest.mark.parametrize("tableau", ["midpoint", pytest.param(full(2), marks=pytest.mark.slow)])
+def test_a_broken_pass_is_the_compilers_fault(monkeypatch, name, tableau):
+    view, program = lowered("vcg", tableau, hamiltonian_scene("SO(3)"))
     broken = getattr(passes, name).run
     monkeypatch.setattr(getattr(passes, name), "run", lambda p, *args: mapped(broken(p, *args), inverse))
     with pytest.raises(IllFormed, match="changed the results"):
