@@ -175,8 +175,7 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of the given order. The field of a term is the standard bracketing of a Lyndon word of
-    ordered trees."""
+    """Yield the terms of the given order. Each term belongs to a Lyndon word of ordered trees."""
 
     def product(word: Word) -> Element:
         return field(b"".join(reversed(word)))

@@ -5,7 +5,7 @@ families are:
 
 - For a Butcher tableau: ``rk``, ``cg`` and ``rkmk``. If no weight is zero, also ``sprk``, ``vcg``, ``vrkmk``.
 - For a commutator-free method: ``rk`` and ``cf``. If no weight is zero, also ``vcf``.
-- For a partitioned method (a pair of tableaux): ``prk``. If the pair is symplectic, only ``sprk_separable``.
+- For a partitioned method (a pair of tableaux): ``prk``, or ``sprk_separable`` if the pair is symplectic.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from orderconds.tableau import Tableau
 
 
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
-    """Return the families for which a complete file of ``tableau`` contains a claimed order.
+    """Return the families in which the file of ``tableau`` should claim an order.
 
     Families that need non-zero weights come last.
 

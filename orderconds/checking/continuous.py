@@ -24,7 +24,7 @@ from orderconds.tableau.extension import Extension
 def extension_order(tableau: Tableau) -> ExtensionOrder | None:
     """Return the order of the continuous extension of a tableau, or None if there is no extension.
 
-    The order is at most the claimed order plus one.
+    The search ends one order above the claimed order of the extension.
 
     >>> order = extension_order(Tableau.load("rk4"))
     >>> order.order, order.certificate, order.continuous
@@ -50,7 +50,7 @@ def extension_order(tableau: Tableau) -> ExtensionOrder | None:
 def _judged(
     method: RungeKutta, extension: Extension, ring: Ring, n: int
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Judge the conditions of order n for the powers of theta, up to the first power that fails."""
+    """Judge the conditions of order n for theta, theta^2, ... in turn, until a condition fails."""
     family = families.get("rk")
     verdicts: set[str] = set()
     for p in range(1, max(extension.degree, n) + 1):
@@ -66,7 +66,7 @@ def _judged(
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
     """Return the order condition for the coefficients of theta^p in the weights b_i(theta).
 
-    For these weights, the right-hand side for a tree with n vertices is multiplied by theta^n.
+    For p = n, the right-hand side is ``condition.rhs``. For other p, it is zero.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")
@@ -91,6 +91,6 @@ def _is_smooth(method: RungeKutta, extension: Extension, ring: Ring) -> bool | N
 
 
 def _equal(ring: Ring, x: Sequence[Element], y: Sequence[Element]) -> bool | None:
-    """Return whether two vectors are equal, or None if rounded coefficients do not decide."""
+    """Return whether two vectors are equal. Return None if rounding errors prevent a decision."""
     tests = [ring.is_zero(a - b) for a, b in zip(x, y, strict=True)]
     return False if False in tests else None if None in tests else True

@@ -106,7 +106,7 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 
 
 def _fraction(x: Constant) -> Fraction | None:
-    """Return the simplest fraction within the uncertainty of x, or None if :data:`CHANCE` rejects it."""
+    """Return the simplest fraction that agrees with x, or None if it may agree by coincidence."""
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
 
@@ -117,7 +117,7 @@ def _bits(x: Constant) -> int:
 
 
 def _surd(x: Constant, d: int) -> str | None:
-    """Return the text of a number p + q sqrt(d) with rational p and q within the uncertainty of ``x``."""
+    """Return a number p + q sqrt(d) that agrees with ``x``, as text. Here p and q are rational."""
     bits = _bits(x)
     root = root_of(d, 2 * bits)
     coefficients = relation([x.value, Fraction(1), root], bits)

@@ -31,7 +31,7 @@ STOPPED = "stopped"
 """The verdict on an order if a limit is reached before all conditions of the order are evaluated."""
 
 DOUBLE = "double"
-"""The certificate of an order whose conditions hold to double precision, but are not proved."""
+"""The certificate if the conditions hold to double precision, but no proof exists."""
 
 Tree = tuple[Key, Callable[[], OrderCondition]]
 """The key of a tree, and a function that returns the order condition of the tree."""
@@ -48,7 +48,7 @@ class FamilyOrder:
     - ``error_norm`` is the 2-norm of the residuals of all failing conditions, or None if it is unknown.
     - ``claimed`` is the order that the file claims, or None.
     - ``required`` is the least acceptable order, or None. If ``required`` is given, ``claimed`` is ignored.
-    - ``limit`` is the last completely checked order if a limit on order or work ended the search, else None.
+    - ``limit`` is equal to ``order`` if a limit on order or work ended the search, else None.
     - ``stopped`` is the number of evaluated conditions if a limit on the work ended the search
       (:class:`~orderconds.checking.limits.Limits`), else None.
     """
@@ -130,14 +130,14 @@ def family_order(
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``.
 
-    - ``claimed`` and ``required``: the claimed order and the required order, or None. The search ends, at
-      the latest, at the largest of the orders ``family.search_limit``, ``claimed + 1`` and ``required + 1``.
+    - ``claimed`` and ``required``: the claimed order and the required order, or None. No order above
+      ``max(family.search_limit, claimed + 1, required + 1)`` is checked.
     - ``bound``: the result for another family. The conditions of the other family are also conditions of
       ``family``, so the order in ``family`` is at most ``bound.order``.
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
     - ``brief``: if true, the search ends at ``bound.order``, and the result contains the failing conditions
-      of ``bound``. If false, the search ends there only if ``bound.order >= family.search_limit``.
+      of ``bound``. If false, ``bound`` is used only if ``bound.order >= family.search_limit``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get
@@ -158,8 +158,8 @@ def family_order(
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
     """Return a tuple with one condition of order ``order`` that the method of ``tableau`` violates.
 
-    No method of the family satisfies this condition (:meth:`~orderconds.families.Family.first_unmet`). The
-    tuple is empty if no such condition is known, or if the residual is a ball that contains zero.
+    The condition is ``family.first_unmet(order)``: no method of the family satisfies it. The tuple is
+    empty if no such condition is known, or if the residual is a ball that contains zero.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -177,7 +177,7 @@ def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure
 class _Search:
     """The search for the order of one method in one family.
 
-    ``spared`` decides whether a condition follows from other conditions.
+    ``spared`` describes which conditions follow from other conditions and are not evaluated.
     """
 
     family: Family
@@ -201,7 +201,7 @@ class _Search:
             known = len(self.sizes or ())
             verdicts, failing, whole = self._judged(n, n > expected, certificate == "decimal")
             if self.sizes and (failing or not verdicts.isdisjoint((STOPPED, "undecided"))):
-                # ``sizes`` contains only residuals up to the computed order n - 1.
+                # Remove the residuals of order n: the computed order is n - 1.
                 del self.sizes[known:]
             if not failing and STOPPED in verdicts:
                 done = self.meter.total
@@ -222,16 +222,16 @@ class _Search:
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
         """Evaluate the conditions of order n. Return the verdicts, the failing conditions and a flag.
 
-        If the flag is false, order n may have more failing conditions than those returned. If ``decimal`` is
-        true, some conditions of lower order hold only to the precision of the rounded coefficients.
+        If the flag is false, order n may have more failing conditions than those returned. Set ``decimal`` to
+        True if some conditions of lower order hold only to the precision of the rounded coefficients.
         """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # Balls do not prove the conditions from which a skipped condition follows.
-        # If ``decimal`` is true, the order is not proved in any case.
+        # With balls, conditions that follow from others are skipped only if ``decimal`` is true.
+        # Otherwise, the certificate could be ``exact`` without a proof.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -250,7 +250,7 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield batches of conditions that together imply every condition of order n, as pairs (batch, flag).
+    """Yield pairs (batch, flag). All batches together imply every condition of order n.
 
     The flag is true if there is only one batch.
     """

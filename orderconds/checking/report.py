@@ -120,7 +120,7 @@ class SymmetryOrder(Struct, frozen=True):
     at_least: bool = False
 
     def as_json(self) -> dict[str, object]:
-        """Return the entry of the order of symmetry in the JSON output of ``orderconds check``."""
+        """Return the order of symmetry as a dictionary for the JSON output of ``orderconds check``."""
         return {
             "family": self.family,
             "order": self.order,
@@ -182,8 +182,7 @@ class Report:
     def effective_symmetry(self) -> int | None:
         """The order of symmetry of an effectively symmetric method. For other methods, the value is None.
 
-        An effectively symmetric method of order p is symmetric to a higher order than 2 floor(p/2) + 1, but
-        not to all orders.
+        A method of order p is effectively symmetric if its order of symmetry is finite and larger than p + 1.
         """
         if self.symmetry is None or self.symmetry.order is None or self.symmetry.at_least:
             return None

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from orderconds.checking.report import Report
 
 LONGEST = 120
-"""The maximal number of LaTeX characters of a condition that is shown."""
+"""A condition is shown only if its LaTeX text has at most LONGEST characters."""
 
 
 def report_html(report: Report) -> str:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""Determines the largest radius of a ball for which the verdict is ``supported``.
+"""This constant gives the largest radius of a ball with the verdict ``supported``.
 
 For a condition of order n, this radius is RESOLUTION/n!.
 """
@@ -69,7 +69,7 @@ class Failure:
 
     @cached_property
     def size(self) -> Decimal:
-        """The residual (not its absolute value) as a decimal number of 20 digits."""
+        """The residual with its sign, as a decimal number of 20 digits."""
         if self.enclosure is not None:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:
@@ -113,8 +113,8 @@ def judge(
     The verdict on a condition is ``zero``, ``fails``, ``supported`` (the residual is a narrow ball that
     contains zero) or ``undecided`` (the residual is a wide ball that contains zero).
 
-    If ``balls_first`` is true and ``ring`` is a number field, each residual is first enclosed in a ball. This
-    is faster if most conditions fail. If the residuals in ``ring`` are balls and no condition fails, the
+    If ``balls_first`` is true and ``ring`` is a number field, balls may be computed before exact residuals.
+    This is faster if most conditions fail. If the residuals in ``ring`` are balls and no condition fails, the
     largest absolute residual is appended to the list ``sizes``.
 
     >>> from orderconds.tableau import Tableau, find

@@ -21,7 +21,7 @@ from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
 MOST_ROOTED, MOST_ORDERED = 8, 6
-"""The largest numbers of vertices of rooted trees and of forests of ordered trees in the test of symmetry."""
+"""The largest numbers of vertices in the test of symmetry: for rooted trees, and for ordered forests."""
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
@@ -30,8 +30,8 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
     Return None for other methods. The result is valid on vector spaces for Runge-Kutta methods, and on groups
     for commutator-free methods.
 
-    ``symmetric`` is True if the method is known to be symmetric. The field ``order`` of the result is then
-    None.
+    ``symmetric`` is True if the method is known to be symmetric. In this case,
+    the result has ``order=None`` (all orders).
 
     >>> symmetry_order(Tableau.load("rk4"), False).order, symmetry_order(Tableau.load("gauss2"), True).order
     (5, None)
@@ -56,7 +56,7 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
 def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
     """Return the label of the family, the series of one step, a function ``trees`` and a number N.
 
-    ``trees(n)`` yields the trees or forests with n vertices. N is the largest n in the test of symmetry.
+    ``trees(n)`` yields the trees or forests with n vertices. The test of symmetry uses n up to N.
     """
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):

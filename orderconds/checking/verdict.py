@@ -124,7 +124,7 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """If the coefficients of ``tableau`` are doubles, replace each certificate ``decimal`` by ``double``."""
+    """If the coefficients of ``tableau`` are doubles, rename the certificate ``decimal`` to ``double``."""
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
@@ -135,7 +135,7 @@ def _of_doubles(certificate: str) -> str:
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a hint that the doubles of a tableau agree with exact numbers, or an empty text."""
+    """Return a hint if the doubles of a tableau agree with exact numbers, else an empty text."""
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -153,7 +153,7 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
 def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...]) -> EmbeddedOrder | None:
     """Return the orders of the embedded method, or None if the tableau has no embedded method.
 
-    Families of ``wanted`` in which the stages depend on the weights are omitted.
+    The result omits families of ``wanted`` if their stages depend on the weights.
     """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
@@ -224,9 +224,9 @@ Reading = tuple[Tableau, Family, int | None]
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return additional families whose orders can be bounds of the orders in the families ``wanted``.
+    """Return additional families. The orders in these families can bound the orders in ``wanted``.
 
-    The result is empty below ``family.search_limit``, where a search needs no bounds.
+    The result is empty if each claimed or required order is below the ``search_limit`` of its family.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -234,7 +234,7 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the claimable families whose orders give bounds of the orders in other families.
+    """Return families in which the order of ``tableau`` bounds its orders in other families.
 
     Omit families with a label in ``labels``.
     """
@@ -270,7 +270,7 @@ def _beyond(
 
 
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
-    """Return the smallest upper bound of the order in ``family`` that ``computed`` contains.
+    """Return the smallest order in ``computed`` that is an upper bound of the order in ``family``.
 
     If order n in ``family`` implies order n in a family G, the order in G is an upper bound.
     """
@@ -284,7 +284,7 @@ def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | Non
 
 
 def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Map the labels of families to computed orders, without undecided orders."""
+    """Map the labels of families to computed orders. Undecided orders are omitted."""
     return {f.family: f.order for f in computed if f.decided}
 
 
@@ -298,7 +298,7 @@ def _settled(
 ) -> FamilyOrder | None:
     """Derive the order in ``family`` from the orders in other families.
 
-    Return None if no order follows, or if a search is sufficient (order below ``family.search_limit``).
+    Return None if no order follows. Orders below ``family.search_limit`` are not derived.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -328,7 +328,7 @@ def _settled_by(
 
 
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """If the computed order follows from ``facts``, replace the certificate ``decimal`` by ``ball`` (proved).
+    """Replace the certificate ``decimal`` by ``ball`` if the computed order follows from ``facts``.
 
     ``facts`` contains proved pairs (family, order).
     """
@@ -369,7 +369,7 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:
-    """Return the family with the label ``label`` of a claim in the file.
+    """Return the family with the label ``label``.
 
     Raise an InputError if the family does not exist, or does not accept the format of the tableau.
     """
@@ -394,7 +394,7 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 def _broken_claims(
     tableau: Tableau, computed: dict[str, bool | None], embedded: EmbeddedOrder | None
 ) -> Iterator[str]:
-    """Yield a message for each claim about a property or the embedded method that does not hold."""
+    """Yield messages about failing claims: claims about properties and about the embedded method."""
     for name, claimed in tableau.claims.properties.items():
         holds = computed.get(name)
         if holds is not claimed:
@@ -421,7 +421,7 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 
 
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
-    """Yield a message for each claimable family for which the file contains no claimed order.
+    """Yield a message for each family in which the file should claim an order, but does not.
 
     If a proof exists, the coefficients of ``enclosed`` are balls (intervals) that contain the exact
     coefficients.

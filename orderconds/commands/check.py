@@ -77,8 +77,8 @@ WIDTH = 200
 @click.option(
     "--require-claims",
     is_flag=True,
-    help="Exit with status 1 if a tableau claims no order in the checked families. In a DIR, do not "
-    "skip a file without a tableau if its data resemble a tableau.",
+    help="Exit with status 1 if a tableau claims no order in the checked families. In a DIR, also "
+    "read files that only resemble a tableau, such as a JSON file with a matrix.",
 )
 @click.option(
     "--skip-others",
@@ -138,7 +138,7 @@ def command(
     order. If a limit, such as --max-seconds, ends the computation, the computed order is a lower bound.
 
     If a directory is given, all tableau files below it are checked, and other files are skipped. With
-    --require-claims, a file with data similar to a tableau, such as a matrix with another name, is an error.
+    --require-claims, files that only resemble a tableau, such as a JSON file with a matrix, cause an error.
 
     The exit status is 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file cannot be read.
 
@@ -202,7 +202,7 @@ def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: boo
 
 
 def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
-    """Check tableaux in parallel, and yield the outcomes in the sequence of ``jobs``."""
+    """Check tableaux in parallel. Yield the outcomes in the same order as ``jobs``."""
     subject = jobs[0].path if len(jobs) == 1 else f"{len(jobs)} tableaux"
     with screen.counting(f"checking {subject}", len(jobs)) as done, _without_collection(jobs):
         for job, outcome in zip(jobs, in_processes(_checked, jobs), strict=True):
@@ -216,7 +216,7 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Disable garbage collection for a single job, because one check creates little garbage."""
+    """Disable garbage collection if there is only one job."""
     collects = gc.isenabled()
     if len(jobs) == 1:
         gc.disable()
@@ -283,7 +283,7 @@ def _checked(job: _Job) -> _Outcome:
 def _excused(arguments: Sequence[str]) -> set[str]:
     """Return the names of the tableaux that need no proof.
 
-    The files ``DECIMAL`` in the directories of ``arguments`` list such names, in lines "NAME: reason".
+    The names come from the file ``DECIMAL`` in each given directory. A line is "NAME: reason".
     """
     names = set[str]()
     for argument in arguments:
@@ -297,7 +297,7 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
     """Yield the files to check, with each directory replaced by the tableau files below it.
 
-    If ``strict`` is true, a file without a tableau is not skipped if its data resemble a tableau
+    If ``strict`` is true, files that only resemble a tableau are also yielded
     (:func:`~orderconds.exchange.folder.reason_to_skip`).
     """
     for argument in arguments:

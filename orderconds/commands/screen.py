@@ -48,7 +48,7 @@ def drawing_style(plain: bool = False) -> Style:
 def working(message: str) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows a message.
 
-    The context manager returns a function that replaces the message by a new one. Without a terminal,
+    After ``with working(...) as show``, the call ``show(text)`` replaces the message. Without a terminal,
     messages are shown only with ``--verbose``, as lines on stderr.
 
     >>> with working("deriving"):
@@ -70,8 +70,8 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows the progress of work on several items.
 
-    The context manager returns a function to call with the name of each finished item. ``total`` is the
-    number of items, or None if this number is unknown.
+    After ``with counting(...) as done``, call ``done(name)`` for each finished item. ``total`` is the number
+    of items, or None if this number is unknown.
     Without a terminal, progress is shown only with ``--verbose``, as lines on stderr.
 
     >>> with counting("measuring", total=2) as done:

@@ -170,7 +170,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # An invalid name is refused before the search, because a search may take hours.
     verify_name(options["name"], "--name")
-    # Do not count trees of the requested order p: a symmetric method of odd order p - 1 has order p.
+    # Count trees only up to order p - 1. If p is even, symmetric methods need no conditions of order p.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
@@ -184,7 +184,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
             raise InputError(
                 "no such folder", where=f"{option} {given}", expected="a file in an existing folder"
             )
-    # Path.resolve raises a RuntimeError if a link points to itself.
+    # os.path.realpath accepts a link to itself, but Path.resolve raises a RuntimeError.
     if output and path and os.path.realpath(output) == os.path.realpath(path):
         raise InputError(
             "--checkpoint and --output name the same file",

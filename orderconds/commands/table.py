@@ -97,8 +97,8 @@ class Butcher(TypedDict):
 def butcher(method: str) -> Butcher:
     """Return the order and the Butcher tableau of a method.
 
-    ``method`` is the name of a tableau, or FAMILY:NAME. Without FAMILY, the order is computed
-    in the family in which the tableau claims the highest order.
+    ``method`` is the name of a tableau, or FAMILY:NAME. Without FAMILY, the family with
+    the highest claimed order is used.
 
     >>> butcher("vrkmk(1):kutta3")["order"], butcher("rkmk(0):kutta3")["order"]
     (3, 2)

@@ -1,7 +1,8 @@
 """Options with several values, such as ``--method A B C``.
 
-After the first argument of a :class:`Variadic` command, a repeatable option accepts several values, as in
-``bench dipole --method cf4 rkmk:rk4``. Before the first argument, a repeatable option accepts one value.
+After the first positional argument of a :class:`Variadic` command, a repeatable option accepts several
+values, as in ``bench dipole --method cf4 rkmk:rk4``. Before the first argument, a repeatable
+option accepts one value.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ class Variadic(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Replace ``-m a b`` by ``-m a -m b``, then parse the arguments with click. Click expects one value
-        after each name of an option.
+        after each ``-m``.
         """
         options = [p for p in self.params if isinstance(p, click.Option)]
         repeated = {name for p in options if p.multiple for name in p.opts}

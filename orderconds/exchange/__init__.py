@@ -6,7 +6,7 @@ coefficients do not change. All formats except TOML and JSON omit the table ``[p
 A number from another program is a double, a rounded decimal or exact:
 
 - A short binary fraction in a NumPy archive, for example 0.375, is exact. Other floats there are doubles.
-- A decimal that was probably printed from a double, for example 0.3333333333333333, is this double.
+- A decimal that was probably printed from a double is a double, for example 0.3333333333333333.
 - Other decimals with at least 12 significant digits are rounded (suffix ``~``).
 - Shorter decimals are exact.
 """

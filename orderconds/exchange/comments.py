@@ -23,7 +23,7 @@ def escaped(text: str) -> str:
 
 
 def unescaped(text: str) -> str:
-    r"""Invert :func:`escaped`: return the text from which :func:`escaped` made ``text``.
+    r"""Return the original of an escaped text. This is the inverse of :func:`escaped`.
 
     >>> unescaped(escaped("a\nb */ c\\d")) == "a\nb */ c\\d"
     True

@@ -35,7 +35,7 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return a copy of ``data`` with floats for strings such as '1' and '0.5d' in lists and tables."""
+    """Copy ``data``. Strings such as '1' and '0.5d' in lists and tables become floats."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

@@ -21,8 +21,8 @@ SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h
 """The suffixes of files that may contain a tableau."""
 
 EXCUSES = "DECIMAL"
-"""The name of a text file in a folder. The file lists the tableaux in the folder that need no proof of their
-order, even with ``orderconds check --certified``."""
+"""The name of a text file in a folder. The file lists tableaux. For these tableaux,
+``orderconds check --certified`` requires no proof of the order."""
 
 NO_KEY = "contains no key of a tableau, such as family, A or b"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)
@@ -48,8 +48,8 @@ class Folder:
 def scan(folder: str | Path, *, strict: bool = False) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched.
 
-    If ``strict`` is true, the field ``tableaux`` of the result also contains files without a tableau whose
-    data resemble a tableau (see :func:`reason_to_skip`).
+    If ``strict`` is true, the field ``tableaux`` of the result also contains files that only resemble a
+    tableau (see :func:`reason_to_skip`).
 
     >>> from orderconds.tableau.library import root
     >>> files = scan(root())
@@ -93,7 +93,7 @@ def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return the reason to skip a file, or an empty text if the file must be read.
 
     A damaged file must be read, because reading it shows the error to the user. If ``strict`` is true, a file
-    that resembles a tableau must be read, even without a key or array of a tableau.
+    that resembles a tableau must be read, too, for example a JSON file with a matrix.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root

@@ -1,6 +1,6 @@
 r"""Tableaux in LaTeX, as a Butcher tableau or as named matrices.
 
-A Butcher tableau is an array with lines: ``\begin{array}{c|cc} ... \end{array}``. A named matrix has
+A Butcher tableau is an array with rules: ``\begin{array}{c|cc} ... \end{array}``. A named matrix has
 the form ``A = \begin{pmatrix} ... \end{pmatrix}``.
 """
 

@@ -30,8 +30,7 @@ def _number(x: Fraction) -> str:
 def _python(x: Expression, tight: int) -> str:
     """Return x as Python source, in parentheses if the larger expression around x requires them.
 
-    ``tight`` is 1 for the first factor of a product and after a minus sign, 2 for other factors and for
-    divisors, and 0 elsewhere.
+    ``tight`` is 1 if a sum requires parentheses, 2 if a product also requires parentheses, and 0 otherwise.
     """
     if isinstance(x, Constant):
         if x.is_double:

@@ -3,7 +3,7 @@
 
 If ``A_exact`` is missing, the coefficients are the doubles in ``A``. Arrays of Python objects are refused.
 The array ``order`` contains the claimed order in the family of the tableau. The array ``claims`` contains
-claimed orders in given families as text, for example ``rk=4``.
+families and claimed orders as text, for example ``rk=4``.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
 The file is parsed, not executed. An assignment may contain lists, tuples, numbers, arithmetic, square roots,
 names from earlier assignments, and constructors of arrays and of exact numbers from NumPy, SymPy and
-``fractions``. Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. The file is refused if a
-statement that cannot be evaluated may change an array of the tableau.
+``fractions``. Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. Some statements, such as
+loops, are not evaluated. If they may change an array of the tableau, the file is refused.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha"
 HINT = "write the numbers themselves, or execute the file with 'orderconds check --execute'"
 SAFE_FUNCTIONS = ("print", "len", "sum", "abs", "min", "max", "range", "round", "repr", "str")
 SAFE_METHODS = ("sum", "mean", "copy", "tolist", "transpose", "all", "any", "allclose", "isclose")
-"""Functions and methods that change none of their arguments if a call has at most two positional arguments.
+"""With at most two positional arguments, these functions and methods change none of their arguments.
 With more arguments, only ``print`` is safe, because a NumPy function may store its result in the third
 argument."""
 SAFE_KEYWORDS = ("axis", "dtype", "sep", "end", "precision", "dps")
@@ -99,7 +99,7 @@ def reason_to_skip(content: bytes) -> str:
 
 
 def is_plainly_other(content: bytes) -> bool:
-    """Return True if a module assigns no expression with a list or a tuple to A, a or b.
+    """Return True if the values of the variables A, a and b contain no list or tuple.
 
     Return False for invalid source, because it may contain a tableau.
 
@@ -204,7 +204,10 @@ def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
 
 
 def _define(statement: Definition, values: Values) -> None:
-    """Store a function or class as an unknown value, with the variables that a later call may change."""
+    """Store a function or class as an unknown value, together with all variables in its definition.
+
+    A call of the function may change these variables.
+    """
     # The body of a class is executed at once, but the bodies of its methods are not.
     parts: list[ast.AST] = []
     called: list[ast.expr] = []
@@ -232,7 +235,7 @@ def _define(statement: Definition, values: Values) -> None:
 
 
 def _activate(names: Iterable[str], node: ast.AST, values: Values) -> None:
-    """Add ``names`` to the active variables if ``node`` may assign a function or an instance to them."""
+    """Add ``names`` to ``values.active`` if their new values may be functions or instances of classes."""
     definitions = ast.Lambda | ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
     if _mentioned(node) & values.active or any(isinstance(x, definitions) for x in ast.walk(node)):
         values.active.update(names)
@@ -264,7 +267,7 @@ def _mentioned(node: ast.AST) -> set[str]:
 
 
 def _bound(node: ast.AST) -> tuple[set[str], set[str]]:
-    """Return the variables that a part of the module assigns, and the variables whose values it changes.
+    """Return the variables that a part of the module assigns, and the variables that it modifies in place.
 
     >>> [sorted(names) for names in _bound(ast.parse("for k in y: np.array = x[0] = 1"))]
     [['k'], ['np', 'x']]
@@ -293,7 +296,7 @@ def _bound(node: ast.AST) -> tuple[set[str], set[str]]:
 
 
 def _unsafe_names(node: ast.AST) -> set[str]:
-    """Return the names of :data:`UNSAFE_NAMES` in a part of the module."""
+    """Return the names from :data:`UNSAFE_NAMES` that occur in a part of the module."""
     attributes = {x.attr for x in ast.walk(node) if isinstance(x, ast.Attribute)}
     imported = {x.name.partition(".")[0] for x in ast.walk(node) if isinstance(x, ast.alias)}
     return (_mentioned(node) | attributes | imported) & UNSAFE_NAMES
@@ -363,7 +366,7 @@ def _import(statement: ast.ImportFrom, values: Values) -> None:
 
 
 def _is_script_part(statement: ast.If, values: Values) -> bool:
-    """Return True for ``if __name__ == "__main__":``, whose body an import skips."""
+    """Return True for ``if __name__ == "__main__":``. An import skips its body."""
     return "__name__" not in values.known and ast.unparse(statement.test) in (
         "__name__ == '__main__'",
         "'__main__' == __name__",
@@ -426,7 +429,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
 
 
 def _row(cells: Cells) -> Cells:
-    """Convert a matrix with one row or one column, but no other cells, to a list of numbers."""
+    """Convert a matrix with one row or one column to a list. Return other cells unchanged."""
     if isinstance(cells, list) and cells and isinstance(cells[0], list):
         if len(cells) == 1:
             return cells[0]

@@ -34,8 +34,8 @@ NARROW = ("16", "32", "complex", "int", "bool")
 """Parts of the names of types such as ``float32`` and ``int64``. An array of such a type is not evaluated,
 because the type is complex or cannot store all doubles."""
 COPYING_CALLS = ("array", "Matrix", "ImmutableMatrix", "matrix")
-"""Constructors of arrays that copy their argument and its rows. ``list`` and ``tuple`` share the rows, and
-``asarray`` may return its argument."""
+"""Constructors of arrays that copy their argument and its rows. ``list`` and ``tuple`` do not copy the
+rows. ``asarray`` may return its argument without a copy."""
 QUOTIENT_CALLS = ("Fraction", "Rational")
 ROOTS = {"sqrt": 2, "cbrt": 3}
 LIBRARIES = ("fractions", "decimal", "math", "numpy", "sympy", "mpmath", "jax", "cupy", "autograd")
@@ -57,7 +57,7 @@ class Array:
     """If this integer is equal for two arrays, a change of one array may change the other."""
 
     def parts(self) -> set[int]:
-        """Return the values of :attr:`memory` of this array and of its rows."""
+        """Return the integers :attr:`memory` of this array and its rows."""
         return {self.memory}.union(*(x.parts() for x in self.items if isinstance(x, Array)))
 
 
@@ -86,8 +86,8 @@ class _NotLiteral(Exception):
 class Values:
     """The names that a module has assigned so far, with their values.
 
-    ``text`` is the source of the module. ``named`` contains the names of the numbers that a comment
-    ``# numbers: {...}`` defines.
+    ``text`` is the source of the module. A comment ``# numbers: {...}`` can define numbers. ``named``
+    contains the names of these numbers.
 
     >>> values = Values("x = 2*(1 - sqrt(2))", ())
     >>> values.assign("x", values.value(ast.parse(values.text).body[0].value))
@@ -101,12 +101,11 @@ class Values:
     functions: dict[str, str] = field(default_factory=dict)
     """A map from the imported name of a function to its original name."""
     sources: dict[str, tuple[frozenset[str], frozenset[int]]] = field(default_factory=dict)
-    """A map from an unknown variable to the variables from which its value may come, and to
-    :attr:`Array.memory` of their arrays at the time of the assignment. Both sets are empty for an evaluated
-    variable.
+    """A map from a variable to two sets: names of variables, and integers :attr:`Array.memory` of arrays. An
+    unknown value may refer to these variables and arrays. Both sets are empty for an evaluated variable.
     """
     active: set[str] = field(default_factory=set)
-    """The variables whose use may execute code of the module: functions, classes and their instances."""
+    """Names of functions, classes and instances. The use of such a name may execute code of the module."""
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
 
@@ -120,7 +119,7 @@ class Values:
             return Computed(f"{problem.found}", node.lineno)
 
     def assign(self, name: str, value: Value, mentioned: Collection[str] = ()) -> None:
-        """Assign a value to a name, except to a name in ``named``, which a comment defines.
+        """Assign a value to a name. Do nothing if ``named`` contains the name.
 
         If the right-hand side of the assignment is not evaluated, ``mentioned`` lists the variables in it.
         """
@@ -140,7 +139,7 @@ class Values:
             self.sources[name] = traced
 
     def _traced(self, names: Collection[str]) -> tuple[frozenset[str], frozenset[int]]:
-        """Return the entry of :attr:`sources` for a variable whose value may come from ``names``."""
+        """Return the two sets in :attr:`sources` for an unknown value that may refer to ``names``."""
         reached, memories = set(names), set[int]()
         for name in names:
             more, shared = self.sources.get(name, (frozenset(), frozenset()))
@@ -167,7 +166,10 @@ class Values:
         return False
 
     def _forget_others(self, changed: Array, line: int) -> None:
-        """Mark each array as unknown that may share memory with ``changed``, but does not contain it."""
+        """Mark arrays as unknown if they may share memory with ``changed``.
+
+        Exceptions are ``changed`` itself and arrays with ``changed`` as a row.
+        """
         for name, other in self.known.items():
             if isinstance(other, Array) and changed.memory in other.parts() and not _contains(other, changed):
                 self.known[name] = Computed("another statement may change the value", line)
@@ -228,7 +230,7 @@ class Values:
         raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
 
     def _source(self, node: ast.expr) -> str:
-        """Return a decimal as in the source, because the syntax tree contains only the nearest double."""
+        """Return the source text of a decimal. The syntax tree contains only the nearest double."""
         if not self._lines:
             self._lines = self.text.encode().splitlines(keepends=True)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""
@@ -332,8 +334,8 @@ def _require_digits(node: ast.Call) -> None:
     """Raise an error if a call such as ``Float('0.577', 2)`` drops digits of its text."""
     text = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
     digits = sum(x.isdigit() for x in text) if isinstance(text, str) else 17
-    # The keyword ``precision`` is in bits, and one bit corresponds to log10(2) = 0.30103 digits. The text
-    # may contain two more digits.
+    # The keyword ``precision`` is in bits, and one bit corresponds to log10(2) = 0.30103 digits. The
+    # text of the number may have two digits more than this precision.
     allowed = [(x, 1.0, 0) for x in node.args[1:]]
     allowed += [(k.value, 0.30103, 2) if k.arg == "precision" else (k.value, 1.0, 0) for k in node.keywords]
     for given, factor, more in allowed:
@@ -362,12 +364,12 @@ def _array(function: str, given: Value) -> Value:
 
 
 def _copy(value: Value, integral: bool) -> Value:
-    """Copy an array and its rows with the given ``integral``, and return other values unchanged."""
+    """Copy an array and its rows, and set ``integral`` in the copies. Return other values unchanged."""
     return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 
 def _twin(value: Array, integral: bool) -> Array:
-    """Return a new Array with the same ``memory``, because ``asarray`` may return its argument."""
+    """Return a new Array with the same ``memory``: a change of one array may change the other."""
     items = [_twin(x, integral) if isinstance(x, Array) else x for x in value.items]
     return Array(items, integral, value.memory)
 
