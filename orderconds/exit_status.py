@@ -48,7 +48,7 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """The exception that :func:`past_click` raises instead of ``cause``."""
+    """The exception that :func:`past_click` raises. ``cause`` is the exception that is replaced."""
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()
@@ -83,7 +83,7 @@ class Run:
         click.echo(text)
 
     def end(self, error: BaseException) -> int:
-        """Print the message of an error, with ``--json`` also as JSON, and return the exit status.
+        """Print the message of an error, and return the exit status. With ``--json``, also print JSON.
 
         >>> Run(as_json=True).end(InputError("a row of 3", where="x.toml", expected="2 entries"))
         {
@@ -180,7 +180,7 @@ def past_click() -> Iterator[None]:
 
 
 def _silence_stdout() -> None:
-    """Redirect a closed stdout to the null device, because Python would report an error at exit."""
+    """Redirect a closed stdout to the null device. Otherwise, Python would report an error at exit."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 

@@ -37,8 +37,8 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     may be a header of one of two kinds:
 
     - In a tableau, the first cell is ``c``, and the other cells begin with ``a``: ``c,a1,a2``.
-    - In other tables, each cell is a text such as ``time (s)``. The first cell is not an array name
-      from ``names``.
+    - In other tables, each cell of the header is a text such as ``time (s)``. The first cell is not an
+      array name from ``names``.
 
     Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
 
@@ -52,7 +52,7 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     delimiter = max(DELIMITERS, key=lambda mark: sum(mark in line for line in lines))
     table = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
     rows = [tuple(cell.strip() for cell in row) for row in table]
-    # Rows are filtered, not lines, because a line inside a quoted cell may begin with #.
+    # A line inside a quoted cell may begin with #. Such a line is not a comment.
     rows = [row for row in rows if any(row) and not _is_comment(row[0])]
     if rows and _is_header(rows[0], names):
         return Rows(tuple(rows[1:]), rows[0])

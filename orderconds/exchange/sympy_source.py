@@ -1,4 +1,4 @@
-"""Conversion of tableaux to and from SymPy matrices and Python source that uses SymPy."""
+"""Conversion between tableaux, SymPy matrices, and Python source that uses SymPy."""
 
 from __future__ import annotations
 
@@ -58,8 +58,8 @@ def write(data: Data) -> bytes:
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
     """Yield the name and the definition of each named number, after the numbers in its definition.
 
-    A definition is a formula, or defines a real root of a polynomial by the coefficients in descending degree
-    and the index of the root among the real roots.
+    A definition is a formula or a pair (coefficients, index). The pair defines a real root of a polynomial.
+    The coefficients are in descending degree. The real roots are numbered from 0, in ascending order.
     """
     remaining = json_table(entries.get("numbers", "{}"), "numbers")
     while remaining:

@@ -1,7 +1,7 @@
 """Coefficients as unevaluated expressions, for file formats without named numbers.
 
-The formula of a named number replaces its name. Rounded decimals keep their digits. Only operations with 0
-and 1 are simplified.
+In each coefficient, formulas replace the names of numbers. Rounded decimals keep their digits. Only
+operations with 0 and 1 are simplified.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ ONE = Constant(Fraction(1))
 class CoefficientTooLong(TableauError):
     """The error for a coefficient whose text is too long for a file.
 
-    A tableau file can give names to numbers. The text of a coefficient becomes longer when the definitions of
-    these numbers replace their names.
+    A tableau file can give names to numbers. When definitions replace these names,
+    the text of a coefficient becomes longer.
     """
 
 
@@ -151,9 +151,9 @@ class UnevaluatedNumbers:
 
 
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
-    """Return the tableau with the unevaluated coefficients in ``file``.
+    """Return a copy of ``tableau``. Its coefficients are the unevaluated expressions from ``file``.
 
-    The definitions in the table ``numbers`` of the file replace the names of numbers.
+    In these expressions, definitions from the table ``numbers`` replace the names of numbers.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'

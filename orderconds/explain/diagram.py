@@ -12,9 +12,9 @@ An edge is *plain*, *outward* or *inward*. Outward and inward edges occur in act
 partitioned methods with the coefficients a_ij and ahat_ij (:mod:`orderconds.trees.directed`):
 
 - *outward*: the edge points from the parent to the child and represents a coefficient a_ij. The child is a
-  velocity, a derivative of the Hamiltonian in p or in the momentum mu.
+  derivative of the Hamiltonian in p or in the momentum mu. Such a vertex is called a velocity.
 - *inward*: the edge points from the child to the parent and represents a coefficient ahat_ij. The child is a
-  coadjoint action or a force, a derivative of the Hamiltonian in q.
+  coadjoint action, or a derivative of the Hamiltonian in q. Such a derivative is called a force.
 """
 
 from __future__ import annotations
@@ -49,10 +49,11 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right.
 
-    ``label`` is the printed text of a letter, and empty for all other vertices.
+    If ``sign`` is ``letter``, ``label`` is the printed text of the letter. Otherwise ``label`` is empty.
 
-    For a force with n > 0 velocities in an action tree, ``legs`` is the pair (m, n), where m velocities
-    precede the edge to the parent. For all other vertices, ``legs`` is None.
+    Let the vertex be a force (a derivative of the Hamiltonian in q) in an action tree, with n > 0 outward
+    edges. Then ``legs`` is the pair (m, n): m outward edges are to the left of the edge to the parent.
+    For all other vertices, ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -110,7 +111,7 @@ def with_directions(tree: directed.DirectedTree) -> Diagram:
 
 
 def action(tree: Velocity) -> Diagram:
-    """Return the diagram of an action tree. Velocities precede forces and transports.
+    """Return the diagram of an action tree. Branches with velocities are to the left of all other branches.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]

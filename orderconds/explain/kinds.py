@@ -36,7 +36,7 @@ class Kind:
     - ``diagram`` returns the drawing of a member.
     - ``names`` returns the text of the elementary differential or of the elementary Hamiltonian of a member.
 
-    The members index order conditions of the family of methods that :meth:`family` returns. If
+    Each member has an order condition in the family of methods that :meth:`family` returns. If
     ``independent`` is true, these order conditions are independent of each other.
 
     >>> kind = get("rooted")
@@ -55,7 +55,7 @@ class Kind:
     def family(self) -> Family:
         """Return the family of methods whose order conditions ``orderconds trees --explain`` shows.
 
-        The command shows each tree of this kind with the order condition that the tree has in this family.
+        The command shows each tree with its order condition.
         """
         for name in families.names():
             family = families.family_class(name)
@@ -132,7 +132,7 @@ def of_family(label: str) -> Kind | None:
 def refuse_too_many_trees(family: Family, order: int) -> None:
     """Raise an InputError if a single order has more than :data:`MAX_TREES` trees of ``family``.
 
-    The function tests all orders from 1 to ``order``, but none above ``family.order_bound``.
+    The tested orders are at most ``order`` and at most ``family.order_bound``.
 
     >>> refuse_too_many_trees(families.get("rk"), 12)
     """
@@ -153,8 +153,7 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
 def named_by(condition: OrderCondition) -> str:
     """Return the elementary differential or Hamiltonian of the tree of a condition.
 
-    The result is ``condition.tree`` if the conditions of the family are not indexed by one of the kinds in
-    this module.
+    Return ``condition.tree`` if :func:`of_family` returns None for the family of the condition.
 
     >>> from orderconds.derivation import derive
     >>> print(*map(named_by, derive("vcg", order=2).conditions))
@@ -295,8 +294,8 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # A vertex becomes white if its edge to the parent points to the parent, else black, because the same
-        # byte encodes direction and colour.
+        # Here each byte is read as a colour, not as a direction. A vertex below an inward edge is white, and
+        # all other vertices are black.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

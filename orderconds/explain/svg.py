@@ -28,8 +28,8 @@ RAISED = str.maketrans("()0123456789", "⁽⁾⁰¹²³⁴⁵⁶⁷⁸⁹")
 class Layout:
     """A vertex with its branches and its horizontal position ``x`` relative to its parent.
 
-    ``left`` and ``right`` contain the horizontal positions of both ends of each level of the subtree,
-    relative to the vertex. The unit of length is the least distance between neighbouring vertices.
+    Level k of the subtree extends from ``left[k]`` to ``right[k]``, relative to the vertex. The unit of
+    length is the least distance between neighbouring vertices.
     """
 
     x: float
@@ -67,7 +67,7 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # If ``vertex.legs`` is not None, a text such as ``›*`` is drawn to the right of the vertex.
+    # A vertex with ``legs`` needs room for a text to its right, such as ``›*``.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 
@@ -124,8 +124,8 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Yield the SVG elements of the diagram and of its caption. The left end of the block is ``x``, and
-        the vertical position ``ground`` separates the diagram from the caption."""
+        """Yield the SVG elements of the diagram and of its caption. ``x`` is the left border. The diagram
+        is above the vertical position ``ground``, and the caption is below."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)

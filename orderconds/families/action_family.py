@@ -37,8 +37,8 @@ class ActionFamily(Family):
     """A family with one order condition for each action tree.
 
     The left-hand side of the condition of the tree t is ``sum_i b_i tau_t(i)``. The number ``tau_t(i)`` is
-    the coefficient of t in the velocity of stage i, an element of the Lie algebra. The conditions of order n
-    belong to the trees with n vertices.
+    the coefficient of t in the velocity of stage i. Velocities are elements of the Lie algebra. The
+    conditions of order n belong to the trees with n vertices.
 
     The function :meth:`conditions` returns independent conditions. The function :meth:`decisive_conditions`
     is faster, but its conditions can be dependent.
@@ -84,9 +84,10 @@ class ActionFamily(Family):
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
         """Return one polynomial for each dependent condition of the given order.
 
-        The keys of the result are the trees of the dependent conditions. The polynomial expresses the
-        left-hand side of the dependent condition by those of independent conditions. A polynomial is a tuple
-        of terms (q, trees). A term is the number q times the left-hand sides of the conditions of ``trees``.
+        The keys of the result are the trees of the dependent conditions. The polynomial equals the
+        left-hand side of the dependent condition. The variables of the polynomial are the left-hand sides of
+        independent conditions. A polynomial is a tuple of terms (q, trees). A term is the number q times the
+        left-hand sides of the conditions of ``trees``.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
@@ -153,8 +154,8 @@ class ActionFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a Runge-Kutta tableau or a composition with provably non-zero weights, else
-        None."""
+        """Return this family if ``tableau`` is a Runge-Kutta tableau or a composition, and all weights are
+        provably non-zero. Otherwise return None."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def elementary_hamiltonian(self, condition: OrderCondition) -> str:

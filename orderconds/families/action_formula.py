@@ -7,7 +7,7 @@ The n-th factor is the coefficient of the n-th letter in the exponent with index
 the term is also divided by r!, where r is the number of letters that come from this exponential.
 
 This sum is split into sums whose indices increase strictly. A run consists of all letters that come from one
-exponential. All terms with the same division of u into runs form one sum, which has one index for each run.
+exponential. Each division of u into runs gives one sum. This sum has one index for each run.
 
 If the k letters are equal, the coefficient of u is S^k/k!, where S is the sum of the letter's coefficients in
 all exponents. Printed conditions contain no denominator k!, because both sides are multiplied by k!
@@ -42,15 +42,15 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word whose letters are action trees. One letter can be the letter x of :meth:`ActionFormula.through`,
-represented by the argument ``stage`` of that method."""
+"""A word whose letters are action trees. One letter can be the name of a stage. This letter is added
+to the velocity of the stage."""
 
 
 def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    The coefficient of a word of k equal letters has the denominator k!. The factor is the product of k! over
-    all such words in the tree.
+    In a product of exponentials, the coefficient of a word of k equal letters has the denominator k!. The
+    factor is the product of k! over all such words in the tree.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -89,14 +89,14 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in the group element of stage
-        ``row``, or of the update if ``row`` is None.
+        """Return the coefficient of the word (``before``, x, ``after``) in a group element.
 
-        Here x is a new letter that is added to the velocity of the stage ``stage``.
+        The new letter x is added to the velocity of the stage ``stage``. The group element is that of stage
+        ``row``. If ``row`` is None, the group element is the update.
         """
 
     def condition(self, tree: Velocity) -> Formula:
-        """Return the left-hand side of the condition of t = ``tree``, the sum ``sum_i b_i tau_t(i)``.
+        """Return ``sum_i b_i tau_t(i)``, the left-hand side of the condition of the tree t = ``tree``.
 
         Here ``tau_t(i)`` is the result of :meth:`tau` for the tree t and stage i.
         """
@@ -104,8 +104,8 @@ class ActionFormula(ABC):
         return index_sum((stage,), (), product(coefficient("b", stage), self.tau(tree, stage)))
 
     def tau(self, tree: Velocity, stage: str) -> Formula:
-        """Return the coefficient of a tree in the velocity of ``stage``. The result includes the factor
-        :func:`multiplier` of the tree.
+        """Return the coefficient of a tree in the velocity of ``stage``. The result is multiplied by
+        ``multiplier(tree)``.
         """
         return product(self.word(stage, tree.word), self._psi_product(tree.momenta, stage))
 
@@ -128,7 +128,7 @@ class ActionFormula(ABC):
 class ExponentialsFormula(ActionFormula):
     """The index sums of methods whose stages and update are products of exponentials.
 
-    The argument ``place`` of the methods is the index of an exponential in such a product.
+    The argument ``place`` of :meth:`exponent` and :meth:`around` is the index of an exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -142,8 +142,8 @@ class ExponentialsFormula(ActionFormula):
 
     @abstractmethod
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the coefficient of ``tree`` in one exponent of stage ``row``, or of the update if ``row`` is
-        None. The exponent has the index ``place``."""
+        """Return the coefficient of ``tree`` in the exponent with the index ``place``. The exponent belongs
+        to stage ``row``, or to the update if ``row`` is None."""
 
     def word(self, row: str, word: Word) -> Formula:
         """Return the coefficient of a word in the group element of stage ``row``.
@@ -170,14 +170,14 @@ class ExponentialsFormula(ActionFormula):
         """
         if not word:
             return one()
-        # The division into the most runs comes first (see the module docstring).
+        # In the first term, each run is a single letter of the word.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return the contribution of one division of the word into runs to the result of :meth:`between`.
+        """Return one term of :meth:`between`: the contribution of one division of the word into runs.
 
         ``lengths`` contains the number of letters in each run. The contribution is the product of the
         returned number and the returned index sum.
@@ -194,7 +194,7 @@ class ExponentialsFormula(ActionFormula):
         """Return the coefficient of the word (``before``, x, ``after``) in the product of exponentials of
         stage ``row``, or of the update if ``row`` is None.
 
-        Here x is a new letter that is added to the exponent with index ``place``, with the coefficient one.
+        Here x is a new letter with the coefficient one in the exponent with index ``place``.
         """
         terms = []
         for r in range(len(before) + 1):
@@ -220,7 +220,7 @@ class CrouchGrossmanFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return an unused name for a stage index, because exponential j contains the velocity of stage j."""
+        """Return an unused name for the summation index that numbers the exponentials."""
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
@@ -233,10 +233,10 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in the group element of stage
-        ``row``, or of the update if ``row`` is None.
+        """Return the coefficient of the word (``before``, x, ``after``) in a group element.
 
-        Here x is a new letter that is added to the velocity of the stage ``stage``.
+        The new letter x is added to the velocity of the stage ``stage``. The group element is that of stage
+        ``row``. If ``row`` is None, the group element is the update.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -262,17 +262,18 @@ class CommutatorFreeFormula(ExponentialsFormula):
         """Return the coefficient of ``tree`` in one exponent of stage ``row``, or of the update if ``row`` is
         None.
 
-        The coefficient is ``sum_j alpha_iJj tau_t(j)`` in stage i, and ``sum_j beta_Jj tau_t(j)`` in the
-        update. Here J is ``place``, and ``tau_t(j)`` is the result of :meth:`tau` for ``tree`` and stage j.
+        The coefficient is ``sum_j alpha_iJj tau_t(j)`` in stage i = ``row``, and ``sum_j beta_Jj tau_t(j)``
+        in the update. Here J is ``place``, and ``tau_t(j)`` is the result of :meth:`tau` for ``tree`` and
+        stage j.
         """
         stage = fresh("i")
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in the group element of stage
-        ``row``, or of the update if ``row`` is None.
+        """Return the coefficient of the word (``before``, x, ``after``) in a group element.
 
-        Here x is a new letter that is added to the velocity of the stage ``stage``.
+        The new letter x is added to the velocity of the stage ``stage``. The group element is that of stage
+        ``row``. If ``row`` is None, the group element is the update.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -285,11 +286,12 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
 
 class MuntheKaasFormula(ActionFormula):
-    """The index sums of Munthe-Kaas methods. Stage i has the exponential exp(X_i), and the update has exp(Y).
+    """The conditions of Munthe-Kaas methods as sums over indices.
 
-    The exponents are ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here ``v_j = dexpinv_{X_j} xi_j``,
-    and xi_j is the velocity of stage j. The power series of dexpinv in ad is truncated after the power
-    ``cutoff``, or not at all if ``cutoff`` is None.
+    Stage i has the exponential exp(X_i), and the update has exp(Y). The exponents are
+    ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here ``v_j = dexpinv_{X_j} xi_j``, and xi_j is the
+    velocity of stage j. The power series of dexpinv in ad is truncated after the power ``cutoff``, or not at
+    all if ``cutoff`` is None.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -315,7 +317,7 @@ class MuntheKaasFormula(ActionFormula):
         """Return the coefficient of the word (``before``, x, ``after``) in exp(X_i), where i is ``row``, or
         in exp(Y) if ``row`` is None.
 
-        Here x is a new letter that is added to the velocity of the stage ``stage``.
+        Here x is a new letter that is added to xi_j, the velocity of stage j = ``stage``.
         """
         return self._exponential(row, (*before, stage, *after))
 
@@ -325,8 +327,8 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in the n-th power of X_i, where i is ``row``, or of Y if ``row``
-        is None."""
+        """Return the coefficient of ``word`` in X_i^n for i = ``row``. If ``row`` is None, Y^n replaces
+        X_i^n."""
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -350,9 +352,9 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _argument(self, row: str | None, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in X_i, where i is ``row``, or in Y if ``row`` is None.
+        """Return the coefficient of ``word`` in X_i for i = ``row``. If ``row`` is None, Y replaces X_i.
 
-        The result is a sum over the position of the letter that the velocity xi_j of stage j supplies.
+        In each term of the result, one letter comes from a velocity xi_j, and the other letters from X_j.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -369,15 +371,15 @@ class MuntheKaasFormula(ActionFormula):
     def _terms(self, letters: int) -> Terms:
         """Return the terms of the truncated series dexpinv_X xi, as triples (q, m, n).
 
-        A triple denotes the term ``q X^n xi X^m`` with n + m <= ``letters``.
+        The triple (q, m, n) denotes the term ``q X^n xi X^m`` with m + n <= ``letters``.
         """
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # For the exponent X of the stage and m > 0, each word in X^m has at least m letters, and X^0 = 1
-            # contains only the empty word.
+            # All other terms are zero. A word in X^m has at least m letters, and X^0 = 1 contains only the
+            # empty word.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):
@@ -391,7 +393,7 @@ class PadeFormula(MuntheKaasFormula):
 
     Stage i has the exponential exp(X_i), and the update has exp(Y). The exponents are
     ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here v_j is the solution of ``dexp_{X_j} v_j = xi_j``,
-    and xi_j is the velocity of stage j. The power series of dexp in ad is truncated after the power
+    and xi_j is the velocity of stage j. The series of dexp in powers of ad is truncated after the power
     ``cutoff``.
 
     >>> from orderconds.formula import named

@@ -63,7 +63,7 @@ class Family(ABC):
     over_rationals: ClassVar[bool] = False
     """True if the module :mod:`orderconds.ring.nodal` can evaluate the order conditions of this family."""
     trees: ClassVar[str | None] = None
-    """The name of the kind (:mod:`orderconds.explain.kinds`) of trees that index the conditions, or None."""
+    """The kind of trees that index the conditions (a name in :mod:`orderconds.explain.kinds`), or None."""
     illustrates: ClassVar[tuple[str, ...]] = ()
     """Kinds of trees for which ``orderconds trees --explain`` prints the order conditions of this family."""
 
@@ -86,11 +86,10 @@ class Family(ABC):
     low_order: ClassVar[str | None] = None
     """The name of a family whose conditions of orders 1 and 2 equal those of this family, or None."""
     bounds_others: ClassVar[bool] = False
-    """True if ``check`` computes the order of a method in this family to find bounds, from above or from
-    below, of the orders of this method in other families."""
+    """True if ``check`` uses the order in this family to find bounds of the orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of families in which a low-storage scheme has at least the order that it has in this family.
-    """
+    """The names of families. If a low-storage scheme has order p in this family, the scheme has order p or
+    higher in the named families."""
 
     # Methods
     on_groups: ClassVar[bool] = False
@@ -103,12 +102,12 @@ class Family(ABC):
     keeps_energy: ClassVar[bool] = False
     """True if every method of the family preserves the energy exactly."""
     controls_steps: ClassVar[bool] = False
-    """True if step-size control needs no embedded method."""
+    """True if the methods of the family control the step size without an embedded method."""
     takes_cutoff: ClassVar[bool] = False
     """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order for which the compiler can minimise the number of brackets of a method without
-    ``cutoff``."""
+    """The highest order at which the compiler can minimise the number of brackets. The series of dexpinv must
+    not be truncated."""
     cutoff: int | None = None
     """The power of ad after which the series of dexpinv or dexp is truncated. None means no truncation."""
 
@@ -117,13 +116,13 @@ class Family(ABC):
 
     # Search
     unknowns: ClassVar[str | None] = None
-    """The tableau format in which ``orderconds solve`` searches, or None if the command does not accept the
+    """The format of the tableaux that ``orderconds solve`` finds, or None if the command does not accept the
     family."""
     symplectic: ClassVar[bool] = False
     """True if a search considers only symplectic tableaux: b_i a_ij + b_j a_ji = b_i b_j for all i and j."""
     equal_abscissae: ClassVar[bool] = False
-    """True if every method of this family with positive weights and order three has equal abscissae c_i,
-    chat_i and m_i (:mod:`orderconds.solve.abscissae`)."""
+    """True if positive weights and order three imply c_i = chat_i = m_i for each stage i. These numbers are
+    abscissae (:mod:`orderconds.solve.abscissae`)."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed, or None if there is no limit."""
 
@@ -151,8 +150,8 @@ class Family(ABC):
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the :meth:`conditions` of the given order without dependent conditions.
 
-        A condition is dependent if it follows from other conditions of the same order or of lower orders. By
-        default, return all :meth:`conditions`.
+        Together with the conditions of lower order, the returned conditions imply all :meth:`conditions` of
+        the given order. By default, return all :meth:`conditions`.
         """
         return self.conditions(order)
 
@@ -170,7 +169,7 @@ class Family(ABC):
     def dependence_holds(self, order: int) -> bool:
         """Return True if :meth:`conditions` omits only dependent conditions of the given order.
 
-        By default, return True.
+        The base class returns True without a test.
         """
         return True
 
@@ -221,7 +220,7 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of conditions of the given order. By default, use :meth:`conditions`.
+        """Return the residuals of conditions of the given order, by default of all :meth:`conditions`.
 
         For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error.
         """
@@ -242,7 +241,7 @@ class Family(ABC):
         return self
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which the order of ``method`` is tested if the tableau file states no order.
+        """Return the family in which the order of ``method`` is tested. The user can choose another family.
 
         By default, return ``self``.
         """
@@ -250,8 +249,8 @@ class Family(ABC):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should state which order the method has in this
-        family. Otherwise return None."""
+        """Return this family if a complete file of ``tableau`` states the order in this family. Otherwise
+        return None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
@@ -277,7 +276,7 @@ class Family(ABC):
         return evaluations(tableau)
 
     def degree_of_step(self) -> int:
-        """Return the order of a family without tableau, such as 12 for ``taylor(12)``.
+        """Return the order of a method without tableau, such as 12 for ``taylor(12)``.
 
         Raises :class:`~orderconds.errors.InputError` for a family with a tableau.
         """
@@ -293,8 +292,8 @@ class Family(ABC):
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the unknown coefficients of a method with ``stages`` stages, for use in a search.
 
-        Raises :class:`~orderconds.errors.InputError` if the number of stages does not determine which
-        coefficients a method has.
+        Raises :class:`~orderconds.errors.InputError` if methods of this family with equal numbers of stages
+        can have different numbers of coefficients.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 
@@ -311,7 +310,7 @@ class Family(ABC):
     # Theorems
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order in this family that follows from orders in other families.
+        """Derive a lower bound of the order in this family from orders in other families.
 
         ``orders`` maps the labels of other families to the orders of the method in these families. The bound
         is 0 if no theorem applies.
@@ -345,7 +344,7 @@ class Family(ABC):
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Describe the conditions that are the same for the method with and without truncation of dexpinv.
+        """Return a description of the conditions that the truncation of dexpinv does not change.
 
         Return None if no description is known.
         """
@@ -370,9 +369,9 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions, or None if no such family is known.
+        """Return a family with fewer conditions than this family, or None if no such family is known.
 
-        If ``method`` is symmetric, the conditions of the returned family determine the order of ``method``.
+        For a symmetric ``method``, these conditions are sufficient to determine the order.
         """
         return None
 
@@ -385,7 +384,7 @@ class Family(ABC):
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family whose conditions ``orderconds solve`` solves for this family.
+        """Return the label of the family whose conditions ``orderconds solve`` solves.
 
         By default, return the label of this family. ``nystroem`` is the option ``--rkn`` of the command.
         """
