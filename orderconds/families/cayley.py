@@ -72,8 +72,8 @@ class CayleyFamily(MagnusFamily):
     def polynomial(self, word: Word) -> Polynomial:
         """Express the coefficient of ``word`` in Omega by the coefficients of independent words.
 
-        The coefficient is zero, or it is equal to the coefficient of one independent word or to its negative
-        (see :meth:`independent`).
+        The result is zero, or plus or minus the coefficient of one independent word (see
+        :meth:`independent`).
         """
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}

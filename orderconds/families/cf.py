@@ -2,9 +2,9 @@
 
 Each exponent is a linear combination of the values k_j of the vector field at the stages. The update with m
 exponentials is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the rightmost exponential acts
-first. Stage i is a product of the same form: in its exponential with index I, the coefficient of k_j is
-alpha_iIj instead of beta_Ij (Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). If stage i starts from the
-value of an earlier stage, the product of stage i includes the exponentials of the earlier stage.
+first. In stage i, the coefficients alpha_iIj replace beta_Ij, where I is the index of the exponential
+(Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). If stage i starts from the value of an earlier stage,
+the product of stage i includes the exponentials of the earlier stage.
 
 Printed conditions contain alpha, beta and three sums: b_j = sum_I beta_Ij, a_ij = sum_I alpha_iIj and the
 abscissae c_i = sum_j a_ij.
@@ -83,10 +83,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau in the format ``cf``, else None.
-
-        The file of a tableau (A, b) should state the order in the family ``cg`` instead.
-        """
+        """Return this family for a tableau in the format ``cf``, else None."""
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -155,8 +152,7 @@ def _word(
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
     The function ``row(J, j)`` returns the coefficient of the stage value k_j in the exponent with index J.
-    The sum of ``row(J, j)`` over J is ``row_total(j)``, and ``row_sum`` is the symbol for the sum of
-    ``row_total(j)`` over j.
+    The sum of ``row(J, j)`` over J is ``row_total(j)``. The symbol ``row_sum`` denotes the sum over J and j.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:

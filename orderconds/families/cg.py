@@ -55,10 +55,7 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b), else None.
-
-        The file of such a tableau should state the order of the Crouch-Grossman method.
-        """
+        """Return this family for a tableau (A, b), else None."""
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -107,8 +104,8 @@ def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
 def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) -> Formula:
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
-    The function ``row(i)`` returns the coefficient of the stage value k_i, and ``row_sum`` is the symbol for
-    the sum of ``row(i)`` over i.
+    The function ``row(i)`` returns the coefficient of k_i in exponent i. The symbol ``row_sum`` denotes the
+    sum of ``row(i)`` over i.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:

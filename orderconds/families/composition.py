@@ -84,7 +84,7 @@ class CompositionFamily(WordFamily):
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 
     def scale(self, word: Word) -> int:
-        """Return n! for a word of length n, so that the numbers in :meth:`formula` are integers."""
+        """Return n! for a word of n letters. Both sides of the condition are multiplied by n!."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
@@ -130,8 +130,7 @@ class CompositionFamily(WordFamily):
         return get("symmetric_composition") if isinstance(method, Composition) else None
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return ``symmetric_composition``, because ``orderconds solve`` searches only for palindromic
-        sequences of step sizes."""
+        """Return ``symmetric_composition``: ``orderconds solve`` solves the conditions of that family."""
         return "symmetric_composition"
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
@@ -155,9 +154,10 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 
 
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
-"""A function that maps a word and the summation index of a factor of the step to a pair (formula, divisor).
+"""A function (word, index) -> (formula, divisor).
 
-The coefficient of the word in the series of the factor is the formula divided by the integer ``divisor``.
+The summation index ``index`` denotes one factor of the step. The coefficient of the word in the series of the
+factor is the formula divided by the integer ``divisor``.
 """
 
 

@@ -1,7 +1,7 @@
 """Families with the option ``cutoff``: the series of dexpinv in powers of ad is truncated.
 
-The value r of ``cutoff`` is the exponent of the last power that is kept. Let R = r + 1 if r >= 2 is even,
-because the Bernoulli number B_(r+1) is zero, and R = r otherwise.
+The value r of ``cutoff`` is the exponent of the last power that is kept. If r >= 2 is even, the Bernoulli
+number B_(r+1) is zero. In this case let R = r + 1, otherwise let R = r.
 
 Let p be the order without truncation. For RKMK methods, p is the order of the Runge-Kutta method of the
 tableau. For VRKMK methods, p is the order of the symplectic partitioned Runge-Kutta method of the tableau
@@ -73,8 +73,9 @@ class DexpinvCut(Family):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order of a method in this family.
 
-        ``orders`` maps the names of other families to the orders of the method in these families. With p and
-        R from the module docstring, the bound is at least min(p, R + 2), or at least p if ``cutoff`` is None.
+        ``orders`` maps the names of other families to the orders of the method in these families. The module
+        docstring defines p and R. The result is at least min(p, R + 2). If ``cutoff`` is None, the result is
+        at least p.
         """
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
@@ -86,7 +87,7 @@ class DexpinvCut(Family):
         return min(order, kept + 2)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Describe the conditions that are the same for the method with and without truncation of dexpinv.
+        """Describe which conditions the truncation of dexpinv does not change.
 
         Return None if :attr:`abelian` is None, or if ``method`` is not a Runge-Kutta tableau.
         """
@@ -96,7 +97,7 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return the greatest length of a word whose coefficient is not changed by the truncation of dexpinv.
+    """Return the largest n such that truncating dexpinv changes no coefficient of words up to length n.
 
     If ``cutoff`` is None, the result is 2^30.
 

@@ -81,8 +81,7 @@ def weight_conditions(
     """Return the order conditions of the trees.
 
     The function ``switching`` expresses the elementary weights of some trees as polynomials in the elementary
-    weights of other trees. If ``switching`` is given, the condition of such a tree stores the polynomial as
-    text.
+    weights of other trees. If ``switching`` is given, each dependent condition stores its polynomial as text.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -117,10 +116,10 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return an index sum for ``tree``, with the factors ``factors`` and the factors of the branches at the
-    root.
+    """Return an index sum for ``tree``.
 
-    The last of the summation indices ``indices`` is the index of the root.
+    The list ``factors`` contains the first factors of the summands. The branches of the root give the
+    other factors. The last of the summation indices ``indices`` is the index of the root.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

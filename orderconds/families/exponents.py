@@ -35,7 +35,7 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     """Return, for each exponent of a method, the function that maps a word to its coefficient.
 
-    The function of the exponential that acts first is the first entry.
+    The functions are in the order in which the exponentials act.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse

@@ -5,8 +5,8 @@ F_2 = sum_{ij} phi_ij A_j A_i + .... If a method has more than two exponentials,
 the product of all factors except exp(F_1).
 
 There is one condition for each Lyndon word. The letter k denotes X_k in A(t) = X_1 + t X_2 + .... Let F be
-the integral of A over one step, and let Y be the exact flow. The conditions of words with one letter compare
-F_1 with F. The conditions of longer words compare F_2 with the logarithm of exp(-F) Y.
+the integral of A over one step, and let Y be the exact flow. For words with one letter, the conditions
+compare F_1 with F. The conditions of longer words compare F_2 with the logarithm of exp(-F) Y.
 
 Sources: Fer (1958); Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3;
 Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259.
@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Fer methods. The exponent of the exponential that acts last contains no commutators. All terms of the
-    other exponents are commutators.
+    """Fer methods. The exponent F_1 contains no commutators. All terms of the other exponents are
+    commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -60,8 +60,7 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the tableau file of a Fer method does not state the order in this family. The file
-        states the order in the family ``magnus``."""
+        """Return None. The tableau file of a Fer method states the order in the family ``magnus``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -98,8 +97,8 @@ class FerFamily(MagnusFamily):
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
         """Return a function that maps each word to the left-hand side of its condition.
 
-        For a word with one letter, the left-hand side is the coefficient of the word in F_1, otherwise in
-        F_2. The module docstring defines F_1 and F_2.
+        For words with one letter, the left-hand sides are coefficients of F_1. For longer words, they are
+        coefficients of F_2. The module docstring defines F_1 and F_2.
         """
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)

@@ -145,8 +145,6 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
     """Return the coefficient of ``word`` in a Lie element as a linear combination of the coefficients of
     Lyndon words. The linear combination is the same for all Lie elements.
 
-    In a Lie element, a shuffle product of two or more words has the coefficient zero.
-
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}
     """

@@ -1,7 +1,6 @@
 """Runge-Kutta-Munthe-Kaas methods, rewritten as programs with few brackets.
 
-The left-hand sides of the order conditions of ``rkmk`` are coefficients of the Lie-Butcher series of the
-program.
+The conditions of ``rkmk`` are evaluated with the Lie-Butcher series of these programs.
 """
 
 from __future__ import annotations
@@ -21,8 +20,8 @@ from orderconds.tableau.products import Method
 
 
 class MinimalBrackets(MuntheKaasFamily):
-    """The family of one program with few brackets. The argument ``program`` contains the exponents of all
-    stages as linear combinations of stage values and brackets.
+    """The family ``rkmk`` for one method, given as a program with few brackets. The argument ``program``
+    contains the exponents of all stages as linear combinations of stage values and brackets.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -61,6 +60,6 @@ class MinimalBrackets(MuntheKaasFamily):
         )
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None, so that all conditions are evaluated. The conditions are those of :attr:`program`, but
-        the theorem on the truncation of dexpinv is about the tableau ``method``."""
+        """Return None, so that all conditions are evaluated. The theorem on the truncation of dexpinv does
+        not apply to :attr:`program`."""
         return None

@@ -2,7 +2,7 @@
 
 The Lie-Butcher series of a Lie group method has one coefficient for each word. The coefficients satisfy the
 shuffle relations, so the coefficients of Lyndon words determine all other coefficients
-(:mod:`orderconds.words.lyndon`). Larger trees come first in the alphabet.
+(:mod:`orderconds.words.lyndon`). The letters are ordered trees, and larger trees come first.
 
 To remove common factors, both sides of a condition are multiplied by the integer :func:`scale`.
 """
@@ -110,8 +110,8 @@ def lyndon_forests(order: int) -> tuple[Forest, ...]:
 
 
 def longest_word(forest: Forest) -> int:
-    r"""Return the length of the longest word in a forest. The words are the forest itself, and the branches
-    at each vertex.
+    r"""Return the length of the longest word in a forest. The forest itself is a word, and the branches at
+    each vertex form a word.
 
     >>> longest_word(b"\0\1\1\1\0")
     3

@@ -79,8 +79,7 @@ class PartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a pair of tableaux unless the pair is proved to be symplectic. Otherwise
-        return None.
+        """Return this family for a pair of tableaux that is not proved to be symplectic, else None.
 
         The tableau file of a symplectic pair should state the order in the family ``sprk_separable``.
         """
@@ -90,8 +89,7 @@ class PartitionedFamily(Family):
         return cls()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if ``method`` is a pair, and if a computation proves that both tableaux are
-        symmetric."""
+        """Return True if ``method`` is a pair of tableaux and both are proved to be symmetric."""
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:

@@ -52,8 +52,7 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. The tableau file states the order in ``prk``, and this order is also the order in this
-        family."""
+        """Return None. The tableau file states the order in the family ``prk``. The two orders are equal."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -72,7 +71,7 @@ class SameWeightsFamily(PartitionedFamily):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the elementary weight of the tree of each condition, for a pair of tableaux."""
+        """Return the elementary weights of a pair of tableaux, one for each element of ``conditions``."""
         pair = as_pair(method)
         weights = ElementaryWeights[DirectedTree](ring, (pair.A, pair.A_hat), pair.b, kept_branches)
         return tuple(weights(condition.key) for condition in conditions)

@@ -10,8 +10,8 @@ reductions:
   faster to evaluate. For a symplectic pair with b = bhat, the conditions of free trees with directed edges
   imply the conditions of all rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
 - *truncation of dexpinv*: a truncation of the series of dexpinv, the inverse of the differential of exp,
-  leaves many conditions unchanged. If these conditions hold for the method without truncation, they are not
-  evaluated (:mod:`orderconds.families.dexpinv_cut`).
+  leaves many conditions unchanged. If these conditions hold without truncation, they also hold with
+  truncation (:mod:`orderconds.families.dexpinv_cut`).
 
 The assumptions of a reduction are verified for each tableau in exact arithmetic. If the coefficients are
 balls (intervals), only the third reduction is used. In this case, a separate proof must show that the balls
@@ -41,7 +41,7 @@ class Substitute(Struct, frozen=True):
 
 
 class UnseenCut(Struct, frozen=True):
-    """A description of the conditions that the truncation of dexpinv does not change.
+    """A criterion for conditions that the truncation of dexpinv does not change.
 
     ``order`` is the order of the method without truncation. The function ``length`` returns the length of the
     longest word in the formula for the coefficient of a tree or forest. If this length is at most

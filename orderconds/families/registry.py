@@ -128,8 +128,7 @@ def names() -> tuple[str, ...]:
 
 
 def with_conditions() -> tuple[str, ...]:
-    """Return the names of the families with order conditions. Tableaux define the methods of these
-    families.
+    """Return the names of the families with order conditions.
 
     >>> "rk" in with_conditions(), "taylor" in with_conditions()
     (True, False)
@@ -138,8 +137,7 @@ def with_conditions() -> tuple[str, ...]:
 
 
 def installed_names() -> tuple[str, ...]:
-    """Return :func:`names`, followed by the names of other families. Installed packages provide these
-    families, which are not registered yet.
+    """Return :func:`names`, followed by the names of unregistered families from installed packages.
 
     >>> set(names()) <= set(installed_names())
     True

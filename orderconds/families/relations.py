@@ -29,8 +29,8 @@ Polynomial = dict[tuple[Any, ...], Fraction]
 sorted tuple of keys of conditions."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
-"""A function that maps a tree to the triples (u, v, v o u) with u o v equal to the tree, one for each branch
-v of the root. The module docstring defines u o v."""
+"""A function that maps a tree to triples (u, v, v o u). Each branch v of the root gives one triple, and u is
+the tree without v. The module docstring defines v o u."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
@@ -77,8 +77,8 @@ def multiply(x: Polynomial, y: Polynomial) -> Polynomial:
 
 
 class RootSwitching:
-    """A function that maps a tree to a polynomial. For a symplectic method, the elementary weight of the tree
-    is this polynomial in the elementary weights of independent trees.
+    """A function that maps a tree to a polynomial. The variables are the elementary weights of independent
+    trees. For a symplectic method, the value is the elementary weight of the tree.
 
     The call ``independent(n)`` returns the independent trees with n vertices.
 
@@ -93,7 +93,7 @@ class RootSwitching:
         self._known: dict[bytes, Polynomial] = {}
 
     def __call__(self, tree: bytes) -> Polynomial:
-        """Return the elementary weight of ``tree``, as a polynomial in those of independent trees."""
+        """Return the polynomial for the elementary weight of ``tree``."""
         if tree not in self._known:
             self._known[tree] = self._reduced(tree)
         return self._known[tree]
@@ -154,8 +154,8 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The product of the coefficients of the words in ``factors`` is the coefficient of their shuffle product.
-    # The shuffle product is ``repeated`` times ``word``, plus lexicographically smaller words.
+    # For the words u, v, ... in ``factors``, a(u) a(v) ... = a(u sh v sh ...), see the module docstring. The
+    # shuffle product is ``repeated`` times ``word``, plus lexicographically smaller words.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}
@@ -176,8 +176,8 @@ def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> d
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
     r"""Express a coefficient of a group-like series as a polynomial in the coefficients of Lyndon words.
 
-    The argument ``forest`` is the word of the coefficient, and its letters are trees. The coefficient of each
-    word ``w`` is multiplied by ``scale(w)``.
+    The argument ``forest`` is the word of the coefficient, and its letters are trees. The coefficient of
+    ``forest`` is multiplied by ``scale(forest)``, and the coefficient of a Lyndon word ``w`` by ``scale(w)``.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

@@ -74,10 +74,7 @@ class RungeKuttaFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for Butcher tableaux, commutator-free methods and compositions, else None.
-
-        The tableau file of such a method should state the order of the method in this family.
-        """
+        """Return this family for Butcher tableaux, commutator-free methods and compositions, else None."""
         return cls() if isinstance(tableau.method, RungeKutta | CommutatorFree | Composition) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -115,8 +112,8 @@ def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
 
 
 def has_weights(tableau: Tableau, *, nonzero: bool = False) -> bool:
-    """Return True for a Runge-Kutta tableau or a composition. If ``nonzero`` is true, return True only if
-    also all numbers in :func:`weights_of` are proved to be non-zero.
+    """Return True for a Runge-Kutta tableau or a composition. If ``nonzero`` is true, all numbers in
+    :func:`weights_of` must also be proved to be non-zero.
 
     >>> from orderconds.tableau import find
     >>> cg4 = Tableau.load(find("cg4"))

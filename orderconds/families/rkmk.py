@@ -90,8 +90,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word in the forest ``key``. The words are sequences of trees: the
-        forest itself, and the branches at each vertex."""
+        """Return the length of the longest word in the forest ``key``. The forest itself is a word, and the
+        branches at each vertex form a word."""
         assert isinstance(key, bytes)
         return longest_word(key)
 
@@ -99,8 +99,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return the condition of the word that consists of the tree with two vertices, followed by
         ``order`` - 2 trees with one vertex.
 
-        A method that satisfies all other conditions up to the order R + 3 violates the condition of this
-        order. The module docstring defines R.
+        For ``order`` = R + 3, this condition contradicts the other conditions of orders 1, ..., R + 3. The
+        module docstring defines R.
 
         If dexpinv is not truncated or ``order`` < 3, return None.
         """
@@ -109,8 +109,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return independent conditions of the given order. Together with the conditions of lower order, the
-        returned conditions imply all :meth:`conditions` of the given order.
+        """Return independent conditions of the given order. If all conditions of lower order hold, the
+        returned conditions imply all other conditions of the given order.
 
         Without truncation of dexpinv, there is one independent condition for each rooted tree. A truncation
         of dexpinv adds one condition of order R + 3, which contradicts the other conditions
@@ -216,10 +216,10 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # In a term q u^n x u^m of dexpinv_u(x), x gives ``tree``, u^m the letters before it, and u^n
-                # the letters after it. Each factor u gives one or more letters, and u^0 gives none.
+                # A term of dexpinv_u(x) is q u^n x u^m. The power u^m acts first and gives the letters before
+                # ``tree``. The factor x gives ``tree``. The power u^n gives the letters after ``tree``. Each
+                # factor u gives one or more letters, and u^0 gives none.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
-                    # The letters of u^m come first, because u^m acts first in the product u^n x u^m.
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
                     value = self.exponential(j, trees_of(branches(tree)))
                     terms.append((q, product(first, value, last)))

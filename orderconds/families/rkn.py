@@ -2,13 +2,13 @@
 
 Let x and y be functions of q alone. Then [x,[T,y]] is also a function of q alone, because T is quadratic in
 p. Let F be the smallest set that contains V and, for all x and y in F, also [x,[T,y]]. All elements of F are
-functions of q alone, so [x,y] = 0 for all x and y in F. In the free algebra over T and V, the brackets [x,y]
-generate an ideal. The shortest non-zero bracket is [V,[V,[V,T]]], up to the sign.
+functions of q alone, so [x,y] = 0 for all x and y in F. For example, [V,[V,[V,T]]] = 0. The free algebra over
+T and V has no such relations. In this algebra, the brackets [x,y] generate an ideal.
 
-A functional is a linear combination of words over T and V. There is one condition for each element of a basis
-of the functionals that are zero on the ideal. The numbers of independent conditions of orders 1, 2, ... are
-2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J.
-Comput. Dyn. 6 (2019) 345).
+A functional is a linear combination of words over T and V. Consider the functionals that are zero on the
+ideal. Each element of a basis of these functionals gives one condition. The numbers of independent conditions
+of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151;
+McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ class NystroemFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand sides of ``conditions`` for one step of a splitting. Each left-hand side is
+        """Return the values of the left-hand sides for one step of a splitting. Each left-hand side is
         multiplied by the factor that :func:`_scale` returns."""
         self.require(method, ring)
         splitting = expect(method, Splitting)
@@ -172,7 +172,7 @@ def text(functional: Functional) -> str:
 def formula(functional: Functional) -> Formula:
     """Return the left-hand side of the condition of ``functional`` as an index sum.
 
-    The step sizes of T are a_i, and the step sizes of V are b_i. Let c_i = a_1 + ... + a_i.
+    In stage i of a splitting T + V, the step sizes are a_i for T and b_i for V. Let c_i = a_1 + ... + a_i.
 
     >>> from orderconds.formula import named
     >>> named(formula((((0, 1), 1), ((1, 0), 1)))).text()
@@ -215,8 +215,8 @@ def independent(order: int) -> tuple[Functional, ...]:
 def _potentials(weight: int) -> tuple[Series, ...]:
     """Return the elements of the set F of the module docstring whose words have ``weight`` letters.
 
-    For x and y in F, the result contains only one of [x,[T,y]] and [y,[T,x]], because the difference
-    [T,[x,y]] is in the ideal.
+    For x and y in F, [x,[T,y]] and [y,[T,x]] are equal modulo the ideal of the module docstring. The result
+    contains only one of them.
     """
     if weight == 1:
         return (expand(V),)
@@ -231,8 +231,8 @@ def _potentials(weight: int) -> tuple[Series, ...]:
 
 @lru_cache(maxsize=32)
 def _ideal(order: int) -> tuple[Series, ...]:
-    """Return the generators [x, y] of the ideal of the module docstring, with words of at most ``order``
-    letters."""
+    """Return the brackets [x, y] that generate the ideal up to degree ``order``. The module docstring defines
+    x, y and the ideal."""
     known = [(n, x) for n in range(1, order) for x in _potentials(n)]
     return tuple(
         bracket

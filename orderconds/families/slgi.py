@@ -58,7 +58,7 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order of a method in this family.
 
-        ``orders`` maps the labels of other families to the orders of the method in these families. The result
-        is at least the order in the family ``vrkmk(0)``.
+        ``orders`` maps the labels of other families to the orders of the method in these families. The order
+        in the family ``vrkmk(0)`` is a lower bound.
         """
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

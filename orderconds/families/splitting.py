@@ -127,16 +127,16 @@ class SplittingFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the method is a splitting or a composition of a method with its adjoint.
-        Otherwise return None."""
+        """Return this family for splittings, and for compositions of a method with its adjoint. Otherwise
+        return None."""
         method = tableau.method
         if isinstance(method, AdjointComposition):
             return cls()
         return cls(len(method.parts)) if isinstance(method, Splitting) else None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order in this family: the order in the family ``rkn``, but at most 3.
-        Up to order 3, the families ``splitting`` and ``rkn`` have the same conditions."""
+        """Return the lower bound min(3, p) of the order, where p is the order in the family ``rkn``. Up to
+        order 3, the families ``splitting`` and ``rkn`` have the same conditions."""
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -190,8 +190,8 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # A block of letters ``one`` in stage i is followed by a block of letters ``two`` in stage j. In
-            # each stage the parts act in alphabetical order, so i = j is possible only if ``one`` < ``two``.
+            # Two consecutive blocks have the letter ``one`` in stage i and ``two`` in stage j. In each stage
+            # the parts act in alphabetical order, so i = j is possible only if ``one`` < ``two``.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -228,8 +228,7 @@ def two_part_formula(word: Word) -> Formula:
     terms = []
     for weight, split in _splits([length for _, length in runs]):
         factors, indices, before = [], [], None
-        # If a run of letters B is divided into several blocks, the letters A before the run belong to the
-        # first block.
+        # The first block of each run starts with ``gap`` letters A. The other blocks contain no letters A.
         blocks = [
             (0 if k else gap, n)
             for (gap, _), parts in zip(runs, split, strict=True)
@@ -253,19 +252,19 @@ def two_part_formula(word: Word) -> Formula:
 def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
     """Yield all ways to divide runs of equal letters into blocks, as pairs (factor, blocks).
 
-    ``lengths`` contains the lengths of the runs, and ``blocks`` contains the block lengths of each run. A run
-    of length n with block lengths n_1, n_2, ... contributes n!/(n_1! n_2! ...) to the product ``factor``.
+    ``lengths`` contains the lengths of the runs, and ``blocks`` contains the block lengths of each run. Let
+    n_1 + n_2 + ... = n be the division of a run. The product of all n!/(n_1! n_2! ...) is ``factor``.
     """
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return a map from the names ``a``, ``b``, ... to the lists of the step sizes of A, B, ... in all
-    stages.
+    """Return the step sizes of all parts in all stages, as a map from names to lists.
 
-    If a part does not act in a stage, its step size in this stage is zero. For two parts, the map also
-    contains ``c``, the list of the sums c_i = a_1 + ... + a_i.
+    The names ``a``, ``b``, ... denote the first part, the second part, .... If a part does not act in a
+    stage, its step size in this stage is zero. For two parts, the map also contains ``c``, the list of the
+    sums c_i = a_1 + ... + a_i.
 
     >>> from orderconds.ring import QQ
     >>> strang = Splitting(("T", "V"), ((1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))))

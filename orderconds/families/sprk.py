@@ -5,7 +5,7 @@ Each edge of a tree is an arrow from one of its two vertices to the other. If th
 root, the edge gives a factor a_ij in the elementary weight. If the arrow points towards the root, the edge
 gives a factor ahat_ij.
 
-Let two trees differ only in the root, and let the two roots be neighbours. Because b_i ahat_ij + b_j a_ji =
+Let two trees differ only in the root, and let an edge join the two roots. Because b_i ahat_ij + b_j a_ji =
 b_i b_j, the elementary weights of the two trees add up to a product of elementary weights of smaller trees.
 Hence one condition for each free tree (a tree without a root) is sufficient (Abia and Sanz-Serna 1993; HLW
 VI.7).
@@ -41,7 +41,7 @@ from orderconds.trees.directed import (
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. The independent trees are the free trees, each with one chosen root."""
+of independent trees. Each free tree with one chosen root is an independent tree."""
 
 
 @register
@@ -78,8 +78,8 @@ class SymplecticPartitionedFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each rooted tree with directed edges.
 
-        The attribute ``relation`` of a dependent condition expresses the left-hand side as a polynomial in
-        left-hand sides of independent conditions.
+        The attribute ``relation`` of a dependent condition is a polynomial in left-hand sides of independent
+        conditions.
         """
         return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
@@ -111,8 +111,8 @@ class SymplecticPartitionedFamily(Family):
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the tableau (a, b) is proved to be symmetric. If (a, b) is symmetric, the tableau
-        (ahat, b) of the momenta is symmetric, too."""
+        """Return True if the tableau (a, b) is proved to be symmetric. In this case, the tableau (ahat, bhat)
+        is also symmetric."""
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
@@ -122,7 +122,7 @@ class SymplecticPartitionedFamily(Family):
         bound is p.
 
         For all other tableaux, let m <= p/2 be the largest integer for which Butcher's simplifying
-        assumptions C(m) and D(m) hold. The bound is min(p, 2m + 1). The coefficients ahat_ij also satisfy
+        assumptions C(m) and D(m) hold. The bound is min(p, 2m + 1). The tableau (ahat, bhat) also satisfies
         C(m) and D(m) (Jay 1996, for Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct

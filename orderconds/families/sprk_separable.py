@@ -63,8 +63,8 @@ class SeparableFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each rooted tree with alternating colours.
 
-        The attribute ``relation`` of a dependent condition expresses the left-hand side as a polynomial in
-        left-hand sides of independent conditions.
+        The attribute ``relation`` of a dependent condition is a polynomial in left-hand sides of independent
+        conditions.
         """
         trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
         return weight_conditions(self.name, trees, text, rooted_weight, SWITCHING)
