@@ -19,8 +19,8 @@ class _LazyPackage(ModuleType):
         return value
 
     def __setattr__(self, name: str, value: object) -> None:
-        # The import system stores an imported module here, but must not replace an exported object of that
-        # name.
+        # The import system calls this method to store a module. The module ``name`` must not replace an
+        # exported object ``name``.
         if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
             super().__setattr__(name, value)
 
@@ -45,7 +45,7 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        # A module that was imported earlier must not hide the exported object of the same name.
+        # A module that was imported earlier must not hide the exported object ``name``.
         if isinstance(module.__dict__.get(name), ModuleType):
             del module.__dict__[name]
     module.__class__ = _LazyPackage

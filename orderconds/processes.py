@@ -29,7 +29,7 @@ def in_processes(
 ) -> Iterator[Result]:
     """Yield ``work(job)`` for each job, in the order of the jobs.
 
-    The default of ``processes``, the maximal number of workers, is the number of processors. If there is only
+    ``processes`` is the maximal number of workers. The default is the number of processors. If there is only
     one job, if ``processes`` is 1, or in a worker, the calling process runs the jobs itself.
 
     If a job raises an error, this function raises the error. Raises InputError if a worker was killed.
@@ -103,8 +103,8 @@ def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]
 
 
 def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
-    """Run jobs from the parent process in a worker process until an empty tuple arrives instead of a job. The
-    worker ignores Ctrl-C, because the parent process terminates its workers."""
+    """Receive jobs from the parent process and run them until an empty tuple arrives. The worker ignores
+    Ctrl-C, because the parent process terminates its workers."""
     import threading
 
     global _is_worker
@@ -124,8 +124,8 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
 
 
 def _portable(error: Exception) -> Exception:
-    """Return ``error``, or a RuntimeError with its type and message if ``error`` cannot be pickled. A note in
-    the result contains the traceback."""
+    """Return ``error`` if it can be pickled. Otherwise return a RuntimeError with the type and message of
+    ``error``. A note in the result contains the traceback."""
     import pickle
     import traceback
 

@@ -2,11 +2,11 @@
 claims.
 
 The flags ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
-``--orderconds-execute`` and ``--orderconds-tolerance`` correspond to options of ``orderconds check``. Each of
-these flags except ``--orderconds-tolerance`` activates the plugin, and so does ``--orderconds``.
+``--orderconds-execute`` and ``--orderconds-tolerance`` correspond to options of ``orderconds check``. The
+flag ``--orderconds-tolerance`` alone does not activate the plugin. Each other flag does.
 
-Files without a tableau are skipped. If a tableau does not claim an order, its test is skipped, or fails with
-``--orderconds-require-claims``.
+Files without a tableau are skipped. If a tableau does not claim an order, its test is skipped. With
+``--orderconds-require-claims``, the test fails.
 
 A Python file is executed only with ``--orderconds-execute``.
 """

@@ -51,8 +51,9 @@ def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> 
 
 
 def refuse_explicit(label: str, explicit: bool) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true, for families whose methods have
-    no matrix A.
+    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true.
+
+    The coefficients of the family ``label`` are not a tableau (A, b).
 
     >>> refuse_explicit("splitting", False)
     """

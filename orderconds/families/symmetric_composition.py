@@ -88,8 +88,8 @@ class SymmetricCompositionFamily(CompositionFamily):
     def polynomial(self, word: Word) -> Polynomial:
         """Return a polynomial in Lyndon words of odd weight (sum of the letters).
 
-        If each Lyndon word is replaced by its coefficient in the series of one step, the value of the
-        polynomial is the coefficient of ``word`` in this series.
+        In the polynomial, replace each Lyndon word by its coefficient in the series of one step. The value is
+        then the coefficient of ``word``.
         """
         return dict(_polynomial(word))
 
@@ -146,8 +146,8 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
     # The step is symmetric, so a word of even weight has the coefficient 0 in
-    # log(S) = sum_m (-1)^(m+1)/m (S - 1)^m, where S is the series of one step. Hence the coefficient in S is
-    # minus the sum of the terms with m > 1.
+    # log(S) = sum_m (-1)^(m+1)/m (S - 1)^m, where S is the series of one step. The term with m = 1 is S - 1.
+    # Hence the coefficient in S is minus the sum of the other terms.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

@@ -25,7 +25,8 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. The independent trees are the free trees that no edge divides into two equal halves."""
+of independent trees. A free tree is independent unless it consists of two equal rooted trees with joined
+roots."""
 
 
 @register
@@ -50,8 +51,8 @@ class SymplecticFamily(Family):
     symplectic = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of the given order. Each free tree gives one condition, except a
-        free tree in which some edge joins the roots of two equal rooted trees."""
+        """Return the independent conditions of the given order. A free tree gives no condition if it consists
+        of two equal rooted trees with joined roots. Each other free tree gives one condition."""
         return _conditions(essential_free_trees(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:

@@ -49,7 +49,7 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
     )
     formats = ("rk",)
     implies: ClassVar[Mapping[str, str]] = {
-        "sprk": "a vector space is a Lie group, on which a VRKMK method is an SPRK method"
+        "sprk": "a vector space is a Lie group; on a vector space, a VRKMK method is an SPRK method"
     }
     abelian: ClassVar[str | None] = "sprk"
     unknowns: ClassVar[str | None] = "rk"
@@ -69,8 +69,8 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
     def first_unmet(self, order: int) -> OrderCondition | None:
         """Return one condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
 
-        Let ``order`` be R + 3 (the module docstring defines R). If a method satisfies all other conditions up
-        to this order, the method violates the returned condition.
+        For ``order`` = R + 3, no method satisfies this condition and all other conditions up to this order.
+        The module docstring defines R.
         """
         if self.cutoff is None or order < 3:
             return None

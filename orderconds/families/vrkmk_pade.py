@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 @register
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """The family ``vrkmk_pade(r)``. A tableau (A, b) in which no weight b_i is zero defines a method. The
-    option ``cutoff`` is the number r.
+    option ``cutoff`` is r, the last power of ad in the series of dexp.
 
     If ``cutoff`` is None, the methods are those of ``vrkmk`` without truncation.
 
@@ -72,7 +72,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: no tableau file states the order of its method in the family ``vrkmk_pade``."""
+        """Return None. No tableau file claims an order in the family ``vrkmk_pade``."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -88,6 +88,6 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None, so that all conditions are evaluated. The base class describes which conditions a
-        truncation of dexpinv does not change, but this family truncates dexp."""
+        """Return None, so that all conditions are evaluated. The result of the base class applies to
+        truncations of dexpinv, not of dexp."""
         return None

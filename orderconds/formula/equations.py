@@ -84,8 +84,8 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split a LaTeX formula before each plus or minus sign inside no braces and at most ``within`` bracket
-    pairs."""
+    """Split a LaTeX formula before plus and minus signs. Signs inside braces or inside more than ``within``
+    pairs of brackets are skipped."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")

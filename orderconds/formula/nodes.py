@@ -126,7 +126,7 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Only the keys of coefficients are fast to compute, and a single factor of another kind needs no key.
+    # The slow function ``_shape`` is not needed for coefficients, nor for a single factor of another kind.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -203,7 +203,7 @@ def fresh(kind: str = "i") -> str:
 
 def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its indices. ``names`` maps free indices to their new names. All
-    bound indices get names that no other formula contains, so :func:`index_sum` can join such sums.
+    bound indices get names that no other formula contains.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()

@@ -21,8 +21,8 @@ class Notation(Struct, frozen=True):
     ``names`` maps names of coefficients to symbols, for example ``ahat`` to ``\\hat{a}``. ``total`` is the
     summation sign. ``signs`` maps ``<`` and ``<=`` to their symbols.
 
-    For the reverse order (``j > i`` instead of ``i < j``), ``reversed_signs`` maps ``<`` to the symbol for
-    ``>``, and ``<=`` to the symbol for ``>=``.
+    ``reversed_signs`` maps ``<`` and ``<=`` to the symbols for ``>`` and ``>=``. These symbols are used if
+    ``i < j`` is printed as ``j > i``.
     """
 
     names: Mapping[str, str]
@@ -75,8 +75,8 @@ def subscript(written: str, notation: Notation) -> str:
 def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Notation) -> str:
     """Return the text below a summation sign with the summation indices ``indices``.
 
-    Relations are joined to chains: ``i<j`` and ``j<k`` give ``i<j<k``. Each chain begins with a summation
-    index, so a free index i gives ``k>j>i``.
+    Relations are joined to chains: ``i<j`` and ``j<k`` give ``i<j<k``. If i is not a summation index, they
+    give ``k>j>i``.
 
     >>> chains(["i", "j"], [("i", "<", "j")], TEXT)
     'i<j'

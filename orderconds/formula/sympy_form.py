@@ -21,8 +21,8 @@ EXPONENTIALS = sympy.Symbol("m", integer=True, positive=True)
 
 
 def export(formula: Formula) -> sympy.Expr:
-    """Return the SymPy expression of a formula. Indices start at 1 and end at the number ``s`` of stages
-    (lower case) or ``m`` of exponentials (upper case).
+    """Return the SymPy expression of a formula. Lower-case indices run from 1 to the number ``s`` of stages.
+    Upper-case indices run from 1 to the number ``m`` of exponentials.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> export(index_sum(("i",), (), coefficient("b", "i")))
@@ -49,11 +49,11 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Return the lower and upper limits of each summation index. A relation ``i < j`` gives i the
-    upper limit j - 1 or, if i is free, gives j the lower limit i + 1."""
+    """Return the lower and upper limits of each summation index. A relation ``i < j`` gives the upper
+    limit j - 1 of i. If i is a free index, the relation gives the lower limit i + 1 of j."""
     limits, remaining = [], list(indices)
     while remaining:
-        # In sympy.Sum, the limits of an index may contain only indices that come later in the argument list.
+        # The limits are sorted: in sympy.Sum, the limits of an index may contain only later indices.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

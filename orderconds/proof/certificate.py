@@ -38,7 +38,8 @@ class Misrounded:
 
 @dataclass(frozen=True)
 class Certificate:
-    """A solution of the equations in the [proof] table of a tableau file, proved to exist near the decimals.
+    """A proved solution of the equations in the [proof] table of a tableau file. The solution is close to the
+    decimals in the file.
 
     - ``tableau``: the coefficients of the solution, as balls.
     - ``facts``: the orders that the equations imply, as pairs (family, order).
@@ -90,8 +91,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 
 class _Key:
-    """A key in the cache of proofs. Two keys are equal if their tableaux are one object, or are equal and
-    come from files with equal content."""
+    """A key in the cache of proofs. The keys of one tableau object are equal. The keys of two objects are
+    equal if the objects are equal and their files have equal content."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -108,8 +109,8 @@ class _Key:
 
     @property
     def content(self) -> Mapping[str, object] | None:
-        """The content of the tableau file, or None if there is no file. Also None if the tableau does not
-        have the [proof] table of the file, because then the file does not describe the tableau."""
+        """The content of the tableau file. The content is None if there is no file, or if ``tableau.proof``
+        is not the [proof] table of the file."""
         file = self.tableau.file
         return None if file is None or file.proof is not self.tableau.proof else file.data
 
@@ -123,7 +124,8 @@ def _certify(key: _Key, least: int) -> Certificate:
     if not proof.unknowns:
         raise NotProved(
             'every decimal is in the list "pins", so no decimal is an unknown; '
-            'remove some names from "pins", or remove "~" from decimals that are exact'
+            'remove some names from "pins"; or, if all decimals are exact, remove each "~" and the table '
+            "[proof]"
         )
     bits = max(least, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
     system = equations(tableau)
@@ -190,7 +192,7 @@ def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
 
 
 def _decimal(value: fmpq, unit: fmpq) -> str:
-    """Return ``value``, a multiple of the power of ten ``unit``, in decimal notation."""
+    """Return ``value`` in decimal notation. It is a multiple of ``unit``, a power of ten."""
     places = len(str(unit.q)) - 1
     return f"{Decimal(int((value / unit).p)).scaleb(-places):f}" if places else str(value)
 

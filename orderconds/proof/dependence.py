@@ -28,19 +28,18 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The number of random methods of the sub-family in the first computation. If :data:`SPARE` requires more
-random methods, the computation is repeated."""
+"""The initial number of random methods. If :data:`SPARE` requires it, more methods are used."""
 
 SPARE = 24
-"""The number of random methods is at least the number of unknown coefficients of a polynomial plus ``SPARE``.
-With fewer random methods, independent conditions could seem dependent by accident."""
+"""A polynomial with n unknown coefficients is computed from at least n + ``SPARE`` random methods. With fewer
+random methods, independent conditions could seem dependent by accident."""
 
 PRIME_BITS = 61
-"""The size, in bits, of the primes modulo which conditions are evaluated. A residue modulo such a prime fits
-in a machine word."""
+"""Conditions are evaluated modulo primes of this size in bits. A residue modulo such a prime fits in a
+machine word."""
 
 MAX_PRIMES = 24
-"""The maximal number of primes modulo which conditions are evaluated."""
+"""Conditions are evaluated modulo at most this number of primes."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
 """A map from each dependent condition to a polynomial that is equal to its left-hand side modulo one prime. A
@@ -54,7 +53,7 @@ class Dependences:
 
     - ``pivots``: the independent conditions.
     - ``primes``: the primes of the computation.
-    - ``residues``: for each prime, the polynomials for the dependent conditions.
+    - ``residues``: for each prime, a map from each dependent condition to its polynomial.
     """
 
     pivots: tuple[OrderCondition, ...]
@@ -88,7 +87,7 @@ def dependences(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> Iterator[Dependences]:
-    """Yield the independent and the dependent conditions of a sub-family, once after each suitable prime.
+    """Yield the independent and the dependent conditions of a sub-family, computed modulo primes.
 
     Each yielded object contains the results for all suitable primes so far. A prime is unsuitable if the
     formulas cannot be evaluated modulo this prime, or if a condition is dependent modulo this prime but not
@@ -136,8 +135,8 @@ def _modulo(
     """Return the conditions that are independent modulo one prime, and a map from each dependent condition to
     a polynomial in the left-hand sides of independent conditions.
 
-    If the formulas contain a square root sqrt(d), the polynomials have coefficients x + y sqrt(d). If the two
-    square roots of d modulo the prime lead to different independent conditions, return None.
+    If the formulas contain a square root sqrt(d), the polynomials have coefficients x + y sqrt(d). Return
+    None if the two square roots of d modulo the prime give different sets of independent conditions.
     """
     prime = sampling.prime
     if surd is None:
@@ -184,7 +183,7 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """Both sides of a product of conditions, modulo a prime.
+    """The products of the left-hand sides and of the right-hand sides of conditions, modulo a prime.
 
     - ``factors``: the conditions.
     - ``members``: the product of the left-hand sides, with one residue for each random method.
@@ -205,7 +204,7 @@ class _Value:
 
 @dataclass(frozen=True)
 class _Sampling:
-    """The input of an evaluation of ``conditions`` modulo ``prime`` for random methods of a sub-family."""
+    """Evaluates ``conditions`` modulo ``prime`` for random methods of a sub-family."""
 
     family: Family
     symbolic: SymbolicCoefficients
@@ -215,10 +214,11 @@ class _Sampling:
     read: Reading | None
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
-        """Return both sides of each condition, with the left-hand sides for ``count`` random methods.
+        """Return the two sides of each condition. The left-hand side is evaluated for ``count`` random
+        methods.
 
-        If the only radical in the formulas is a square root, the residue ``root`` is its value. If ``root``
-        is None, the values of all radicals are random residues.
+        If ``root`` is not None, this residue replaces the square root in the formulas. If ``root`` is None,
+        the values of all radicals are random residues.
         """
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
@@ -233,12 +233,11 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """The ring of the coefficients of ``count`` random methods, with one residue modulo a prime for each
-    method.
+    """A ring for the coefficients of ``count`` random methods. An element contains one residue modulo
+    ``prime`` for each method.
 
     Random residues replace the values of roots: a polynomial identity that holds for all values of the roots
-    also holds for the true values. If ``square_root`` is not None, this residue is the value of every square
-    root.
+    also holds for the true values. If ``square_root`` is an integer, this integer replaces every square root.
     """
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
@@ -247,14 +246,13 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return the residues that are used as the ``index``-th root of x. Equal arguments give equal
-        residues."""
+        """Return residues in place of the root x^(1/index). Equal arguments give equal residues."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))
 
     def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
-        """Return random residues that are used as the root of ``minpoly``. Equal names give equal
+        """Return random residues in place of the root ``name`` of ``minpoly``. Equal names give equal
         residues."""
         return self._drawn(name)
 

@@ -15,8 +15,8 @@ exactly, from the formulas in the file and not from the decimals:
   vector space (:mod:`orderconds.series.two_registers`).
 - ``simplifying``: Butcher's simplifying assumptions B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2)
   (Butcher 1964; Hairer, Norsett and Wanner, Theorem II.7.4).
-- ``spelling``: some conditions follow from the others in the sub-family of methods whose coefficients satisfy
-  the formulas in the file (:mod:`orderconds.proof.subfamily`).
+- ``spelling``: the formulas in the file define a sub-family of methods. In this sub-family, some conditions
+  follow from the others (:mod:`orderconds.proof.subfamily`).
 
 The equations for the embedded method of a 2N scheme are the conditions of rooted trees
 (docs/explanation/two_registers.md).
@@ -48,8 +48,8 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations for the unknowns of ``tableau``. The unknowns are the exact values of the rounded
-    decimals that are not in ``proof.pins``.
+    """The equations for the unknowns of ``tableau``. Each rounded decimal approximates one unknown, except
+    the decimals in ``proof.pins``.
 
     ``facts`` contains the orders that the equations imply, as pairs (family, order).
     """
@@ -58,7 +58,7 @@ class Equations:
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """The number s if the method is a Magnus method on s Gauss nodes and ``proof.order`` is at most 2s, else
+    """The number s of nodes of a Magnus method on Gauss nodes, if ``proof.order`` is at most 2s. Otherwise
     None. If the value is s, only conditions for words in the letters 1, ..., s are used."""
     kept: tuple[OrderCondition, ...] | None = None
     """The conditions that remain after the reduction ``spelling`` or ``low-storage``, or None without these
@@ -67,7 +67,7 @@ class Equations:
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
     conditions follow the conditions of the scheme."""
     lower_facts: tuple[tuple[str, int], ...] = ()
-    """The orders of the embedded method that the conditions in ``lower`` imply, as pairs (family, order)."""
+    """The orders of the embedded method, as pairs (family, order). The conditions in ``lower`` imply them."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
@@ -120,8 +120,8 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
     orders = range(1, order + 1, step)
-    # ``family.conditions`` omits conditions that are dependent modulo primes. The proof requires that these
-    # conditions are also dependent over the rationals Q.
+    # ``family.conditions`` omits conditions that depend on others in arithmetic modulo primes. The proof
+    # requires that these conditions are also dependent over the rationals Q.
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
@@ -135,7 +135,8 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
 def equations(tableau: Tableau) -> Equations:
     """Return the equations that the ``[proof]`` table of a tableau file specifies.
 
-    Raises :class:`NotProved` if the reduction does not apply, and :class:`InputError` for an unknown family.
+    Raises :class:`NotProved` if the reduction in the table does not apply, and :class:`InputError` for an
+    unknown family.
 
     >>> from orderconds.tableau import find
     >>> equations(Tableau.load(find("cg4a"))).facts
@@ -150,8 +151,7 @@ def equations(tableau: Tableau) -> Equations:
     if proof.reduction == "symmetric":
         if properties(tableau).get("symmetric") is not True:
             raise NotProved(
-                'reduction = "symmetric": there is no proof that the method remains symmetric if the '
-                "decimals change"
+                'reduction = "symmetric": the formulas in the file do not prove that the method is symmetric'
             )
         if proof.order % 2:
             raise NotProved(
@@ -203,8 +203,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions that, with the formulas in the tableau file, imply all conditions up to the order
-    in ``proof``."""
+    """Return conditions that imply all conditions up to the order in ``proof``. The coefficients satisfy the
+    formulas in the tableau file."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -263,7 +263,7 @@ def _reached(proof: Proof, order: int) -> int:
 
 
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
-    """Return the indices of all equations that do not hold for all values of the unknowns.
+    """Omit the equations that hold for all values of the unknowns. Return the indices of the other equations.
 
     ``values`` contains one jet for each equation. The jet consists of balls that enclose the function
     "left-hand side minus right-hand side" and its partial derivatives for all unknowns in a box. Equations

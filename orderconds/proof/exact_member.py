@@ -93,18 +93,17 @@ class ExactMember:
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Return True if a condition holds at this random member. If the condition fails for at least one
-        member of the sub-family, the probability of the result True is negligible
+        """Return True if a condition holds at this random member. If the condition does not hold in the whole
+        sub-family, the result is True only with negligible probability
         (:mod:`orderconds.tableau.random_member`)."""
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
-        """Return True if ``condition`` follows from the other conditions that occur in the polynomial
-        ``combination``.
+        """Return True if the polynomial ``combination`` expresses ``condition`` through other conditions.
 
-        The polynomial must hold for the left-hand sides of this random member and for the right-hand sides.
-        If the result is True, the probability of an error is negligible. Return False if ``combination`` is
-        None.
+        For one random method, the polynomial in the other left-hand sides must be equal to the left-hand side
+        of ``condition``. The right-hand sides must satisfy the same equation. If the result is True, the
+        probability of an error is negligible. Return False if ``combination`` is None.
         """
         if combination is None:
             return False
@@ -162,8 +161,8 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """The field Q(sqrt(d)), with random numbers in place of the rounded decimals and the roots of
-    polynomials."""
+    """Converts the numbers in formulas to elements of Q(sqrt(d)). Random numbers replace the rounded decimals
+    and the roots of polynomials."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd

@@ -46,8 +46,9 @@ class Refined:
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """Compute the unknowns of the ``[proof]`` table of a tableau file to ``digits`` decimal places.
 
-    If there are more unknowns than independent equations, some unknowns keep their decimals: the ``pins`` of
-    the new file. The table ``[proof.printed]`` contains the original digits.
+    If there are more unknowns than independent equations, some unknowns keep their decimals. The list
+    ``pins`` of the resulting file contains these unknowns. The table ``[proof.printed]`` contains the
+    original digits.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
     decimals.
@@ -149,8 +150,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
-    """Return the text of the new tableau file with the digits ``decimals``, the pins ``pinned``, and the
-    original digits in ``[proof.printed]``."""
+    """Return ``text`` with the new digits ``decimals``. The list ``pins`` becomes ``pinned``. The table
+    ``[proof.printed]`` contains the original digits."""
     record = dict[str, str]()
     for unknown in proof.unknowns:
         if unknown.name not in decimals:

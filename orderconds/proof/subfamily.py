@@ -26,8 +26,8 @@ def independent_conditions(
     """Return conditions that imply all conditions up to ``order`` for the methods of the sub-family
     ``symbolic``.
 
-    ``read(method, ring)`` converts a method with coefficients in ``ring`` to the format in which ``family``
-    evaluates its conditions. If ``read`` is None, the method is not converted.
+    ``read(method, ring)`` converts a method to a format that ``family`` accepts. The coefficients of the
+    method are elements of ``ring``. If ``read`` is None, the method is not converted.
 
     >>> from orderconds import families
     >>> from orderconds.tableau import Tableau

@@ -1,6 +1,6 @@
 """Rigorous enclosures of real numbers by balls of the library Arb, with a fixed working precision.
 
-A ball is an interval, given by a midpoint and a radius. The ball represents a real number in the interval.
+A ball is an interval, given by a midpoint and a radius. The ball encloses the exact value of a number.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Balls:
         return self.bits
 
     def rational(self, p: int, q: int = 1) -> Ball:
-        """Return a ball around p/q. The radius is zero if p/q is a binary number of at most ``bits`` bits."""
+        """Return a ball around p/q. The radius of a binary fraction of at most ``bits`` bits is zero."""
         with precision(self.bits):
             return Ball(arb(fmpq(p, q)), self.bits)
 

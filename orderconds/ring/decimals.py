@@ -61,12 +61,12 @@ def rational_decimal(x: fmpq, digits: int) -> str:
 
 
 def _figures(n: int) -> str:
-    """Return the decimal digits of n, without the limit of 4300 digits of ``str`` for a Python integer."""
+    """Return the decimal digits of n. The function has no limit of 4300 digits, unlike ``str``."""
     return str(fmpz(n))
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Return the decimal number with the digits ``figures`` as text. The first digit is multiplied by
+    """Return the decimal number with the digits ``figures`` as text. The place value of the first digit is
     10^exponent."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures

@@ -39,7 +39,7 @@ class Draws:
     def primes(self, bits: int, avoided: Iterable[int] = ()) -> Iterator[int]:
         """Yield different primes p that have ``bits`` binary digits and are congruent to 3 modulo 4.
 
-        If x is a square modulo p, then x^((p + 1)/4) is a square root of x. Primes that divide a non-zero
+        Modulo such a prime, each square x has the square root x^((p + 1)/4). Primes that divide a non-zero
         number in ``avoided`` are skipped.
 
         >>> next(Draws("one file").primes(61)).bit_length()

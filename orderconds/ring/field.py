@@ -26,7 +26,7 @@ LARGE = 8
 """In fields of at least this degree, 1/x is computed from a linear system, not by Euclid's algorithm."""
 
 REMEMBERED = 1000
-"""The maximal size of a field's cache of elements that were converted from smaller fields."""
+"""Each field caches at most this number of converted elements of smaller fields."""
 
 
 class Generator(Struct, frozen=True):
@@ -91,7 +91,7 @@ class NumberField:
 
     @cached_property
     def _identity(self) -> Key:
-        """Two fields are equal if and only if these triples of the fields are equal."""
+        """Two fields are equal if their names, moduli and named roots are equal."""
         return self.name, str(self.modulus), self.named_roots
 
     def __eq__(self, other: object) -> bool:

@@ -16,8 +16,8 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""A safety margin in bits. :func:`relation` rejects a relation if random numbers have an equally small
-relation with a probability above about 2^-GUARD."""
+"""A safety margin in bits. For random numbers, :func:`relation` finds a relation with a probability of at
+most about 2^-GUARD."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
@@ -62,7 +62,7 @@ def quadratic_field(x: Fraction, bits: int) -> int | None:
     """Return a square-free integer d > 1 such that x is close to an irrational element of Q(sqrt(d)).
 
     The element is a root of a quadratic polynomial with small integer coefficients. The value of the
-    polynomial at x is a small multiple of 2^-bits. Return None if no such element is found.
+    polynomial at x is close to zero: a small multiple of 2^-bits. Return None if no such element is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

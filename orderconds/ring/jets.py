@@ -18,7 +18,7 @@ from orderconds.ring.protocol import Element
 
 class Jets:
     """The ring whose elements enclose the value and the gradient of a function of ``width`` variables. The
-    enclosures hold at all points of the box formed by the balls of the variables (:meth:`variable`).
+    enclosures hold for all values of the variables in their balls (:meth:`variable`).
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(64):

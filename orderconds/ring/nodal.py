@@ -46,7 +46,7 @@ class NodalAlgebra:
     corrections to the integrals:
 
     - ``corrections[kind]``: a list of pairs (k, d) for the matrix with index ``kind``. Multiplication by the
-      matrix maps z^k to the sum of z^(k+1)/(k+1) and the polynomial d, modulo M.
+      matrix maps z^k to the polynomial z^(k+1)/(k+1) + d, modulo M.
     - ``moments``: a list of pairs (k, d). The scalar product of the weights with the vector of the powers
       c_i^k is 1/(k+1) + d.
 
@@ -85,8 +85,7 @@ class NodalAlgebra:
 
     def apply(self, kind: int, x: fmpq_poly) -> fmpq_poly:
         """Return the polynomial that represents the vector A v. Here v is the vector that x represents, and A
-        is the matrix of the method with index ``kind`` in the argument ``matrices`` of
-        :func:`nodal_algebra`."""
+        is ``matrices[kind]``, where ``matrices`` is the argument of :func:`nodal_algebra`."""
         image = x.integral() % self.modulus
         for k, correction in self.corrections[kind]:
             image = image + correction * x[k]
@@ -101,7 +100,7 @@ class NodalAlgebra:
         return total
 
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
-        """Return the matrices of two linear maps in the basis 1, z, z^2, ... of the algebra.
+        """Return the matrices of two linear maps of polynomials, in the basis 1, z, z^2, ...
 
         The maps represent the multiplication of vectors by A - e b^T and by A. Here A is the first matrix of
         the method, b is the vector of the weights, and e is the vector of ones.
@@ -127,8 +126,9 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
     - ``ring`` is not a :class:`NumberField`, or its degree is 1.
     - Two nodes are equal.
     - The polynomial M with the roots c_i has an irrational coefficient.
-    - For a matrix A of the method and a number k below the number of stages, the polynomial of the vector
-      A c^k has an irrational coefficient, or the number sum_i b_i c_i^k is irrational.
+    - The polynomial of a vector A c^k has an irrational coefficient. Here A is one of ``matrices``, and k is
+      below the number of stages.
+    - A number sum_i b_i c_i^k is irrational.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))
@@ -228,8 +228,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return the polynomial with the given values at the nodes, or None if its coefficients are not
-    ``guess(values)``."""
+    """Return the polynomial with the coefficients ``guess(values)``. Return None if its values at the nodes
+    are not ``values``."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

@@ -86,7 +86,7 @@ REFUSED: dict[str, tuple[str, str]] = {
     ),
     "not symmetric": (
         text("yoshida6").replace('"g3", "g2", "g1"]', '"g3", "g1", "g2"]'),
-        "there is no proof that the method remains symmetric if the decimals change",
+        "the formulas in the file do not prove that the method is symmetric",
     ),
     "odd order of a symmetric method": (
         text("yoshida6").replace("order = 6\nreduction", "order = 5\nreduction"),
