@@ -14,9 +14,9 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
     """Return the indices of the pivot columns of a matrix. A pivot column is not a linear combination of the
     columns to its left.
 
-    Each column contains the values of one function at random points, one point for each row. The number of
-    pivot columns is smaller than the number of linearly independent functions with a probability of about
-    (number of columns) / prime.
+    Each column contains the values of one function at random points, one point for each row. With a
+    probability of about (number of columns) / prime, there are fewer pivot columns than linearly independent
+    functions.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)

@@ -23,8 +23,9 @@ def kernel(rows: Sequence[Row], width: int) -> Iterator[list[tuple[int, Fraction
     """Yield a basis of the kernel of the matrix with the rows ``rows`` and ``width`` columns. A basis vector
     is given as a list with a pair (index, entry) for each non-zero entry.
 
-    A column of the matrix is a pivot column if it is not a linear combination of the columns to its left. For
-    each other column k, one vector consists of (k, 1), followed by pairs with indices of pivot columns.
+    A column of the matrix is a pivot column if it is not a linear combination of the columns to its left.
+    Each other column k of the matrix gives one basis vector. Its first pair is (k, 1). The indices of its
+    other pairs belong to pivot columns.
 
     >>> [[(place, str(x)) for place, x in vector] for vector in kernel([[1, 2, 0]], 3)]
     [[(1, '1'), (0, '-2')], [(2, '1')]]

@@ -61,7 +61,7 @@ class Tower:
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
         """Return the rational number ``value``.
 
-        Raises TypeError if ``unit``, the error bound of a rounded decimal, is positive.
+        Raises TypeError if ``value`` is a rounded decimal with a positive error bound ``unit``.
         """
         if unit:
             raise TypeError("a number field cannot represent a rounded decimal")
@@ -194,8 +194,8 @@ class _Relation:
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
     """Find an element c that generates the algebra K[x]/(p) over Q. Here K = Q(a) is ``field``, and p is the
-    polynomial x^k - sum_j powers[j] x^j with k = len(powers). Return m and the :class:`_Relation` of c, where
-    c = x + m a for an integer m, and c = a x if m is None."""
+    polynomial x^k - sum_j powers[j] x^j with k = len(powers). Return m and the :class:`_Relation` of c. If m
+    is an integer, c is x + m a. If m is None, c is a x."""
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)
@@ -223,8 +223,9 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Multiply an element of the algebra K[x]/(p) by c (:func:`_primitive`, with m = ``multiplier``). An
-    element v_0 + v_1 x + v_2 x^2 + ... is the list [v_0, v_1, v_2, ...]."""
+    """Return the product of ``vector`` and x + m a, where m is ``multiplier``. If m is None, return the
+    product of ``vector`` and a x. The docstring of :func:`_primitive` defines a and x. An element v_0 + v_1 x
+    + v_2 x^2 + ... is the list [v_0, v_1, v_2, ...]."""
     field = powers[0].field
     top = vector[-1]
     shifted = [x + top * p for x, p in zip([field.zero, *vector[:-1]], powers, strict=True)]
@@ -237,8 +238,8 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
 
 
 def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
-    """Return the matrix over Q with one column for each list in ``columns``: the ``degree`` rational
-    coefficients of each element of the list."""
+    """Return the matrix over Q with one column for each list in ``columns``. Each element of a list
+    contributes ``degree`` rational numbers to the column."""
     rows = [
         [column[j].polynomial[i] for column in columns] for j in range(len(columns[0])) for i in range(degree)
     ]

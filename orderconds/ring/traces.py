@@ -85,8 +85,7 @@ class Traces:
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:
-        """Return ``text(x)``. The result of an operation has no decimal value, because the inputs have no
-        values yet."""
+        """Return ``text(x)``. A recorded operation has no decimal value."""
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
@@ -108,8 +107,8 @@ class Traces:
 
 
 class Trace:
-    """An element of the ring :class:`Traces`: a rational number, or the result of a recorded operation. For a
-    result, ``place`` is the index of the operation, and ``constant`` is None."""
+    """An element of the ring :class:`Traces`: a rational number, or the result of a recorded operation. If
+    the element is a result, ``place`` is the index of the operation, and ``constant`` is None."""
 
     __slots__ = ("constant", "place", "ring")
 

@@ -4,15 +4,14 @@ Let q0 be the initial position and mu1 the final momentum of a step. The velocit
 stage are expanded about (q0, mu1). The expansions are sums over trees
 (:mod:`orderconds.series.action_trees`). A tree of a velocity is a pair t = (w, M). A tree of a momentum has
 the form H(u*v|M) or L(w). Here u, v and w are words of smaller trees, and M is a multiset of smaller trees.
-Let b_i be the weight of stage i. The coefficients of the trees in the expansions of stage i are
+Let b_i be the weight of stage i, and let Phi_w(i) be the coefficient of the word w in the group element of
+stage i. For psi_p(i), a new letter x is added to the expansion of the velocity of stage i. Square brackets
+denote the coefficient of a word in the group element of stage j or of the update, after this addition. The
+coefficients of the trees in the expansions of stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [(u, x, v) at stage j]``,
 - ``psi_{L(w)}(i) = (1/b_i) [(x, reverse(w)) at the update]``.
-
-Here Phi_w(i) is the coefficient of the word w in the group element of stage i. The formulas for psi contain
-an additional letter x: xi_i + x replaces the velocity xi_i of stage i in all group elements. Square brackets
-denote the coefficient of a word in the group element of stage j or of the update, after this replacement.
 
 The order condition of a tree t is: ``sum_i b_i tau_t(i)`` is equal to the coefficient of t in the exact flow.
 A method has order n if and only if the conditions of all trees t = (w, M) with at most n vertices hold.
@@ -42,8 +41,8 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """The action series of one method, with coefficients in ``ring``.
 
-    The weights b_i must be invertible in ``ring``. The argument ``row`` of a method is the index of a group
-    element: 0, ..., s - 1 for the s stages, and s for the update.
+    The weights b_i must be invertible in ``ring``. The argument ``row`` is the index of a group element: 0,
+    ..., s - 1 for the s stages, and s for the update.
 
     The example computes coefficients of the implicit midpoint rule.
 
@@ -70,7 +69,7 @@ class ActionSeries(ABC):
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
         """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
-        ``row``. The letter x is added to the velocity of the stage with index ``stage``."""
+        ``row``. The expansion of the velocity of stage ``stage`` has the additional term x."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return the coefficient of ``word`` in the group element of each stage."""
@@ -154,8 +153,8 @@ class ActionSeries(ABC):
         return self._sum(b * v for b, v in zip(self.weights, values, strict=True))
 
     def update_words(self, vertices: int) -> dict[Word, Element]:
-        """Return the coefficients, in the group element of the update, of all words of trees with at most
-        ``vertices`` vertices in total.
+        """Return a map from words to their coefficients in the group element of the update. The map contains
+        all words with at most ``vertices`` vertices in total.
 
         Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Each tree t
         denotes an element of g at the position q0 and the momentum mu1. Let ``F(t)`` be the right-invariant
@@ -169,9 +168,9 @@ class ActionSeries(ABC):
 class CommutatorFreeSeries(ActionSeries):
     """The action series of a method whose stages and update are products of exponentials.
 
-    ``rows`` contains the exponentials of each stage, followed by the exponentials of the update. The weight
-    b_i is the sum of the coefficients of the velocity of stage i in the exponents of the update (Bogfjellmo
-    and Marthinsen, equation (3.18)).
+    ``rows`` contains the exponentials of each stage, followed by the exponentials of the update. An exponent
+    is a linear combination of the stage velocities xi_1, xi_2, .... The weight b_i is the sum of the
+    coefficients of xi_i in the exponents of the update (Bogfjellmo and Marthinsen, equation (3.18)).
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -195,15 +194,15 @@ class CommutatorFreeSeries(ActionSeries):
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of the word t_1 ... t_k in the group element with index ``row``.
 
-        Let phi_J(t) be the coefficient of the letter t in the exponent of exponential J. The coefficient of
-        the word is the sum of ``prod_l phi_{J_l}(t_l) / prod_J n_J!`` over all sequences J_1 <= ... <= J_k of
-        indices. Here n_J is the number of times that J occurs in the sequence.
+        Let phi_J(t) be the coefficient of the letter t in the exponent of exponential J. Let n_J be the
+        number of times that J occurs in a sequence J_1 <= ... <= J_k of indices. The coefficient of the word
+        is the sum of ``prod_l phi_{J_l}(t_l) / prod_J n_J!`` over all such sequences.
         """
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
         """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
-        ``row``. The letter x is added to the velocity of the stage with index ``stage``."""
+        ``row``. The expansion of the velocity of stage ``stage`` has the additional term x."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -213,7 +212,7 @@ class CommutatorFreeSeries(ActionSeries):
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
         """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
-        ``row``, if the letter x is added only to the exponent of the exponential with index ``place``."""
+        ``row``. Only the exponent of the exponential with index ``place`` has the additional term x."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -232,8 +231,7 @@ class CommutatorFreeSeries(ActionSeries):
         )
 
     def _exponent(self, exponential: Exponential, tree: Velocity) -> Element:
-        """Return the coefficient of ``tree`` in the linear combination ``exponential`` of the stage
-        velocities."""
+        """Return the coefficient of ``tree`` in the exponent ``exponential``."""
         values = self.tau(tree)
         return self._sum(value * values[stage] for stage, value in exponential)
 
@@ -265,8 +263,8 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return a list: entry k is the coefficient of ``word`` in the group element ``row`` without its
-        first k exponentials."""
+        """Return a list: entry k is the coefficient of ``word`` in the product of all exponentials of the
+        group element ``row`` except the first k."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known

@@ -57,7 +57,8 @@ def velocities(vertices: int) -> tuple[Velocity, ...]:
 
 
 def words(vertices: int) -> tuple[Word, ...]:
-    """Return all words of g-valued trees with ``vertices`` vertices in total, simplest words first.
+    """Return all words with ``vertices`` vertices in total, sorted by cost. A word is a sequence of g-valued
+    trees.
 
     >>> words(2)
     ((o, o), (o(o),), (o(|f(*)),), (o(|L(o)),))
@@ -86,7 +87,8 @@ def multisets(vertices: int) -> tuple[Momenta, ...]:
 
 @cache
 def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
-    """Return the g-valued trees with ``vertices`` vertices and cost at most ``limit``, not sorted."""
+    """Return the g-valued trees with ``vertices`` vertices and cost at most ``limit``. The trees are not
+    sorted."""
     trees = []
     for k in range(vertices):
         for cost, word in _words(k, limit):
@@ -117,9 +119,8 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return pairs (added cost, tree), sorted by added cost, for the g-valued trees with ``vertices``
-    vertices and an added cost of at most ``limit``. The added cost is the amount that the tree adds to the
-    cost of a word."""
+    """Return pairs (added cost, tree) for g-valued trees with ``vertices`` vertices, sorted by cost. The
+    added cost is the amount that the tree adds to the cost of a word. It is at most ``limit``."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()
@@ -149,8 +150,8 @@ def _momenta(vertices: int, limit: float) -> Momenta:
 
 @cache
 def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
-    """Return pairs (cost, multiset), sorted by cost, for the multisets of g*-valued trees with ``vertices``
-    vertices in total and a cost of at most ``limit``. The cost of a multiset is the sum of the costs of its
+    """Return pairs (cost, multiset), sorted by cost. The cost is at most ``limit``. The multisets contain
+    g*-valued trees with ``vertices`` vertices in total. The cost of a multiset is the sum of the costs of its
     trees."""
     return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
 
@@ -160,8 +161,8 @@ def _chosen(
 ) -> Iterator[tuple[int, Momenta]]:
     """Yield pairs (cost, multiset) for the multisets of g*-valued trees with ``vertices`` vertices in total
     and a cost of at most ``rest``. The trees are entries of the lists ``_momenta(n, limit)`` with
-    n <= ``largest``. To yield each multiset once, the recursion uses only the entries up to the index
-    ``bound`` in the list for n = ``largest`` (all entries if ``bound`` is None)."""
+    n <= ``largest``. If ``bound`` is an integer, the trees after the index ``bound`` in the list for
+    n = ``largest`` are not used. This prevents repeated multisets."""
     if vertices == 0:
         yield 0, ()
         return

@@ -34,8 +34,8 @@ from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, W
 
 @cache
 def tau(tree: Velocity) -> UnivariatePolynomial:
-    """Return the polynomial tau_t(s): the coefficient of a g-valued tree t in the velocity of the exact flow
-    at time s. The example shows s as x.
+    """Return the polynomial tau_t(s) for t = ``tree``. It is the coefficient of t in the expansion of the
+    exact velocity at time s. The example shows s as x.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(tau(t)) for t in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
@@ -58,8 +58,8 @@ def phi(word: Word) -> UnivariatePolynomial:
 
 @cache
 def psi(tree: Momentum) -> UnivariatePolynomial:
-    """Return the polynomial psi_p(s): the coefficient of a g*-valued tree p in the momentum of the exact flow
-    at time s. The example shows s as x.
+    """Return the polynomial psi_p(s) for p = ``tree``. It is the coefficient of p in the expansion of the
+    exact momentum at time s. The example shows s as x.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> psi(force()), psi(force((velocity(),)))

@@ -149,7 +149,8 @@ class ActionFields:
         return components
 
     def covector(self, tree: Momentum) -> Coordinates:
-        """Return the coordinates of the covector m_p of a g*-valued tree p."""
+        """Return the coordinates of the covector that ``tree`` denotes
+        (:mod:`orderconds.series.action_trees`)."""
         components = self._covector.get(tree)
         if components is None:
             if isinstance(tree, Force):
@@ -176,9 +177,10 @@ class ActionFields:
         """Return the coefficients of h^(p+1) in the local errors of position and momentum, for a method of
         order p with the step size h.
 
-        The results are a matrix and the coordinates of a covector. ``defects`` maps each word whose letters
-        have p + 1 vertices in total to its coefficient in the update minus its coefficient in the exact flow.
-        The value of every word with at most p vertices must be zero.
+        The results are a matrix and the coordinates of a covector. ``defects`` maps words to numbers. The
+        number is the coefficient of the word in the update minus the coefficient in the exact flow.
+        ``defects`` contains all words with p + 1 vertices in total. The number of each word with at most p
+        vertices must be zero.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
@@ -202,8 +204,8 @@ class ActionFields:
 
     def _impulse(self, tree: Velocity) -> Coordinates:
         """Return the coordinates of the covector that maps x to a mixed derivative of H(q, mu). The
-        directions are x and the velocities of the trees ``tree.word`` in q, and the covectors of
-        ``tree.momenta`` in mu."""
+        directions in q are x and the velocities of ``tree.word``. The directions in mu are the covectors of
+        ``tree.momenta``."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

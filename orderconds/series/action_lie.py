@@ -6,8 +6,8 @@ b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
 The coefficient of a g*-valued tree (:mod:`orderconds.series.action`) depends on coefficients of words (u, x,
-v). Here x is a new letter, and xi_j + x replaces the velocity xi_j of one stage j in all group elements. The
-arguments ``before`` and ``after`` of the functions are the words u and v.
+v). Here x is a new letter. It is added to the expansion of the velocity xi_j of one stage j. In the methods,
+u is the argument ``before``, and v is ``after``.
 """
 
 from __future__ import annotations
@@ -24,11 +24,12 @@ from orderconds.series.b_series import Sums, sparse
 from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
-"""The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m."""
+"""The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m. Here X^m acts before xi,
+and X^n acts after xi."""
 
 Varied = dict[int, Element]
-"""The coefficients of one word with the letter x in one series, as a map {j: coefficient after the
-replacement of xi_j by xi_j + x}. If a key is missing, the coefficient is zero."""
+"""A map from stages j to coefficients of one word (u, x, v), where x is added to the expansion of xi_j. If a
+key is missing, the coefficient is zero."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -72,8 +73,8 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
         """Return the coefficient of the word (``before``, x, ``after``) in the group element of stage
-        ``row``, or of the update if ``row`` is the number of stages. The letter x is added to the velocity of
-        stage ``stage``."""
+        ``row``, or of the update if ``row`` is the number of stages. The expansion of the velocity of stage
+        ``stage`` has the additional term x."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -94,7 +95,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
         """Return the coefficients of the word (``before``, x, ``after``) in the group elements of the stages
-        (``update`` = 0) or of the update (``update`` = 1)."""
+        if ``update`` is 0, or in the group element of the update if ``update`` is 1."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -107,8 +108,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficients of ``word`` in X_i^n for all stages i (``update`` = 0), or in Y^n
-        (``update`` = 1)."""
+        """Return the coefficients of ``word`` in X_i^n for all stages i if ``update`` is 0, or in Y^n if
+        ``update`` is 1. The module docstring defines the exponents X_i and Y."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -122,8 +123,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word (``before``, x, ``after``) in X_i^n for all stages i
-        (``update`` = 0), or in Y^n (``update`` = 1)."""
+        """Return the coefficients of the word (``before``, x, ``after``) in X_i^n for all stages i if
+        ``update`` is 0, or in Y^n if ``update`` is 1. The module docstring defines x, X_i and Y."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -139,7 +140,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add the result of :meth:`_varied_power` for n >= 2 to ``totals``."""
+        """Add the result of :meth:`_varied_power` to ``totals``. The power n must be at least 2."""
         for cut in range(1, len(before) + len(after) + 3 - n):
             # The word (before, x, after) is divided after ``cut`` letters. If ``rest`` is negative, the
             # second part contains x.
@@ -154,7 +155,8 @@ class MuntheKaasActionSeries(ActionSeries):
                 _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
-        """Return the coefficient of ``word`` in dexpinv_{(r),X_j} xi_j for each stage j."""
+        """Return the coefficient of ``word`` in dexpinv_{(r),X_j} xi_j for each stage j. The module docstring
+        defines this series."""
         values = self._summands.get(word)
         if values is None:
             values = [self.ring.zero] * self.stages
@@ -169,7 +171,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
         """Return the coefficients of the word (``before``, x, ``after``) in dexpinv_{(r),X_j} xi_j for each
-        stage j."""
+        stage j. The module docstring defines this series and the letter x."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -190,7 +192,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
         """Return the coefficient of the word (``before``, xi_j, ``behind``) in dexpinv_{(r),X_j} xi_j for
-        each stage j, or None if no term contains such words."""
+        each stage j. Return None if no term contains such words."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -205,8 +207,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the coefficients of the word (``before``, x, ``after``, xi_j, ``behind``) in
-        dexpinv_{(r),X_j} xi_j for each stage j."""
+        """Return the coefficients (:data:`Varied`) of the word (``before``, x, ``after``, xi_j, ``behind``)
+        in dexpinv_{(r),X_j} xi_j for each stage j. Here xi_j is one letter, and x comes from X_j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -216,8 +218,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word (``first``, xi_j, ``before``, x, ``after``) in
-        dexpinv_{(r),X_j} xi_j for each stage j."""
+        """Return the coefficients (:data:`Varied`) of the word (``first``, xi_j, ``before``, x, ``after``) in
+        dexpinv_{(r),X_j} xi_j for each stage j. Here xi_j is one letter, and x comes from X_j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -227,8 +229,8 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
         """Return the terms (q, m, n) of dexpinv_X xi that contain words with ``before`` letters before xi and
-        ``behind`` letters behind xi. The first letter of a word acts first, hence X^m in q X^n xi X^m gives
-        the letters before xi."""
+        ``behind`` letters behind xi. The first letter of a word acts first. In q X^n xi X^m, the power X^m
+        acts first. Hence X^m gives the letters before xi."""
         known = self._in_sight.get((before, behind))
         if known is None:
             known = self._in_sight[before, behind] = [
@@ -274,7 +276,7 @@ class PadeActionSeries(MuntheKaasActionSeries):
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
     """Return the terms with at most ``most`` factors X in the solution v of the equation dexp_{(r),X} v = xi.
-    The map dexp_{(r),X} is the series dexp_X, truncated after the power r = ``cutoff`` of X. A triple (q, m,
+    The map dexp_{(r),X} is dexp_X truncated after the r-th power of X, where r is ``cutoff``. A triple (q, m,
     n) represents the term q X^n xi X^m.
 
     Let S(z) be the sum of z^j/(j+1)! for j = 0, ..., r, and let q_k be the coefficient of z^k in the power

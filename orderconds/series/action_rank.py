@@ -70,8 +70,8 @@ def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
     """Return a map from each tree to a vector of numbers modulo ``prime``. The last entry is the right-hand
-    side of the condition of the tree, its value for the exact flow. All other entries are left-hand sides,
-    one for each random method.
+    side of the order condition of the tree. All other entries are left-hand sides, one for each random
+    method.
 
     Calls with the same ``family``, ``order`` and ``prime`` use the same random methods, even if ``trees``
     differs.

@@ -1,13 +1,13 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
-The polynomial is the same for all methods of a family and for the exact flow. The values of the conditions
-for random methods and for the exact flow determine the coefficients.
+The polynomial is the same for all methods of a family and for the exact flow. The coefficients of the
+polynomial are computed from random methods and from the exact flow.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
 commutator-free methods. Let psi_p be the coefficient of a g*-valued tree p in the momentum of a stage
 (:mod:`orderconds.series.action`). The module :mod:`orderconds.series.action_trees` defines the notation of
-trees. Let t be the tree ``o(|L(o))``. The three relations follow from the equation
-``psi_{L(t)} = 3 psi_{L(o o)} - psi_{L(o)}^2``.
+trees. Let t be the tree ``o(|L(o))``. Each stage of a variational Crouch-Grossman method satisfies
+``psi_{L(t)} = 3 psi_{L(o o)} - psi_{L(o)}^2``. This equation implies the three relations.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ left-hand sides of the conditions of the trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a polynomial for each tree with n vertices that is not in ``independent``, where n is the length
-    of ``independent``. The polynomial expresses the condition of the tree by the conditions of trees in
+    """Return a polynomial for each tree with n vertices outside ``independent``. Here n is the length of
+    ``independent``. The polynomial expresses the condition of the tree by the conditions of trees in
     ``independent``.
 
     ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
@@ -96,7 +96,8 @@ def hold_over_rationals(
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
     ``ring``. Let a relation be false for some method of the family, and let d be its degree in the
-    coefficients of the method. The random method satisfies this relation with a probability below d/2^60.
+    coefficients of the method. The random method satisfies the false relation with a probability below
+    d/2^60.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -146,7 +147,8 @@ def _coefficients(
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the multisets of trees from ``trees[start:]`` with ``vertices`` vertices in total."""
+    """Yield the multisets of elements of ``trees[start:]``. The trees of each multiset have ``vertices``
+    vertices in total."""
     if vertices == 0:
         yield ()
     for place in range(start, len(trees)):

@@ -2,9 +2,10 @@
 
 The module :mod:`orderconds.series.action_trees` defines the notation of trees. Let u, v and w be words of
 trees, and let M and N be multisets of trees. In the tree ``o(w | M, H(u*v | N))``, the vertex H is a
-neighbour of the root o. If H becomes the root, the result is the tree ``o(u o(w | M) v | N)``. The left-hand
-sides of the two conditions are double sums over the stages of a method, which differ only in the order of
-summation. The right-hand sides of the two conditions are equal, too.
+neighbour of the root o. If H becomes the root, the old root replaces ``*``. The result is the tree
+``o(u o(w | M) v | N)``, where the first ``o`` is the vertex H. The left-hand sides of the two conditions are
+double sums over the stages of a method, which differ only in the order of summation. The right-hand sides of
+the two conditions are equal, too.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ def switched(tree: Velocity) -> Iterator[Velocity]:
 @cache
 def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
     """Return all classes of trees with ``vertices`` vertices. The trees of one class differ only in the
-    choice of the root. The first tree of each class is the simplest.
+    choice of the root. In each class, the first tree has the smallest sort key (the attribute ``key``).
 
     >>> classes(2)
     ((o(o), o(|f(*))), (o(|L(o)),))

@@ -178,8 +178,8 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of the tree H(u * v | M) with the words u = ``before`` and v = ``after`` and an empty
-    multiset M. The cost measures how difficult an order condition with this tree is to read.
+    """Return the cost of the :class:`Force` with the words ``before`` and ``after`` and an empty multiset.
+    The cost measures the difficulty of reading an order condition with this tree.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)
@@ -189,8 +189,8 @@ def force_cost(before: Word, after: Word) -> int:
 
 
 def transport_cost(word: Word) -> int:
-    """Return the cost of the tree L(w) with the word w = ``word``. The cost measures how difficult an order
-    condition with this tree is to read.
+    """Return the cost of the tree L(w) with the word w = ``word``. The cost measures the difficulty of
+    reading an order condition with this tree.
 
     >>> transport_cost((velocity(), velocity()))
     10
@@ -259,7 +259,7 @@ def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
 
 def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
     """Return the :class:`Force` with the words ``before`` and ``after`` and the multiset ``momenta``. The
-    trees in ``momenta`` may have any order.
+    trees in ``momenta`` need not be sorted.
 
     >>> force((velocity(),), (), (force(),))
     f(o *|f(*))
@@ -272,8 +272,8 @@ def hamiltonian(tree: Velocity) -> str:
     [x, y].
 
     The letters after ``H_`` are the variables in which H is differentiated. In the parentheses, a semicolon
-    separates the directions in q from the directions in mu. In the text of a covector, a dot represents the
-    argument.
+    separates the directions in q from the directions in mu. A covector is a linear function of a vector, and
+    a dot represents this vector.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

@@ -74,8 +74,8 @@ class ElementaryWeights(Generic[TreeT]):
         return self._ring.rational(weight.p, weight.q) if self._rational else weight
 
     def _vector(self, tree: TreeT) -> Element:
-        """Return the vector with the entry tau_t(i) of :class:`ElementaryWeights` for each stage i, where t
-        is ``tree``."""
+        """Return the vector with the entry tau_t(i) for each stage i, where t is ``tree``. The class
+        docstring defines tau_t(i)."""
         if tree not in self._vectors:
             vector = self._stages.one
             for branch in self._branches(tree):
@@ -135,8 +135,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """The triple (k, j, weight_j) at index n - 1 defines the partial sum s_n = s_k + weight_j x_j, where
-        x_j is entry j of the vector x. The sum s_0 is zero."""
+        """The triple (k, j, weight_j) at index n - 1 defines the partial sum s_n = s_k + weight_j x_j. The
+        sum s_0 is zero."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

@@ -13,18 +13,18 @@ least the dimension of the space that the sums span.
 
 Second bound: for each argument, form the sum of the terms that have at least two letters and exactly one new
 letter. This sum is called the linear part of the argument. The linear part has the form sum_n ad_(P_n) q_n,
-where q_n are the new letters, and P_n are polynomials in the old letters. The operator ad_(P) is the
-polynomial P with the operator ad_q in place of each letter q, where ad_q x = [q, x]. Let S be the space that
-the linear parts of u_1, ..., u_i span, and let d be the dimension of S.
+where q_n are the new letters, and P_n are polynomials in the old letters. To obtain the operator ad_(P),
+replace each letter q in P by the operator ad_q. Here ad_q y = [q, y]. Let S be the space that the linear
+parts of u_1, ..., u_i span, and let d be the dimension of S.
 
-The linear parts of the N brackets span a space that contains S. Hence N is at least d. Now assume that, for
-every non-zero element sum_n ad_(P_n) q_n of S, at least one of the polynomials P_n is not a Lie element. Then
-N is greater than d. Of the N brackets, let B be the one that the program computes first, and let x be the
-linear part of B. The two factors of B contain no brackets with new letters. Hence each factor is the sum of a
-Lie element in the old letters and a linear combination of new letters. Therefore x has the form sum_n
-ad_(P_n) q_n with Lie elements P_n. By the assumption, x is zero or not in S. If x is zero, the linear parts
-of the other N - 1 brackets span a space that contains S. If x is not in S, the N linear parts span a space
-that is larger than S.
+The linear part of a bracket is defined in the same way. The linear parts of the N brackets span a space that
+contains S. Hence N is at least d. Now assume that, for every non-zero element sum_n ad_(P_n) q_n of S, at
+least one of the polynomials P_n is not a Lie element. Then N is greater than d. Of the N brackets, let B be
+the one that the program computes first, and let x be the linear part of B. The two factors of B contain no
+brackets with new letters. Hence each factor is the sum of a Lie element in the old letters and a linear
+combination of new letters. Therefore x has the form sum_n ad_(P_n) q_n with Lie elements P_n. By the
+assumption on S, x is zero or not in S. If x is zero, the linear parts of the other N - 1 brackets span a
+space that contains S. If x is not in S, the N linear parts span a space that is larger than S.
 
 The number of brackets without new letters has a similar lower bound. The sum of the lower bounds for the two
 numbers is a lower bound for the number of all brackets.
@@ -42,8 +42,7 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
     """Write the linear part of x as ``sum_n ad_(P_n) q_n``, and return a map from n to P_n. The module
     docstring defines the linear part and the polynomials P_n.
 
-    The polynomial x must be a sum of letters and brackets. The new letters are the letters q_n with n >=
-    ``first``.
+    The polynomial x must be a sum of letters and brackets. A letter q_n is called new if n >= ``first``.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -81,8 +80,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     ``arguments`` contains the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u
     of the exponential of the step.
 
-    The function ignores the terms of the largest grade of ``algebra`` in u_1, ..., u_s, because they do not
-    affect the order of the method.
+    In u_1, ..., u_s, the terms of grade ``algebra.largest`` are ignored, because they do not affect the order
+    of the method.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
@@ -92,7 +91,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # The last entry keeps the terms of the largest grade in u, because they affect the order.
+        # In u, the terms of grade ``algebra.largest`` affect the order. The last list keeps them.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))
@@ -100,8 +99,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
-    """Return a lower bound for the number of brackets that contain a letter with index ``first`` or higher,
-    in every program that computes the elements of ``span``."""
+    """Return a lower bound for the number of brackets in every program that computes the elements of
+    ``span``. Only brackets with a letter of index ``first`` or higher are counted."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)

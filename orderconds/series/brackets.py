@@ -2,12 +2,12 @@
 simplified in a graded free Lie algebra.
 
 A linear combination x of the stage values k_1, ..., k_s has grade g if h x is of order h^g, where h is the
-step size. The combination q_j is the sum of k_j and multiples of k_1, ..., k_(j-1). The multiples maximise
-the grade of q_j. For a method of order p, terms above grade p - 1 can be omitted from the arguments of the
-stages, and terms above grade p can be omitted from the argument of the step (Munthe-Kaas and Owren, Phil.
-Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
+step size. The combination q_j is the sum of k_j and multiples of k_1, ..., k_(j-1). The multiples are chosen
+to make the grade of q_j as large as possible. For a method of order p, terms above grade p - 1 can be omitted
+from the arguments of the stages, and terms above grade p can be omitted from the argument of the step
+(Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
 
-A search expresses the arguments one after another by stage values, earlier brackets and few new brackets.
+A search finds expressions of the arguments in stage values, earlier brackets and few new brackets.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ class BracketProgram:
     """A program that computes the arguments of the exponentials in one step of a method.
 
     The stage values are k_i = f(exp(u_i) y0) with the arguments u_1, ..., u_s. The result of a step of size h
-    is exp(u) y0 with the argument u. A row represents a linear combination of elements h k_j and brackets, as
-    a map from names to coefficients.
+    is exp(u) y0 with the argument u. A row is a map from names to coefficients. It represents a linear
+    combination of brackets and elements h k_j.
 
     - ``brackets[r]``: the rows of x and y in B_r = [x, y].
     - ``stages``: the rows of u_1, ..., u_s.
@@ -60,8 +60,8 @@ class BracketProgram:
     grades: tuple[int, ...]
 
     def text(self, ring: Ring) -> str:
-        """Return a text with one line for each bracket, for each argument u_i of a stage, and for the
-        argument u of the step. The step size h is omitted, and indices start at 1."""
+        """Return the program as text. There is one line for each bracket and for each argument of an
+        exponential. The step size h is omitted, and indices start at 1."""
         lines = [
             f"B{r + 1} = [{_spell(x, ring)}, {_spell(y, ring)}]" for r, (x, y) in enumerate(self.brackets)
         ]
@@ -78,8 +78,8 @@ def fewest_brackets(
     The order of the Runge-Kutta method (A, b) must be ``order``. The ring must have division and decide
     whether an element is zero.
 
-    For each number of brackets, pseudorandom free parameters are tried at most ``attempts`` times. Raises
-    :class:`~orderconds.errors.InputError` for an implicit tableau.
+    The search tries increasing numbers of brackets. It uses at most ``attempts`` random seeds for each
+    number. Raises :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -120,8 +120,8 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return a pair (grade, [c_1, ..., c_j]) for each combination q_j = c_1 k_1 + ... + c_j k_j of stage
-    values (module docstring). The grade is at most ``order``."""
+    """Return a pair (grade, [c_1, ..., c_j]) for each stage j. The module docstring defines the combination
+    q_j = c_1 k_1 + ... + c_j k_j and its grade. The grade is at most ``order``."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -161,10 +161,10 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return combinations u_j - c u_i of two stage arguments with j > i, as a map from stages i to lists.
+    """Return a map from stages i to lists of combinations u_j - c u_i of two stage arguments, where j > i.
 
-    The number c is chosen such that the combination may need fewer brackets than u_i, and fewer than u_j. A
-    term of u_j is omitted if it is a single letter that is not known before u_i.
+    The number c is chosen such that the combination may need fewer brackets than u_i, and fewer than u_j.
+    Single letters q_n with n >= i are omitted from u_j.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -191,8 +191,8 @@ class _Shape:
     - ``inner``: the number k of nested brackets C_1, ..., C_k. The bracket C_n is [q_1, z_n + C_(n+1)], where
       C_(k+1) is zero.
     - ``outer``: True if there is a bracket [q_1 + x, y + C_1].
-    - ``leading``: if False, x is zero. If True, x may be non-zero, and y is the sum of the second pool
-      element and a linear combination of later pool elements.
+    - ``leading``: if False, x is zero. If True, y is the sum of the second pool element and a linear
+      combination of later pool elements.
     - ``extra``: indices of pool elements, counted from 0. For each index n in ``extra``, there is a bracket
       [e_n, w_n], where e_n is the pool element with the index n.
     """
@@ -209,8 +209,8 @@ class _Shape:
 
 
 def _shapes(pool: int) -> Iterator[_Shape]:
-    """Yield infinitely many shapes (:class:`_Shape`) for ``pool`` known elements, sorted by the number of
-    brackets."""
+    """Yield infinitely many shapes (:class:`_Shape`), sorted by the number of brackets. ``pool`` is the
+    number of pool elements."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -222,7 +222,8 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 class _Search:
     """A search for a :class:`BracketProgram` with at most ``most`` brackets.
 
-    ``pool`` contains a pair (element, row) for each known element.
+    ``pool`` contains a pair (element, row) for each element that the program has computed so far.
+    :class:`BracketProgram` defines rows.
     """
 
     def __init__(
@@ -263,8 +264,8 @@ class _Search:
         return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
-        """Express an argument, up to grade ``limit``, by pool elements and new brackets of the given shape.
-        Return the row of the argument, or None if no suitable brackets are found.
+        """Express ``argument`` up to grade ``limit`` by elements of ``self.pool`` and new brackets of
+        ``shape``. Return the row of the argument, or None if no suitable brackets are found.
 
         The equations contain products of the unknowns x and y of :class:`_Shape`, and are solved by
         iteration."""
@@ -294,8 +295,8 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices n > 1 of the pool elements of least grade. The pool elements with the indices 0
-        and 1 do not occur in the combination x of :class:`_Shape`."""
+        """Consider the pool elements with indices n > 1. Return the indices of those with least grade. The
+        pool elements with the indices 0 and 1 do not occur in the combination x of :class:`_Shape`."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -316,8 +317,8 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. A
-        search with random numbers may return a random solution."""
+        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. If
+        ``self._random`` is not None, the solution may be chosen at random."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -363,7 +364,7 @@ class _Search:
 
         - the row of the element (:class:`BracketProgram`)
         - the element as a polynomial
-        - the linear combination y in the outer bracket [q_1 + x, y + C_1] of :class:`_Shape`, as a polynomial
+        - the polynomial y of the outer bracket [q_1 + x, y + C_1] (:class:`_Shape` defines these symbols)
         """
         one, size = self.ring.one, len(self.pool)
 
