@@ -93,7 +93,7 @@ class Character:
         return undone
 
     def adjoint(self) -> Character:
-        """Return the adjoint of the step: the inverse of the step of size -h (HLW II.3, Def. 3.1).
+        """Return the adjoint of the step: its inverse, with -h in place of h (HLW II.3, Def. 3.1).
 
         >>> from orderconds.ring import QQ
         >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -103,7 +103,7 @@ class Character:
         return self.inverse().scaled(self.ring.rational(-1))
 
     def scaled(self, factor: Element) -> Character:
-        """Return the step of the same method with another step size: ``factor`` times h in place of h."""
+        """Return the step with ``factor`` times h in place of the step size h."""
 
         def value(forest: bytes) -> Element:
             power = self.ring.one
@@ -114,9 +114,9 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Return a sum over the admissible cuts of a tree or forest (:mod:`orderconds.series.cuts`). The
-        summand is the coefficient of the rest in the series of ``other``, multiplied by the coefficients of
-        all components in the series of ``self``. If ``whole`` is false, omit the cut that removes nothing."""
+        """Return a sum over the admissible cuts of a tree or forest (:mod:`orderconds.series.cuts`). Each
+        cut removes components and leaves a rest. The summand is ``other(rest)``, multiplied by
+        ``self(component)`` for all components. If ``whole`` is false, omit the cut that removes nothing."""
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):
             if components or whole:

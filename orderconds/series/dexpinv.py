@@ -65,8 +65,8 @@ class DexpinvSeries:
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in exp(u) for the argument u of each stage, or of the step if
-        ``step`` is 1."""
+        """Return the coefficient of ``word`` in exp(u_i) for each stage i if ``step`` is 0. If ``step`` is 1,
+        return a list with the coefficient in exp(u), where exp(u) is the step."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -79,8 +79,8 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in u^n for the argument u of each stage, or of the step if
-        ``step`` is 1."""
+        """Return the coefficient of ``word`` in u_i^n for each stage i if ``step`` is 0. If ``step`` is 1,
+        return a list with the coefficient in u^n, where exp(u) is the step."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -110,8 +110,8 @@ class DexpinvSeries:
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
         """Return the coefficient of the word v k_j w in the truncated series dexpinv_{u_j} k_j for each stage
-        j. The word v is ``start`` with ``before`` letters, and w is ``end`` with ``behind`` letters. If no
-        term of the series can contain a word v k_j w, return None."""
+        j. Here v = ``start`` has ``before`` letters, and w = ``end`` has ``behind`` letters. If no term of
+        the series can contain a word v k_j w, return None."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:
@@ -126,7 +126,8 @@ class DexpinvSeries:
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
         """Return the terms q u^n x u^m of dexpinv_u x that may contribute to a word v x w, as triples (q, m,
-        n). The ``before`` letters of v come from u^m, and the ``behind`` letters of w come from u^n."""
+        n). The right factor u^m acts first. Hence u^m contains the letters of v, and u^n the letters of w.
+        The word v has ``before`` letters, and w has ``behind`` letters."""
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
             longest = before + behind

@@ -1,14 +1,14 @@
 """Coefficients of words in a product of exponentials, over any ring.
 
 Let the exponents X_1, ..., X_m be linear combinations of letters, where x_J(k) is the coefficient of the
-letter k in X_J. The factor exp(X_1) and the letter k_1 act first. In the product exp(X_m) ... exp(X_1), the
-coefficient of the word k_1 ... k_n is the sum, over all indices J_1 <= ... <= J_n, of
+letter k in X_J. In the product exp(X_m) ... exp(X_1), the coefficient of the word k_1 ... k_n is the sum,
+over all indices J_1 <= ... <= J_n, of
 
 x_{J_1}(k_1) ... x_{J_n}(k_n) / (r_1! r_2! ...).
 
-A run is a maximal sequence of equal indices, and r_1, r_2, ... are the lengths of the runs of J_1, ..., J_n
-(Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.5; Reutenauer, Free Lie Algebras, Chapter
-3).
+The factor exp(X_1) and the letter k_1 act first. A run is a maximal sequence of equal indices, and r_1, r_2,
+... are the lengths of the runs of J_1, ..., J_n (Hairer, Lubich and Wanner, *Geometric Numerical
+Integration*, III.5; Reutenauer, Free Lie Algebras, Chapter 3).
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The coefficient is a sum over r, where the last r letters of the word come from exp(X_J).
+                # In summand r, the last r letters come from exp(X_J), the others from earlier factors.
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

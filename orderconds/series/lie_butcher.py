@@ -1,14 +1,15 @@
 """Lie-Butcher series of products of exponentials, and of the exact flow.
 
 A series has one coefficient for each ordered forest, which is a word of ordered trees. Let the exponents X_1,
-..., X_m be linear combinations of trees, where x_J(t) is the coefficient of the tree t in X_J. The factor
-exp(X_1) and the tree t_1 act first. In the product exp(X_m) ... exp(X_1), the coefficient of the forest t_1
-... t_n is the sum, over all indices J_1 <= ... <= J_n, of
+..., X_m be linear combinations of trees, where x_J(t) is the coefficient of the tree t in X_J. In the product
+exp(X_m) ... exp(X_1), the coefficient of the forest t_1 ... t_n is the sum, over all indices J_1 <= ... <=
+J_n, of
 
 x_{J_1}(t_1) ... x_{J_n}(t_n) / (r_1! r_2! ...).
 
-A run is a maximal sequence of equal indices, and r_1, r_2, ... are the lengths of the runs of J_1, ..., J_n
-(Owren and Marthinsen, BIT 39 (1999) 116; Hairer, Lubich and Wanner, *Geometric Numerical Integration*, IV.8).
+The factor exp(X_1) and the tree t_1 act first. A run is a maximal sequence of equal indices, and r_1, r_2,
+... are the lengths of the runs of J_1, ..., J_n (Owren and Marthinsen, BIT 39 (1999) 116; Hairer, Lubich and
+Wanner, *Geometric Numerical Integration*, IV.8).
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 from orderconds.trees.ordered import ordered_forests
 
 SparseRow = Sequence[tuple[int, Element]]
-"""The exponent of one exponential, as pairs (index of a stage, non-zero coefficient of the stage value)."""
+"""The exponent of one exponential, as pairs (index of a stage, non-zero coefficient of its stage value)."""
 
 
 class ForestSeries(Protocol):
@@ -55,8 +56,8 @@ class ExponentialsSeries:
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
         """Triples (product, shorter, last) of indices, one for each non-empty partial product of
-        exponentials. The partial product ``product`` is the partial product ``shorter`` (0 if empty),
-        followed by the exponential of ``_rows[last]``."""
+        exponentials. Partial product number ``product`` is number ``shorter``, followed by the exponential
+        of ``_rows[last]``. Number 0 is the empty product."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -112,15 +113,16 @@ class ExponentialsSeries:
         return way[::-1]
 
     def _word(self, word: Forest) -> list[Element]:
-        """Return the coefficients of a word in all partial products, numbered as in ``self._places``."""
+        """Return a list. Entry k is the coefficient of ``word`` in the partial product of exponentials with
+        the number k (``self._places``)."""
         values = self._words.get(word)
         if values is None:
             values = self._words[word] = self._along(word, self._places)
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of a non-empty word in all partial products, with zeros for those not in
-        ``places``."""
+        """Return the list of :meth:`_word` for a non-empty word, but compute only the coefficients in the
+        partial products of ``places``. All other entries are zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # The coefficient of the word is a sum over r, where the last r letters come from the last
@@ -142,8 +144,8 @@ class ExponentialsSeries:
         return values
 
     def _letter(self, tree: Tree) -> list[Element | None]:
-        """Return the coefficients of a tree in the exponents ``self._rows``, with None for each coefficient
-        that is proved to be zero."""
+        """Return the coefficient of ``tree`` in the series of each exponent in ``self._rows``. A coefficient
+        is None if it is proved to be zero."""
         coefficients = self._letters.get(tree)
         if coefficients is None:
             values, zero = self.stage_values(tree), self._ring.zero
@@ -162,9 +164,9 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the coefficient of a forest in the Lie-Butcher series of the exact flow.
 
-    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. Let c_l(s) be the coefficient of the branches
-    of the tree t_l in the series of g(s). Then the coefficient of the forest t_1 ... t_n in g(1) is the
-    integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
+    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. Remove the root of the tree t_l, and let c_l(s)
+    be the coefficient of the remaining forest in the series of g(s). Then the coefficient of the forest t_1
+    ... t_n in g(1) is the integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')
@@ -178,10 +180,10 @@ def exact_value(forest: Forest) -> Fraction:
 def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     """Return a map from each ordered forest w with ``order`` vertices to its coefficient a(w) in a series.
 
-    For matrices, the step is y1 = g1 y0, where g1 is the sum of h^|w| a(w) F(t_k) ... F(t_1) over all forests
-    w = t_1 ... t_k with |w| vertices. For the differential equation y' = f(y) y, the matrices F(t) are
-    defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). The operator X_l is the derivative along the vector
-    field y' = F(t_l) y with constant F(t_l).
+    For matrices, the step is y1 = g1 y0. The matrix g1 is the sum of h^|w| a(w) F(t_k) ... F(t_1) over all
+    forests w = t_1 ... t_k. Here |w| is the number of vertices of w. For the differential equation y' = f(y)
+    y, the matrices F(t) are defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). The operator X_l is the
+    derivative along the vector field M y with the constant matrix M = F(t_l).
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

@@ -21,12 +21,12 @@ from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 
 RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
-"""A function that returns the common series of many random methods of a family, called samples. Each
+"""A function that chooses random methods (samples) of a family and returns one series for all samples. Each
 coefficient of the series is a vector of residues modulo one prime, with one residue for each sample."""
 
 SPARE_SAMPLES = 20
-"""The number of samples is the largest possible rank of the matrix of left-hand sides, plus this number. The
-additional samples make accidental linear dependences improbable."""
+"""The number of samples minus the largest possible rank of the matrix of left-hand sides. The additional
+samples make accidental linear dependences improbable."""
 
 
 def independent_forests(
@@ -35,8 +35,8 @@ def independent_forests(
     """Return the forests whose order conditions are independent, as one tuple for each order.
 
     ``candidates`` contains a sequence of forests for each order 1, 2, .... A forest is omitted if its
-    condition follows from the conditions of earlier forests. If ``with_exact_flow`` is false, only the
-    coefficients in the method are tested for independence.
+    condition follows from the conditions of earlier forests. If ``with_exact_flow`` is false, the right-hand
+    sides of the conditions are ignored.
 
     The forests are selected modulo two primes, and the larger selection is returned, because the rank modulo
     a prime can be too small.
@@ -56,7 +56,8 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # The rank is at most the number of ordered forests of the order, which is largest for the highest order.
+    # For each order, the rank is at most the number of ordered forests. The highest order has the largest
+    # number of forests.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

@@ -28,8 +28,9 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""A pair of functions for the exponential (``exp``) and for the Cayley transform (``cay``). The functions
-return the power series coefficients of the transform, without the constant term 1, and of its inverse."""
+"""A pair of functions for the exponential (``exp``) and for the Cayley transform (``cay``). The first
+function returns the power series coefficients of the transform, without the constant term 1. The second
+function returns the coefficients of the inverse."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:

@@ -1,11 +1,11 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
-One step of size h of a method equals the flow of a modified vector field f~ = f + h f_2 + ... over time h.
-Let a(t) and b(t) be the coefficients of the tree t in the step and in f~. If an edge of t is removed, t falls
-into a subtree u and a part r that contains the root. For a function c of trees, (L c)(t) is the sum of b(u)
-c(r) over all edges of t. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (Hairer, Lubich and Wanner (HLW), *Geometric
-Numerical Integration*, IX.9.1). For series over ordered forests, see Lundervold and Munthe-Kaas, Contemp.
-Math. 539 (2011) 295.
+One step of size h of a method equals the flow of a modified vector field f~ = f + h f_2 + ... over time h. A
+tree t has the coefficient a(t) in the step and the coefficient b(t) in f~. If an edge of t is removed, t
+falls into a subtree u and a part r that contains the root. For a function c of trees, (L c)(t) is the sum of
+b(u) c(r) over all edges of t. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (Hairer, Lubich and Wanner (HLW),
+*Geometric Numerical Integration*, IX.9.1). For series over ordered forests, see Lundervold and Munthe-Kaas,
+Contemp. Math. 539 (2011) 295.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class VectorField:
         self._powers: dict[tuple[int, bytes], Element] = {}
 
     def define(self, value: Callable[[bytes], Element]) -> None:
-        """Set the function ``value`` that maps a tree or forest to its coefficient in the field. To compute
+        """Define this vector field by ``value``, a function from trees or forests to coefficients. To compute
         the coefficient of a tree, ``value`` may use the coefficients of smaller trees in this field."""
         self._value = value
 
@@ -65,17 +65,17 @@ class VectorField:
 
     def beyond_first(self, forest: bytes) -> Element:
         """Return the difference of two coefficients of a tree or forest: the coefficient in the flow minus
-        the coefficient in the vector field. To compute the difference, only smaller trees or forests and
-        their coefficients in the vector field are needed."""
+        the coefficient in the vector field. The difference depends only on the coefficients of
+        smaller trees or forests in the vector field."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value of L^(n-1) b for a tree or forest, where b is the series of this field. The value
-        (L c)(forest) is the sum of b(component) c(rest) over all cuts of ``forest`` that remove one component
-        and leave a non-empty rest."""
+        """Return (L^(n-1) b)(forest), where b(forest) is the coefficient of ``forest`` in this vector field.
+        The operator L maps a function c to L c, where (L c)(forest) is the sum of b(component) c(rest). The
+        sum is over all cuts of ``forest`` with one component and a non-empty rest."""
         if n == 1:
             return self(forest)
         if n > len(forest):

@@ -6,10 +6,10 @@ Each partition has a quotient tree, in which each component becomes one vertex. 
 of the quotient tree in the step, multiplied by the coefficients of the components in the field (Chartier,
 Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
 
-For Lie-Butcher series, a forest becomes a linear combination of forests, called its image. For the image of a
-tree, the image of the forest of its branches is grafted onto the series of the other field. The image of a
-forest is the concatenation of the images of its trees (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011)
-295, Section 4.3).
+For Lie-Butcher series, a forest becomes a linear combination of forests, called its image. For a tree, the
+root is removed, and the image of the remaining forest is computed. This image is grafted onto the series of
+the other field. The image of a forest is the concatenation of the images of its trees (Lundervold and
+Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -60,10 +60,9 @@ def substituted(field: VectorField, step: Character) -> Character:
 def modifying_field(step: Character) -> VectorField:
     """Return the modifying field of a method: ``step`` applied to this field is the exact flow of f.
 
-    If ``step`` is applied to the field truncated after the power h^(p-1), the result is a method of order at
-    least p (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941). Raises
-    :class:`~orderconds.errors.InputError` if ``step`` is a Lie-Butcher series, or if the sum of the weights
-    of the method is proved to differ from 1.
+    For every p, the field truncated after the power h^(p-1) gives a method of order at least p (Chartier,
+    Hairer and Vilmart, Math. Comp. 76 (2007) 1941). Raises :class:`~orderconds.errors.InputError` if ``step``
+    is a Lie-Butcher series, or if the sum of the weights of the method is proved to differ from 1.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -83,8 +82,8 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # The sum over all partitions is ``flow(tree)``, and the partition into one component has the summand
-        # ``field(tree)``, because a consistent step has step(vertex) = 1.
+        # The sum over all partitions is ``flow(tree)``. The partition into one component has the summand
+        # ``field(tree)``: a consistent step has step(vertex) = 1.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -121,8 +120,8 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
-    """Remove the edges of a tree whose flag in ``cut`` is true, where the edges are in preorder. Return the
-    component of the root, the other components, the quotient tree, and the remaining flags of ``cut``."""
+    """Remove edge k of a tree if ``cut[k]`` is true. The edges are numbered in preorder. Return the component
+    of the root, the other components, the quotient tree, and the unused flags of ``cut``."""
     attached: list[Tree] = []
     components: list[Tree] = []
     skeletons: list[Tree] = []

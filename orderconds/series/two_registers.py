@@ -7,12 +7,13 @@ along the vector field y' = k y. The last letter of a word acts first. Each lett
 and each letter K replaces one factor k by f(y). Hence only words with two properties are needed: the numbers
 of letters K and D are equal, and no suffix contains more letters K than letters D.
 
-As an operator, a linear combination of words is zero on all groups if and only if it is zero on all vector
-spaces (proof: docs/explanation/two_registers.md). Hence the order of a 2N scheme on groups equals its order
-on vector spaces.
+Each word denotes a differential operator. A linear combination of these operators vanishes on all groups if
+and only if it vanishes on all vector spaces (proof: docs/explanation/two_registers.md). Hence the order of a
+2N scheme on groups equals its order on vector spaces.
 
-The value of a rooted forest is the product of the elementary weights of its trees. In the Lie-Butcher series,
-the coefficient of an ordered forest is the same linear combination of these values for all 2N schemes.
+The value of a rooted forest is the product of the elementary weights of its trees. Each coefficient of the
+Lie-Butcher series is a linear combination of these values. The linear combination does not depend on the
+scheme.
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
 """A product of derivatives along vector fields, from left to right. The entry None denotes the vector field k
-y, and an entry P denotes the vector field P f."""
+y of the registers. Each other entry is again a product P. It denotes the vector field P f: the product P,
+applied to the right-hand side f."""
 
 Combination = dict[Operator, int]
 
@@ -55,7 +57,7 @@ def words(order: int) -> tuple[str, ...]:
 
 
 def on_group(word: str) -> dict[Forest, int]:
-    """Return the operator of a word in the letters K (kick) and D (drift) on a group, as a map from ordered
+    """Return a word in the letters K (kick) and D (drift) as an operator on a group: a map from ordered
     forests to coefficients.
 
     >>> from orderconds.trees.levels import text
@@ -66,7 +68,7 @@ def on_group(word: str) -> dict[Forest, int]:
 
 
 def on_vector_space(word: str) -> dict[Forest, int]:
-    """Return the operator of a word in the letters K (kick) and D (drift) on a vector space, as a map from
+    """Return a word in the letters K (kick) and D (drift) as an operator on a vector space: a map from
     forests to coefficients.
 
     The branches and trees of each forest are sorted by :func:`unordered`.
@@ -79,8 +81,8 @@ def on_vector_space(word: str) -> dict[Forest, int]:
 
 
 def unordered(forest: Forest) -> Forest:
-    r"""Sort the branches and the trees of an ordered forest. The trees are canonical and sorted by level
-    sequence, the greatest first.
+    r"""Sort the branches and the trees of an ordered forest. The resulting trees are canonical and sorted by
+    level sequence, the greatest first.
 
     >>> unordered(b"\0\0\1")
     b'\x00\x01\x00'
@@ -129,8 +131,8 @@ def independent_trees(order: int) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=16)
 def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
-    """Return formulas for the coefficients of all ordered forests with ``order`` vertices in the Lie-Butcher
-    series of two-register (2N) schemes.
+    """Return formulas for the Lie-Butcher series of two-register (2N) schemes: one formula for the
+    coefficient of each ordered forest with ``order`` vertices.
 
     The value of a rooted forest is the product of the elementary weights of its trees. Each formula is a
     linear combination of values, as a map from rooted forests to numbers. The result is valid for every 2N
@@ -204,8 +206,8 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Return the sum of the results of ``act``, applied to one factor of a product of derivatives. Factors
-    that are None have no summand."""
+    """Apply ``act`` to one factor of a product of derivatives at a time, and return the sum of the results.
+    Factors None are skipped."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

@@ -2,7 +2,7 @@
 
 The coefficients are evaluated in three ways:
 
-- with a record of all operations; the record is a program for the numerical search
+- with a record of all operations, for the numerical search
 - with integers modulo primes, for the ranks of the conditions
 - with interval arithmetic (balls), for the proof of the order
 """
@@ -30,8 +30,8 @@ class Ansatz:
     - ``family``: the label of the method family whose order conditions are solved
     - ``reduction``: the name of the theorem that makes some order conditions unnecessary in the proof of the
       order (:mod:`orderconds.proof.equations`)
-    - ``abelian``: if True, the order conditions are evaluated for the Runge-Kutta method to which the
-      commutator-free method reduces on abelian groups
+    - ``abelian``: if True, the order conditions are evaluated on abelian groups; there, a commutator-free
+      method is a Runge-Kutta method
     - ``measured``: the label of the family in which the principal error is computed; None means ``family``
     - ``centre``: values of the free coefficients; random starts are chosen near these values
     """

@@ -50,7 +50,7 @@ STEPS = (
 multiples of a unit."""
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""Rounding units for a solution with minimised principal error."""
+"""Rounding units for a solution with minimised principal error, tried in this order."""
 
 DIGITS = 50
 """A rounded coefficient in the tableau file has at least this number of decimal places."""
@@ -112,7 +112,7 @@ def _rounded_free(
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
     """Round the coefficients that the equations do not determine. Return the solution, a map from the index
     of each rounded coefficient to its value, and the indices of all other coefficients. Raises NotProved if
-    no rounding unit in ``steps`` can be used (:data:`WORSE`)."""
+    no rounding unit in ``steps`` gives an acceptable solution (see :data:`WORSE`)."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]
@@ -193,8 +193,8 @@ def determined(slopes: Floats) -> list[int]:
 def _newton(
     problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
 ) -> dict[int, arb]:
-    """Compute the coefficients with the indices ``solved`` by Newton's method, with nearly :data:`BITS` bits.
-    Raises NotProved if the Jacobian is singular or if Newton's method does not converge."""
+    """Use Newton's method to compute the coefficients with the indices ``solved``. The working precision is
+    :data:`BITS`. Raises NotProved if the Jacobian is singular or if Newton's method does not converge."""
     trace = problem.trace()
     operations = trace[0].ring.operations if trace else []
     places = [x.placed() for x in trace]
@@ -288,7 +288,7 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # In a tableau file, decimals that are equal up to sign denote one unknown.
+            # In a tableau file, the decimals x and -x, or two equal decimals, would denote one unknown.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1
@@ -338,7 +338,7 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
     written = dumps(claimed)
     if exact:
-        # Use the shorter of the texts with and without names for repeated numbers.
+        # Use names for repeated numbers only if the text becomes shorter.
         written = min(toml_text(without_names(claimed)), written, key=len)
     error = principal_error(claimed, wanted_family, problem.order + 1)
     return Solution(Tableau.loads(written), written, certificate, error)

@@ -1,7 +1,7 @@
 """Recognition of high-precision numbers as elements of one number field, by lattice reduction.
 
 Let x be an approximate root of a polynomial of degree n with small integer coefficients c_0, ..., c_n. For a
-large number N, the vector v_k consists of the k-th unit vector and one more entry N x^k. The lattice vector
+large number N, the vector v_k is the k-th unit vector with an additional entry N x^k. The lattice vector
 sum_k c_k v_k is short: its entries are c_0, ..., c_n and N times the value of the polynomial at x. Lattice
 reduction finds short vectors in a lattice (Lenstra, Lenstra and Lovasz 1982).
 
@@ -50,8 +50,7 @@ def closed_forms(
     - 1 and the square roots
     - the products e r^k, where e is an element of the first basis, r is one of the numbers, d is the degree
       of r, and k = 0, ..., d - 1
-    - the powers r^0, ..., r^(d-1), where d is the highest degree of the numbers, and r generates the same
-      field as one number of degree d
+    - the powers r^0, ..., r^(d-1), where r generates the field of a number of the highest degree d
 
     Without ``radicals``, only the third basis is tried.
 
@@ -173,8 +172,8 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return sqrt(n) for an integer n, the text of sqrt(n), and an empty tuple (no definition in the tableau
-    file). The roots of the quadratic polynomial p are u + v sqrt(n) with rational numbers u and v."""
+    """Return three values for a quadratic polynomial p: sqrt(n), the text of sqrt(n), and an empty tuple (see
+    :func:`_named`). The roots of p are u + v sqrt(n) with an integer n and rational numbers u and v."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():

@@ -52,16 +52,16 @@ class Cells:
     extra: Mapping[str, str] | None = None
 
     def written(self, name: str) -> str:
-        """Return the text of a coefficient in a matrix of the tableau file: the value of a constant,
-        otherwise the name."""
+        """Return the text of the coefficient ``name`` in a matrix of the tableau file: its value if it is a
+        constant, otherwise ``name``."""
         form = self.elimination.cell(name)
         if self.extra and name in self.extra:
             return name
         return spell(form) if set(form) <= {""} else name
 
     def numbers(self, names: Sequence[str]) -> dict[str, str]:
-        """Return a map from names to formulas. The map contains the coefficients in ``names`` that depend on
-        other coefficients, and all names in ``extra``."""
+        """Return a map from names to formulas. The map contains all formulas in ``extra``, and a formula for
+        each coefficient in ``names`` that depends on other coefficients."""
         texts = {}
         for name in names:
             form = self.elimination.cell(name)
@@ -70,7 +70,7 @@ class Cells:
         return {**texts, **(self.extra or {})}
 
     def unknown(self, names: Sequence[str]) -> tuple[str, ...]:
-        """Return the elements of ``names`` whose coefficients are not constants."""
+        """Return ``names`` without the names of constants."""
         return tuple(name for name in names if self.written(name) == name)
 
 

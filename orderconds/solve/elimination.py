@@ -3,10 +3,10 @@
 A Groebner basis is computed for a subset of the conditions with at most :data:`MAX_VARIABLES` coefficients.
 If the basis contains 1, no real or complex method satisfies the conditions. If the basis contains a
 polynomial in one coefficient without real roots (Sturm's theorem), no real method satisfies the conditions.
-Zero does not count as a root if the formulas of the family divide by the coefficient, a weight b_i.
+Some families require nonzero weights b_i. For such a weight, zero does not count as a root.
 
-The conditions, multiplied by polynomials, add up to 1 or to the polynomial in one coefficient. This identity
-is verified exactly.
+The element of the basis, 1 or the polynomial, is a sum of the conditions, multiplied by polynomials. This
+identity is verified exactly.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ class Infeasible:
 
     - If ``real`` is false, the equation ``consequence`` = 0 has no real or complex solution.
     - If ``real`` is true and ``weight`` is empty, the equation has no real solution.
-    - If ``weight`` is the name of a weight, the equation contains only this unknown, and zero is the only
-      real solution. The formulas of the family divide by the weight.
+    - If ``weight`` is the name of a weight, this weight is zero in each real solution of the equation.
+      But the formulas of the family divide by the weight.
 
     Entry k of ``equations`` is the numerator of the residual of condition k: left-hand side minus right-hand
     side.
@@ -104,7 +104,7 @@ def infeasible(problem: Problem) -> Infeasible | None:
     if len(names) > MAX_UNKNOWNS:
         return None
     # The formulas of symplectic methods divide by the weights. The proof also covers a stage with weight
-    # zero: a copy of a stage j with nonzero b_j can replace this stage if both get the weight b_j/2.
+    # zero: a copy of a stage j with nonzero b_j can replace it. Stage j and its copy get the weight b_j/2.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -133,8 +133,8 @@ def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:
 
 
 def _nonzero(problem: Problem, ring: LaurentPolynomials | Polynomials) -> frozenset[str]:
-    """Return the names of the free coefficients that are weights by which the formulas of the family
-    divide."""
+    """Return the names of the weights among the free coefficients if the family requires nonzero weights.
+    Otherwise, return an empty set."""
     if not problem.family.needs_nonzero_weights:
         return frozenset()
     weights = problem.weights(ring.generators, cast("RootedRing", ring))
@@ -171,8 +171,9 @@ def _subsystems(
 def _consequence(
     nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
-    """Return a contradiction: a polynomial in at most one variable from the ideal of ``members``, and a name.
-    The name is empty, or the name of a weight for which the polynomial has only the real root zero."""
+    """Return a polynomial in the ideal of ``members``, and a name. The polynomial has at most one variable.
+    If the name is empty, the polynomial has no real root. Otherwise, the name is the variable, a weight in
+    ``nonzero``, and zero is the only real root."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]
