@@ -1,8 +1,8 @@
 """Damped least squares (Levenberg 1944; Marquardt 1963) for many starting points at once.
 
-The damping parameter is a factor times the norm of the residual. The convergence is quadratic if the distance
-to the set of solutions is at most a constant times the norm of the residual (Fan and Yuan 2005). The solution
-need not be isolated.
+The damping parameter is the norm of the residual times an adaptive factor. The convergence is quadratic if
+the distance to the set of solutions is at most a constant times the norm of the residual (Fan and Yuan 2005).
+The solution need not be isolated.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ import numpy as np
 from orderconds.solve.tape import Floats
 
 System = Callable[[Floats], tuple[Floats, Floats]]
-"""A function that evaluates m equations at k points, an array of shape (k, n). The function returns the
-residuals, an array of shape (k, m), and the Jacobians, an array of shape (k, m, n)."""
+"""A function that evaluates m equations at k points. The points form an array of shape (k, n). The function
+returns the residuals, an array of shape (k, m), and the Jacobians, an array of shape (k, m, n)."""
 
 SOLVED = 1e-13
 """Iterations stop if the norm of the residual is at most SOLVED, the size of rounding errors."""

@@ -17,8 +17,8 @@ string."""
 
 @dataclass(frozen=True)
 class Constraint:
-    """The equation ``form`` = 0. ``text`` is the equation in the option ``--fix``, or the reason for the
-    constraint. Error messages quote ``text``."""
+    """The equation ``form`` = 0. ``text`` is the reason for the constraint. For a constraint of the option
+    ``--fix``, ``text`` is the equation. Error messages quote ``text``."""
 
     text: str
     form: Affine

@@ -1,4 +1,4 @@
-"""The ansatz of a search: names of coefficients, constraints, and the text of the tableau file."""
+"""The ansatz of a search: constraints, names of coefficients, and the text of the tableau file."""
 
 from __future__ import annotations
 
@@ -185,8 +185,8 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for coefficients of the stages such that c_i = chat_i = m_i for the three abscissae of
-    each stage i (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for coefficients of the stages. With these formulas, the three abscissae of each stage
+    i are equal: c_i = chat_i = m_i (:mod:`orderconds.solve.abscissae`)."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -219,9 +219,12 @@ def _gauss(s: int) -> dict[str, str]:
 
 
 def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]]) -> list[Constraint]:
-    """Return constraints that contain the coefficients a_ij and b_j of the Gauss method with s stages. The
-    sum of the coefficients of stage j is a_ij over the exponentials of stage i, and b_j over those of the
-    update."""
+    """Return two kinds of constraints. Here a_ij and b_j are the coefficients of the Gauss method with
+    ``len(stages)`` stages.
+
+    - In the exponentials of stage i, the coefficients of stage j add up to a_ij.
+    - In the exponentials of the update, the coefficients of stage j add up to b_j.
+    """
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
     constraints += [
@@ -235,8 +238,8 @@ def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for coefficients of a symmetric method such that c_i = chat_i = m_i for the three
-    abscissae of each stage i (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for coefficients of a symmetric method. With these formulas, the three abscissae of
+    each stage i are equal: c_i = chat_i = m_i (:mod:`orderconds.solve.abscissae`)."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -294,7 +297,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # Elimination solves ``total`` for the last free entry of ``order``: a middle step size.
+    # The constraint ``total`` determines the last free entry of ``order``. The middle step sizes come last.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -380,8 +383,8 @@ def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return a tuple with the name of the only parametrisation of compositions and splittings. The arguments
-    are not used.
+    """Return ``("full",)``. Compositions and splittings have only one parametrisation. The arguments are not
+    used.
 
     >>> from orderconds.families import get
     >>> one_structure(get("splitting"), Spec(stages=3))
@@ -392,7 +395,7 @@ def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Layout:
-    """The parametrisations of one tableau format. A structure is the name of one parametrisation.
+    """The parametrisations of one tableau format. The name of a parametrisation is called a structure.
 
     ``ansatz`` returns the ansatz for a family, a specification, a structure and a tableau name.
     ``structures`` returns the structures that a search tries, in order of trial.

@@ -2,8 +2,8 @@
 
 Let Q_1, ..., Q_s be the values of the stages, and let y0 be the initial value. The update is
 exp(Y_m) ... exp(Y_1) y0. Each exponent X is a linear combination of the vector fields at Q_1, ..., Q_s. Let
-bar X be the exponent X with the coefficients of stages j and s + 1 - j exchanged, for all j. A method is
-symmetric if it satisfies the following two conditions:
+bar X be the exponent X with its s coefficients in reverse order. A method is symmetric if it satisfies the
+following two conditions:
 
 - Y_(m+1-J) = bar Y_J for J = 1, ..., m.
 - For each stage i, there exist a number k from 0 to m and exponents X_1, ..., X_r such that
@@ -57,8 +57,8 @@ def full_paths(spec: Spec) -> Paths:
 
 
 def symmetric_paths(spec: Spec) -> Paths:
-    """Return the parametrisation of symmetric methods. Each stage begins with the first k exponentials of the
-    update, where k may be zero.
+    """Return the parametrisation of symmetric methods. Stage i begins with the first k_i exponentials of the
+    update. The number k_i may be zero.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
@@ -78,8 +78,8 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with the first ``whole`` exponentials of the update. For two stages i and s + 1 - i,
-        # these numbers add up to m.
+        # Stage i begins with the first ``whole`` exponentials of the update. For two different stages i and
+        # s + 1 - i, the values of ``whole`` add up to m.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

@@ -42,7 +42,7 @@ class Problem:
 
     @cached_property
     def ansatz(self) -> Ansatz:
-        """Return the tableau file of the methods in the search, without the values of the unknowns."""
+        """Return the ansatz: the text of a tableau file without the values of the unknowns."""
         return ansatz(self.label, self.spec, self.structure)
 
     @cached_property
@@ -89,7 +89,8 @@ class Problem:
         return list(self.family.residuals(method, ring, conditions))
 
     def _read(self, method: Method, ring: Ring) -> Method:
-        """Return the method for which the order conditions are evaluated."""
+        """Return ``method``. If ``ansatz.abelian`` is true, convert a commutator-free method to a Runge-Kutta
+        method."""
         if self.ansatz.abelian and isinstance(method, CommutatorFree):
             return method.as_runge_kutta(ring)
         return method
@@ -107,8 +108,8 @@ class Problem:
     def weights(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
         """Return the weights b_i. ``values`` contains the free coefficients as elements of ``ring``.
 
-        For a commutator-free method, return the weights of the Runge-Kutta method that it equals on abelian
-        groups. For compositions and splittings, the list is empty.
+        On abelian groups, a commutator-free method equals a Runge-Kutta method. The result contains the
+        weights of this Runge-Kutta method. For compositions and splittings, the list is empty.
         """
         return list(_weights(self.ansatz.method(values, ring), ring))
 
@@ -168,8 +169,8 @@ class Problem:
 
     def starts(self, generator: np.random.Generator, count: int) -> Floats:
         """Return ``count`` random starting points near the point ``ansatz.centre``. If ``ansatz.centre`` is
-        None, the points are near the point at which the free coefficients whose names begin with b or g are
-        1/n, and the others are zero. Here n is the number of such names in ``ansatz.cells``."""
+        None, coefficients with initial letter b or g are near 1/n, and all others are near zero. Here n is
+        the number of names in ``ansatz.cells`` with these initial letters."""
         free = self.ansatz.free
         if self.ansatz.centre is not None:
             centre = np.array([self.ansatz.centre[name] for name in free])

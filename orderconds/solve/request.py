@@ -1,4 +1,4 @@
-"""The search for a method of a given order in the Python interface: the function ``solve``."""
+"""The function ``solve`` of the Python interface: the search for a method of a given order."""
 
 from __future__ import annotations
 

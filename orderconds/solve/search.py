@@ -63,7 +63,7 @@ class Search:
 
 
 BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
-"""The fields of a :class:`Batch` for a JSON file. Floating-point numbers are hexadecimal texts."""
+"""The fields of a :class:`Batch`, as stored in a JSON file. Floating-point numbers are hexadecimal texts."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,8 @@ class Batch:
 
     If the search minimises the principal error, or if the required order is at most :data:`CHEAP`, the score
     is the principal error. In all other searches, the score is the largest absolute value of a coefficient.
-    If the gradients of the conditions at a solution are linearly dependent, :data:`SINGULAR` is added.
+    The score increases by :data:`SINGULAR` if the gradients of the conditions at the solution are linearly
+    dependent.
 
     ``best`` is the least residual norm of all starts of the batch.
     """

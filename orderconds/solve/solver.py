@@ -153,7 +153,7 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    # The search with this parametrisation is complete and needs no checkpoint.
+    # The search with this parametrisation has ended. The checkpoint is no longer needed.
     checkpoint.remove()
 
 

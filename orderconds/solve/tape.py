@@ -140,7 +140,7 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
     """Return the indices of all inputs and of the operations on which the outputs ``wanted`` depend. The
-    indices are sorted by level and kind."""
+    indices are sorted by the level and the kind of the operations."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

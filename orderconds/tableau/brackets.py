@@ -82,7 +82,7 @@ def spell(term: Term) -> str:
 
 
 def leaves(term: Term) -> Iterator[int | str]:
-    """Yield the indices of the nodes (counted from 0) and the names in a term, from left to right.
+    """Yield the leaves of a term from left to right: names, and indices of nodes (counted from 0).
 
     >>> list(leaves(parse("[2,[1,a]]", "")))
     [1, 0, 'a']
@@ -176,7 +176,7 @@ def _expanded(term: Term, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSe
 
 
 def _times(x: NodeSeries, y: NodeSeries, ring: Ring) -> NodeSeries:
-    """Return the product of ``x`` and ``y``. The factor ``y`` acts first."""
+    """Return the product ``x*y``."""
     result: NodeSeries = {}
     for u, a in x.items():
         for v, b in y.items():

@@ -35,8 +35,7 @@ def tableau_latex(tableau: Tableau) -> str:
     r"""Return a method in LaTeX, as a Butcher array or as equations.
 
     The function returns equations in three cases: the method has no Butcher array, the array does not fit in
-    a column of a two-column article, or a coefficient contains the name of a number, such as g in
-    ``1 - 2*g``.
+    a column of a two-column article, or a coefficient contains a named number, such as g in ``1 - 2*g``.
 
     >>> from orderconds.tableau import Tableau
     >>> print(tableau_latex(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])))
@@ -48,7 +47,7 @@ def tableau_latex(tableau: Tableau) -> str:
 
 def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> str | None:
     """Return a Butcher array in LaTeX, with the rows of the stages (``above``) and of the weights
-    (``below``). Return None if the array is too wide, or if a coefficient contains the name of a number."""
+    (``below``). Return None if the array is too wide, or if a coefficient contains a named number."""
     rows = [*above, *below]
     if any(has_name(x) for row in rows for x in row):
         return None

@@ -8,10 +8,10 @@ from orderconds.ring import Ball, Balls, Element
 from orderconds.tableau.record import Tableau
 
 SHORT = Balls(64)
-"""The interval arithmetic of printed coefficients, with 64 bits."""
+"""The ring of 64-bit balls (intervals) for printing coefficients."""
 
 DIGITS = 24
-"""The largest number of characters of a decimal that is printed unchanged."""
+"""A decimal with at most this number of characters is printed unchanged."""
 
 
 def butcher_text(tableau: Tableau) -> list[str]:
@@ -20,8 +20,9 @@ def butcher_text(tableau: Tableau) -> list[str]:
 
     For a commutator-free method, the result is the Runge-Kutta tableau to which the method reduces on vector
     spaces. For a composition of a symmetric method of order 2, the result is the tableau of the composition
-    of implicit midpoint steps. For a composition of a method and its adjoint, the result is the tableau of
-    the composition of explicit Euler steps (the method) and implicit Euler steps (the adjoint).
+    of implicit midpoint steps. For a composition of a method and its adjoint, the result is the tableau of a
+    composition of Euler steps. The method is the explicit Euler method, and the adjoint is the implicit Euler
+    method.
 
     Raises :class:`orderconds.errors.TableauError` for splitting methods and Magnus methods.
 

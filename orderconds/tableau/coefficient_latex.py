@@ -68,8 +68,8 @@ def _ends_in_a_factor(x: Expression) -> bool:
 
 
 def with_fractions(x: Expression) -> Expression:
-    """Return an equal expression with fewer operations. An exact fraction at the beginning of a product
-    becomes one constant.
+    """Return an equal expression with fewer operations. A quotient of two exact constants at the beginning of
+    a product becomes one constant.
 
     >>> with_fractions(parse("1/2"))
     Constant(value=Fraction(1, 2), unit=Fraction(0, 1))

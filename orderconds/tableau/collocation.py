@@ -2,7 +2,7 @@
 
 Let s be the number of stages. The nodes c_1, ..., c_s are the roots of the s-th Legendre polynomial or of a
 related polynomial. The weights b_1, ..., b_s integrate polynomials of degree below s exactly. Let l_j be the
-Lagrange polynomial of the node c_j. The kind of the method determines the rule for the matrix A:
+Lagrange polynomial of the node c_j. One of five rules defines the matrix A (left: the name of the rule):
 
 ============  ============================================================================================
 rows          a_ij is the integral of l_j from 0 to c_i (Gauss, Radau IIA, Lobatto IIIA)
@@ -113,8 +113,8 @@ class Nodes:
     def column(self, k: int, value: Algebraic) -> Matrix:
         """Return a matrix A that satisfies the assumption C(s - 1). All entries of column k are ``value``.
 
-        The docstring of :meth:`without` defines e_j. To each row of the matrix :meth:`rows`, a multiple of
-        (e_1, ..., e_s) is added such that the entry in column k becomes ``value``.
+        Each row of A is a row of the matrix :meth:`rows` plus a multiple of (e_1, ..., e_s). Here e_j is the
+        leading coefficient of the Lagrange polynomial of node j.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [
@@ -260,8 +260,8 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
 
     If square roots do not suffice for an irreducible factor, its roots get the names c1, c2, ... in ascending
     order. The largest root gets no name: it is the sum of all roots minus the other roots. If the roots of
-    the factor are symmetric about their mean, the squared distances from the mean are treated in this way
-    instead of the roots.
+    the factor are symmetric about their mean m, each root is m + sqrt(x) or m - sqrt(x). The same rules then
+    apply to the numbers x instead of the roots.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

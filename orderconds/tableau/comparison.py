@@ -18,9 +18,9 @@ COMPARED = 160
 def equal_coefficients(one: Tableau, other: Tableau) -> bool:
     """Return True if two tableaux have equal coefficients, including the coefficients of embedded methods.
 
-    Two balls (intervals) count as equal if they intersect, and if the larger width is at most 2^-100 plus 4
-    times the smaller width. The balls of equal coefficients can differ, because the centre and the radius of
-    a ball may be rounded in a file.
+    Two balls (intervals) count as equal if they intersect, and if the larger width is at most 4 w + 2^-100.
+    Here w is the smaller width. The balls of equal coefficients can differ, because the centre and the radius
+    of a ball may be rounded in a file.
 
     >>> from orderconds.tableau import find
     >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))
@@ -47,7 +47,7 @@ def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
 
 
 def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
-    """Return True if two intervals intersect, and if the larger width is at most 2^-100 plus 4 times the
+    """Return True if two intervals intersect, and if the larger width is at most 4 w + 2^-100. Here w is the
     smaller width."""
     widths = sorted(high - low for low, high in (one, other))
     meet = one[0] <= other[1] and other[0] <= one[1]

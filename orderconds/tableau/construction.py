@@ -20,8 +20,8 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
     """Return the keys and values of the tableau file of a Runge-Kutta method. The method has the matrix A,
     the weights b, the abscissae c and the embedded weights ``bhat``.
 
-    If A is lower triangular, all rows may end at the diagonal. If A is strictly lower triangular, all rows
-    may end before the diagonal.
+    If A is lower triangular, the zeros to the right of the diagonal may be omitted in all rows. If A is
+    strictly lower triangular, all rows may end before the diagonal.
 
     Raises :class:`~orderconds.errors.TableauError` for a wrong entry, or if the lengths do not match.
 
@@ -45,7 +45,7 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
 
 
 def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> None:
-    """Raise TableauError if the rows of A have wrong lengths."""
+    """Raise TableauError unless the rows of A form a square or a triangle with ``stages`` rows."""
     lengths = [len(x) for x in rows]
     shapes = ([stages] * stages, list(range(stages)), list(range(1, stages + 1)))
     if len(rows) != stages:
@@ -133,8 +133,8 @@ def _product(rows: object, where: str) -> Data:
 
 
 def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
-    """Return ``data`` with the keys ``name``, ``source`` and ``claims`` added. If ``source`` is empty or
-    ``claims`` is None, this key is not added.
+    """Return ``data`` with the keys ``name``, ``source`` and ``claims`` added. An empty ``source`` is not
+    added. If ``claims`` is None, the key ``claims`` is not added.
 
     >>> named({"family": "rk"}, "m", "", {"rkmk(1)": 3, "explicit": True})["claims"]
     {'rkmk': [{'cutoff': 1, 'order': 3}], 'explicit': True}

@@ -6,7 +6,7 @@ double x with the radius ``UNITS * 2^-53 * max(1, |x|)``. The factor ``UNITS`` a
 because many coefficients are results of a computation.
 
 A Python float counts as an exact number if it has at most :data:`SHORT` significant bits. Very large and very
-small numbers are exceptions (:data:`LARGE`).
+small numbers never count as exact (:data:`LARGE`).
 """
 
 from __future__ import annotations
@@ -50,8 +50,8 @@ def radius(value: Fraction, units: Fraction | int = UNITS) -> Fraction:
 
 
 def double_text(x: float, where: str = "") -> str:
-    """Return a double as the text of a coefficient. The text ends with ``d`` unless the double counts as an
-    exact number (:func:`is_short`).
+    """Return a double as the text of a coefficient. The text ends with ``d`` if :func:`is_short` returns
+    False.
 
     Raises :class:`~orderconds.errors.TableauError` if x is not finite. The error message contains ``where``.
 
@@ -87,7 +87,8 @@ def decimal_text(text: str) -> str:
 
 
 def is_short(x: float) -> bool:
-    """Return True if a double counts as an exact number. :data:`SHORT` and :data:`LARGE` limit its bits.
+    """Return True if a double counts as an exact number. The limits are :data:`SHORT` for the significant
+    bits, and :data:`LARGE` for the bits of the numerator and of the denominator.
 
     >>> is_short(0.375), is_short(0.1)
     (True, False)

@@ -39,7 +39,7 @@ WIDE = 75.0
 printed as a decimal."""
 
 MOST = 34
-"""The largest number of lines of formulas that fit on a page."""
+"""Equations with more than MOST lines do not fit on a page."""
 
 BLANK = r"\,"
 """A narrow space between a factor and a vector field."""

@@ -8,8 +8,8 @@ The first of these rules that applies determines the ring:
   most :data:`orderconds.ring.tower.MAX_DEGREE`, the ring is this field.
 - If the degree is larger, all coefficients are balls.
 
-Equal expressions in one file are evaluated only once, so their values are the same Python object. If the
-values of two coefficients are the same ball object, the coefficients are equal.
+Equal expressions in one file are evaluated only once, so their values are the same Python object. Two
+coefficients with the same ball object are equal, although balls cannot prove equality in general.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ MAX_SIZE = 40_000
 
 class NamedRoot(Struct, frozen=True):
     """A real root of a polynomial over Q. ``minpoly`` contains the coefficients of the polynomial, lowest
-    power first. The polynomial must have exactly one real root within one unit in the last digit of the
-    decimal ``near``."""
+    power first. Exactly one real root must lie between ``near`` - u and ``near`` + u. Here u is one unit in
+    the last digit of the decimal ``near``."""
 
     minpoly: tuple[Fraction, ...]
     near: Constant
@@ -58,7 +58,7 @@ class Scalars(Protocol):
 
     def size(self, x: Element) -> int:
         """Return the number of bits of the largest numerator or denominator in x. For a ball, return the
-        largest absolute value of its binary exponents."""
+        larger absolute value of two binary exponents: of the midpoint and of the radius."""
 
 
 def evaluate(
@@ -84,8 +84,8 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            # Evaluate unused numbers last, because the roots in these numbers must not be added to the field
-            # of the coefficients.
+            # Evaluate unused numbers after ``ring`` is known. Their roots must not enlarge the field of the
+            # coefficients.
             evaluation.check_unused()
             return ring, _shared(values, lift)
         except DegreeError:
@@ -122,8 +122,8 @@ def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -
 
 
 def rounded_and_exact(x: Definition) -> Iterator[Constant]:
-    """Yield every constant in an expression: exact numbers, rounded decimals and doubles. The attribute
-    ``unit`` is the uncertainty of the constant.
+    """Yield every constant in an expression: exact numbers, rounded decimals and doubles. The uncertainty of
+    a constant c is ``c.unit``.
 
     >>> from orderconds.tableau.grammar import parse
     >>> [str(c.unit) for c in rounded_and_exact(parse("1/2 + 0.25~", ""))]

@@ -56,8 +56,8 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 
 class File(Struct, frozen=True):
-    """The content of a tableau file. ``data`` contains the keys and values of the file. ``entry`` is an
-    object whose attributes are these values. All other attributes are computed from ``entry``."""
+    """The content of a tableau file. ``data`` contains the keys and values of the file. ``entry`` is
+    ``data``, converted to a :class:`Format` object. All other attributes are computed from ``entry``."""
 
     data: Mapping[str, object]
     entry: Format
@@ -102,9 +102,8 @@ def bytes_of(path: str | Path) -> bytes:
 
 
 def meant_as_tableau(path: str | Path) -> bool:
-    """Return True if a TOML file contains one of :data:`KEYS`, the keys of tableau files. If the file cannot
-    be read or is not valid TOML, the result is also True, because the file must not be skipped without an
-    error message.
+    """Return True if a TOML file contains one of :data:`KEYS`, the keys of tableau files. The result is also
+    True if the file cannot be read or is not valid TOML.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
@@ -156,7 +155,7 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # In an error of ``build``, ``problem.where`` contains the name of the tableau instead of ``where``.
+    # The method ``build`` does not know ``where``. Its errors contain the name of the tableau.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise

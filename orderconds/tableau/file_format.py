@@ -38,9 +38,9 @@ class RootEntry(Struct, forbid_unknown_fields=True):
 
 
 class CutoffClaim(Struct, forbid_unknown_fields=True):
-    """The claimed order of a method for one value of ``cutoff``. Some families of methods truncate a series,
-    for example the series of dexpinv. The option ``cutoff`` of such a family is the highest power in the
-    truncated series."""
+    """The claimed order of a method for one value of the option ``cutoff``. Some families of methods truncate
+    a series, for example the series of dexpinv. The option ``cutoff`` of such a family is the highest power
+    in the truncated series."""
 
     cutoff: Annotated[int, Meta(ge=0)]
     order: Annotated[int, Meta(ge=1)]
@@ -61,16 +61,16 @@ class ProofEntry(Struct, forbid_unknown_fields=True):
 Number = Coefficient | RootEntry
 """A value in the table ``numbers`` of a tableau file."""
 Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
-"""A value in the table ``claims`` of a tableau file: True or False for a property, the order of the method
-for a family of methods. If the order depends on the option ``cutoff`` of the family, the value is a list of
-:class:`CutoffClaim`."""
+"""A value in the table ``claims`` of a tableau file. The value of a property is True or False. The value of a
+family of methods is the order of the method. If the order depends on the option ``cutoff`` of the family, the
+value is a list of :class:`CutoffClaim`."""
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     """The base class of all formats.
 
-    ``family`` is the name of the format and of a family of methods, for example ``rk``. ``order`` is the
-    claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
+    ``family`` is the name of the format, for example ``rk``. A family of methods has the same name. ``order``
+    is the claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
     ``claims`` contains the claimed properties, and the claimed orders in other families (:data:`Claim`).
     """
 
@@ -86,14 +86,14 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """True if a tableau of this format can be stored as named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """A tableau that is stored as arrays has this format if one of the arrays has this name."""
+    """If stored arrays include an array with this name, the tableau has this format."""
     as_products: ClassVar[bool] = False
     """True if a tableau of this format consists of products of exponentials."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return default values for keys of the tableau file, for use if the tableau is stored as arrays.
-        ``names`` contains the names of the arrays."""
+        """Return default values for missing keys of a tableau that is stored as arrays. ``names`` contains
+        the names of the arrays."""
         return {}
 
     def coefficients(self) -> Places:

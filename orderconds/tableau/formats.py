@@ -102,8 +102,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(f"polynomials of degree {degree}", where=where, expected=expected)
 
     def coefficients(self) -> Places:
-        """Yield the position and the entry of every coefficient. The sequence is A, b, c, the embedded
-        weights, the continuous extension."""
+        """Yield the position and the entry of every coefficient. The order is A, b, c, the embedded weights,
+        and the continuous extension."""
         for i, row in enumerate(self.A):
             yield from row_places(row, f"A[{i + 1}]")
         yield from row_places(self.b, "b")
@@ -216,8 +216,8 @@ class StageEntry(Struct, forbid_unknown_fields=True):
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """The embedded update, for an error estimate. With s stages, the value s + 1 of the key ``from`` denotes
-    the result of the update."""
+    """The embedded update, for an error estimate. Let s be the number of stages. If the key ``from`` is
+    s + 1, the embedded update starts from the result of the main update."""
 
     order: Annotated[int, Meta(ge=1)]
 
@@ -314,8 +314,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
-    """Check that each row of ``entry.exp`` has at most s entries, and that a given ``from`` is between 1 and
-    ``before``."""
+    """Check that each row of ``entry.exp`` has at most s entries. If the key ``from`` is given, its value
+    must be between 1 and ``before``."""
     for r, row in enumerate(entry.exp):
         verify_length(row, s, f"{where}.exp[{r + 1}]")
     if entry.start is not None and not 1 <= entry.start <= before:

@@ -29,7 +29,7 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
     """Return True if x = y, False if x differs from y, and None if the balls are too wide for a decision.
 
-    For a ball x, the difference x - x is a ball around zero and does not prove equality."""
+    If x and y are the same object, the result is True, also for balls."""
     return True if x is y else ring.is_zero(x - y)
 
 

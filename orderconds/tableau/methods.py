@@ -130,8 +130,8 @@ class CommutatorFree:
         return before + stage.exponentials
 
     def same_update(self, other: Stage, ring: Ring) -> bool:
-        """Return True if the product ``other`` and the update of this method are provably equal for all
-        vector fields.
+        """Return True if the update ``other`` and the update of this method are provably equal for all vector
+        fields.
 
         If two products are equal for all vector fields, their simplified exponents (:func:`_reduced`) agree
         (Chen 1958).
@@ -177,7 +177,7 @@ class Composition:
     """A composition of steps of one basic method with the step sizes gamma_1 h, ..., gamma_s h. The step of
     size gamma_1 h is applied first.
 
-    The basic method is an arbitrary symmetric method of order 2. The value of ``base`` is always
+    Every symmetric method of order 2 is allowed as the basic method. The value of ``base`` is always
     ``"symmetric-2"``.
     """
 

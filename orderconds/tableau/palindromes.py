@@ -7,8 +7,8 @@ stage. The method is symmetric if two conditions hold:
 
 - The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
   original sequence.
-- For every stage i, replace each exponential in the sequence of stage i by the inverse of its conjugate. If
-  the new sequence starts at y1 instead of y0, it leads to the value of stage s + 1 - i.
+- For every stage i, replace each exponential in the sequence of stage i by the inverse of its conjugate. From
+  y1, the new sequence leads to the value of stage s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """
@@ -25,8 +25,8 @@ def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
     """Return True if a method is symmetric. Return None if the coefficients are balls (intervals) that are
     too wide to decide.
 
-    If stages i and s + 1 - i of a method with s stages are not mirror images, the result is False, even for a
-    symmetric method.
+    Only stages i and s + 1 - i are compared, where s is the number of stages. A symmetric method with another
+    numbering of its stages can give False.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]
@@ -44,8 +44,8 @@ def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
 
 
 def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
-    """Return True if :func:`_reduced` gives equal rows for two products of exponentials. Return None if balls
-    are too wide to decide."""
+    """Apply :func:`_reduced` to two products of exponentials. Return True if the results are equal, and False
+    if they differ. Return None if balls are too wide to decide."""
     left, right = _reduced(one, ring), _reduced(other, ring)
     if len(left) != len(right):
         decided = all(ring.is_zero(x) is not None for row in (*one, *other) for x in row)

@@ -45,8 +45,8 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return the value of the key ``base``: ``symmetric-2`` if ``names`` contains gamma, otherwise
-        ``adjoint-pair``."""
+        """Return a dictionary with the key ``base``. Its value is ``symmetric-2`` if ``names`` contains
+        gamma, and ``adjoint-pair`` otherwise."""
         return {"base": "symmetric-2" if "gamma" in names else "adjoint-pair"}
 
     def verify(self, where: str) -> None:
@@ -81,7 +81,7 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield from row_places(row, key)
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the composition."""
+        """Return a pair: the composition method, and None (no embedded method)."""
         rows = {key: filled_row(values, key, len(row), ring) for key, row in self._rows()}
         if self.base == "adjoint-pair":
             return AdjointComposition(rows["alpha"], rows["beta"]), None
@@ -91,8 +91,8 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
     """The format ``family = "splitting"``: a product of flows of the parts of a vector field.
 
-    ``parts`` contains the names of the parts. If there are two parts T and V whose Lie brackets satisfy
-    [V,[V,[V,T]]] = 0, the optional key ``rkn`` contains the name of V.
+    ``parts`` contains the names of the parts. The optional key ``rkn`` is for two parts T and V with
+    [V,[V,[V,T]]] = 0. Its value is the name of V.
     """
 
     parts: list[str]
@@ -130,7 +130,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"step[{k + 1}]", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the splitting method, and None instead of an embedded update."""
+        """Return a pair: the splitting method, and None (no embedded method)."""
         steps = tuple(
             (self.parts.index(name), values[f"step[{k + 1}]"]) for k, (name, _) in enumerate(self.step)
         )
@@ -139,9 +139,9 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "magnus"``: the nodes c, and one table from terms to coefficients for each
-    exponent. A term is the number of a node (counted from 1), the name of an element, or a bracket of two
-    terms.
+    """The format ``family = "magnus"``: the nodes c, and one table for each exponent. The table contains the
+    coefficient of each term. A term is the number of a node (counted from 1), the name of an element, or a
+    bracket of two terms.
 
     ``elements`` defines named Lie elements. ``map`` is the map to the group: ``exp`` (exponential) or ``cay``
     (Cayley transform). With ``cay``, a term may also be a product of terms.
@@ -217,8 +217,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the Magnus method, and None instead of an embedded update.
 
-        Raises TableauError if the method contains products, and if there is a quadratic Lie group, such as
-        SO(n) or Sp(2n), for which an exponent does not lie in the Lie algebra of the group.
+        Raises TableauError if an exponent with products lies outside the Lie algebra of some quadratic Lie
+        group, such as SO(n) or Sp(2n).
         """
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
