@@ -33,6 +33,7 @@ class Factor:
 
     def scaled(self, by: Fraction) -> Factor:
         """Return this factor with the variable t replaced by ``by`` times t."""
+        # The substitution t -> c t does not change the truncation order of a power series.
         return Factor(self.function, self.scale * by, self.order, self.power)
 
     def inverse(self) -> Factor:
@@ -70,6 +71,7 @@ def simplified(word: Word) -> Word:
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
+            # The exponential is now part of dexp(-s t), so no exponential factor remains.
             rate = Fraction(0)
     # Sorting makes the result independent of the order of the factors in ``word``.
     factors = [Factor("exp", rate)] if rate else []

@@ -103,6 +103,7 @@ class ConstantMatrix:
         """Return the number of entries of a diagonal."""
         # The rows low, ..., high - 1 have an entry on this diagonal.
         low, high = max(0, -diagonal.offset), min(self.rows, self.columns - diagonal.offset)
+        # A diagonal outside of the matrix has ``low`` >= ``high``, so its length is zero.
         return max(0, high - low)
 
     @property
@@ -316,6 +317,7 @@ def evaluated(
 
 def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[str, Scalar]) -> list[Scalar]:
     target, matrix = statement.target, statement.matrix
+    # The scalars may be power series, so the zero must come from ``domain``.
     values = [domain.rational(0)] * target.size
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):

@@ -119,6 +119,7 @@ class ArrayStep:
         for statement in (*self.body, *self.estimate):
             match statement:
                 case AddUnit(target=target):
+                    # The unit matrix changes only the diagonal entries of ``target``.
                     own = {"add": target.rows}
                 case Move():
                     own = statement.operations

@@ -83,6 +83,7 @@ class BallDomain:
         if value.is_rational:
             fraction = value.fraction()
             return self.rational(fraction.numerator, fraction.denominator)
+        # With 16 extra bits, the conversion error is negligible at the working precision.
         with precision(self.bits + 16):
             # A number with b bits has only about 0.301 b digits, so the text with b/3 + 5 digits is accurate.
             enclosure = arb(value.ring.approximate(value.element, self.bits // 3 + 5))
@@ -99,6 +100,7 @@ class BallDomain:
         negative number.
         """
         z = args[0].mid()
+        # Diverging iterations produce infinite or undefined arguments.
         if not z.is_finite():
             raise NotConverged(f"the argument of {function} is not a finite number")
         if function == "quotient":
@@ -108,6 +110,7 @@ class BallDomain:
             centres = tuple(x.mid() for x in args)
             value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
             return value.mid()
+        # Beyond this size, the sine needs thousands of additional bits for the argument reduction.
         if any(exponent_of(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
@@ -162,15 +165,19 @@ class BallDomain:
             if k == 0:
                 return root.cos()
             if k == 2:
+                # The identity 1 - cos s = 2 sin^2(s/2) avoids the difference of nearly equal numbers.
                 return 2 * ((root / 2).sin() / root) ** 2
+            # With s = sqrt z, c_1 is sin(s)/s, and c_3 is (s - sin s)/s^3.
             sine = root.sin()
             return sine / root if k == 1 else (root - sine) / (root * z)
         # For z <= 1 the series loses almost no digits by cancellation.
         total, j, term = arb(0), 0, arb(1) / math.factorial(k)
+        # The pair (1, n) of mantissa and exponent denotes the number 2^n.
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
             total += term
             j += 1
+            # The divisor extends the factorial (2 j + k - 2)! to (2 j + k)!.
             term = -term * z / ((2 * j + k) * (2 * j + k - 1))
         return total
 
@@ -186,11 +193,13 @@ class BallDomain:
         while abs(term.mid()) > limit:
             total += term
             j += 1
+            # Term j of c_k' contains the factor j, hence the ratio j/(j - 1).
             term = -term * z * j / ((j - 1) * (2 * j + k) * (2 * j + k - 1))
         return total
 
     def _curvature(self, k: int, z: arb) -> arb:
         """Return the second derivative c_k''(z) of the Stumpff function c_k."""
+        # For small z the three terms of this formula nearly cancel.
         if abs(z) > 1:
             a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
@@ -224,6 +233,7 @@ class BallDomain:
             raise NotConverged("an iteration computed a number that is not finite")
         # The factor 4096 = 2^12 allows for the accumulated rounding errors of an iteration.
         small = change <= 4096 * self.eps * max(arb(1), *(abs(a.mid()) for a in old))
+        # A small change consists of rounding errors if it no longer decreases.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: arb) -> arb:

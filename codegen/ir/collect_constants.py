@@ -81,6 +81,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Let c be a number and y = 1/sqrt x. ``ranks`` maps a node c y^n to (node number of y, n).
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
+            # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
     # ``read`` contains the pairs of roots, and the pairs of arguments of nodes that have no pair.
@@ -95,6 +96,7 @@ def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
 
     ``inside`` contains the pair (node number of y, n) for each argument c y^n of the node.
     """
+    # A numeric factor does not change the exponent of y.
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
 
@@ -147,6 +149,7 @@ class _Gathering:
         if node.op == "neg":
             return _scaled(self.sums[node.args[0].id], Number.rational(-1))
         if node.op in ("add", "sub"):
+            # The copy protects the stored linear combination of the first argument from changes.
             total = dict(self.sums[node.args[0].id])
             other = self.sums[node.args[1].id]
             for key, (c, atom) in (
@@ -186,6 +189,7 @@ class _Gathering:
         ((_, inverse),) = self.sums[base].values()
         # The number c is the product of the numeric factors of the arguments.
         c = Number.rational(1)
+        # A power x^n counts as a product of n equal factors x.
         for arg in node.args * (node.payload or 1):
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
@@ -220,6 +224,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     sizes: dict[object, Number] = {}
     key: object
     for c, atom in total:
+        # For a constant term, a common factor with another term would save no product.
         key = "constant" if atom is space.one else _size(c).key
         sizes.setdefault(key, _size(c))
         groups.setdefault(key, []).append((c.fraction() < 0, atom))
@@ -227,6 +232,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     for key, terms in groups.items():
         first, part = terms[0][0], terms[0][1]
         for minus, atom in terms[1:]:
+            # The sign of the first term is factored out of the whole group.
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
         # The factors ``sizes[key]`` are positive. Thus emitted code does not contain both c and -c.

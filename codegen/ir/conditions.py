@@ -63,6 +63,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
         return negation(inner(condition.args[0]))
     if isinstance(condition, sympy.And | sympy.Or):
         joins_all = isinstance(condition, sympy.And)
+        # The empty conjunction is true, so the loop starts with ``always``.
         total: Condition = always
         # The order of the operands in sympy depends on hashes.
         for part in sorted(condition.args, key=sympy.default_sort_key):

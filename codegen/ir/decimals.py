@@ -43,6 +43,7 @@ def exact(value: object) -> Fraction | None:
     >>> exact(0.1), exact("1/3"), exact("x")
     (Fraction(1, 10), Fraction(1, 3), None)
     """
+    # Integers and fractions need no sympy, so the slow import is avoided.
     if isinstance(value, int | Fraction):
         return Fraction(value)
     import sympy

@@ -36,7 +36,9 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
         if bar is None or bar is space.zero:
             continue
         for arg, factor in zip(node.args, partials(node), strict=True):
+            # By the chain rule, each use of an argument adds one term to its adjoint.
             bars[arg.id] = bars.get(arg.id, space.zero) + bar * factor
+    # The expression ``root`` does not depend on a symbol without an adjoint.
     return [bars.get(space.sym(name).id, space.zero) for name in symbols]
 
 
@@ -60,6 +62,7 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
         case "div":
             # The node is a/b, so 1/b is the only new division.
             inverse = space.one / args[1]
+            # The derivative -a/b^2 equals -(a/b)/b, so the existing node a/b is used again.
             return [inverse, -(node * inverse)]
         case "neg":
             return [-space.one]
@@ -86,6 +89,7 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
     half = space.const(Number.rational(1, 2))
     match node.payload:
         case PiecewisePolynomial() as table:
+            # A table of degree 0 is piecewise constant, so its derivative is zero between jumps.
             return [space.call(table.derivative(), x) if table.degree else space.zero]
         case name if name in (ABSOLUTE, CHOOSE):
             return _selection(node)
@@ -132,6 +136,7 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
 def sign(x: Expr) -> Expr:
     """Return an expression for the sign of x: 1, 0 or -1."""
     space = x.space
+    # ``choose`` selects its last argument at x = 0, so the sign of zero is 0.
     return space.call(CHOOSE, x, space.one, space.call(CHOOSE, -x, -space.one, space.zero))
 
 
@@ -146,4 +151,5 @@ def _selection(node: Expr) -> list[Expr]:
     # If ``a`` or ``b`` is a constant, the derivative with respect to it is not needed and set to 0.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
+    # For x != 0, a small change of x does not change the selected formula.
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

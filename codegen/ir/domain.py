@@ -79,11 +79,13 @@ def stumpff(k: int, z: float) -> float:
     """
     if z > 2.0**52:
         return math.nan
+    # For z < 0 the trigonometric functions become hyperbolic, because cos(i x) = cosh x.
     if z < 0 and (k < 3 or z < -4):
         root = math.sqrt(-z)
         if k == 0:
             return math.cosh(root)
         if k == 2:
+            # The identity cosh r - 1 = 2 sinh^2(r/2) avoids a cancellation for small r.
             ratio = math.sinh(root / 2) / (root / 2)
             return ratio * ratio / 2
         ratio = math.sinh(root) / root
@@ -94,6 +96,7 @@ def stumpff(k: int, z: float) -> float:
     if z < (0.5 if k < 3 else 4.0):
         # The first omitted term of the series is below 1e-27 for abs(z) <= 4.
         total, j = 0.0, 14
+        # Horner's rule adds the small terms first, so their rounding errors remain negligible.
         while j >= 0:
             total = 1.0 / math.factorial(2 * j + k) - z * total
             j -= 1
@@ -246,6 +249,7 @@ class PreciseDomain:
             return args[0] / args[1] if args[1] else args[0] * 0
         if selects(function):
             return selected(self, function, args, sign_of_number)
+        # The sine of a larger argument would need more than ``LARGEST_BITS`` bits of pi.
         if any(self.context.mag(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
@@ -312,6 +316,7 @@ class PreciseDomain:
 
     def increment(self, x: Scalar) -> Scalar:
         """Return the increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
+        # The factor max(1, abs(x)) keeps x + d different from x for large x.
         return self.context.sqrt(self.context.eps) * max(1, abs(x))
 
 
@@ -375,6 +380,7 @@ class SeriesDomain:
             return self._sum(k, 2, self.ring.rational(1, math.factorial(k)), z)
         if function in ("tan", "tanh"):
             sine, cosine = ("sin", "cos") if function == "tan" else ("sinh", "cosh")
+            # The cosine is 1 at zero, so its series is invertible.
             return self.call(sine, z) / self.call(cosine, z)
         if function in ("atan", "asin"):
             return self._arc(function, z)
@@ -410,6 +416,7 @@ class SeriesDomain:
 
         Term j is z^(2j+1)/(2j+1), multiplied by (-1)^j for atan and by binom(2j, j)/4^j for asin."""
         total, power = self.ring.zero, z
+        # Without a constant term in z, term j begins at h^(2 j + 1) or later.
         for j in range(self.order // 2 + 1):
             factor = Fraction((-1) ** j) if function == "atan" else Fraction(math.comb(2 * j, j), 4**j)
             factor /= 2 * j + 1
@@ -421,6 +428,7 @@ class SeriesDomain:
         """Return the series a/b, with a/0 = 0. If a/b has a pole at h = 0, ArithmeticError is raised."""
         # ``power`` is the exponent of the lowest power of h in b.
         power = self.ring.valuation(b)
+        # A valuation above ``order`` means that all known coefficients of b are zero.
         if power > self.order:
             return self.ring.zero
         if self.ring.valuation(a) < power:

@@ -58,6 +58,7 @@ def _arcsine(x: Expr, f: Expr) -> Expr:
 
 
 def _arccosine(x: Expr, f: Expr) -> Expr:
+    # The sum asin x + acos x is constant, so the two derivatives have opposite signs.
     return -_arcsine(x, f)
 
 

@@ -151,6 +151,7 @@ class ExponentialAction(VectorFunction):
         # If the block matrix has at most :data:`SPARSE` rows, ``expanded`` omits its zero entries.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
+        # The second half of the results is exp(A) y.
         return tuple(results[:n])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
@@ -218,7 +219,9 @@ class ExponentialAction(VectorFunction):
         OverflowError is raised if an entry of the n x n matrix A has an absolute value of 2^40/n or more.
         """
         entries, rows = len(self.places), self.rows
+        # The largest absolute entry times n is a bound for all row sums.
         largest = max((abs(x) for x in args[:entries]), default=0) * self.n
+        # The negated comparison is also true for a NaN.
         if not largest < 2**40:
             raise OverflowError("the norm of the matrix is too large for its exponential")
         # The norm of A/``parts`` is below 1, so the Taylor series of exp(A/``parts``) loses only few digits

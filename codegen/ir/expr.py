@@ -171,6 +171,7 @@ class Space:
             return a
         if a.op == b.op == "const" and _joinable(a, b):
             return self.const(a.payload + b.payload)
+        # The expressions a + (-x) and a - x have the same floating-point value.
         if b.op == "neg":
             return self.sub(a, b.args[0])
         if a.op == "neg":
@@ -216,6 +217,7 @@ class Space:
             # The product of two constants is exact, because constants are rounded only when they are printed.
             if b.op == "mul" and b.args[0].op == "const" and _joinable(a, b.args[0]):
                 return self.mul(self.const(a.payload * b.args[0].payload), b.args[1])
+        # An outer minus sign can later turn a sum into a difference.
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
@@ -391,6 +393,7 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
         elif (result_of := component(node.payload)) is not None:
             function, index = result_of
             key = function.name, tuple(a.id for a in args)
+            # The key does not contain ``index``, so one evaluation supplies all results of a call.
             if key not in vectors:
                 vectors[key] = domain.vector(function.name, [result[a] for a in args])
             value = vectors[key][index]

@@ -195,6 +195,7 @@ class _Reader:
         for a in _sorted(e):
             # A quotient a/b is the product a b^-1 in sympy.
             if isinstance(a, sympy.Pow) and a.exp.is_Rational and a.exp < 0:
+                # The safe base 1 prevents a division by zero in an unselected branch.
                 below.append(self._power(self.guarded(self.node(a.base), 1), -a.exp, a))
             else:
                 above.append(self.node(a))

@@ -87,6 +87,7 @@ def interpret(
             # The first list in the queue ``near`` contains the initial values for this block.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
+            # A fixed-point sweep is cheaper than a Newton step, because it needs no difference quotients.
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
             expected.update((unknown, env[unknown]) for unknown in statement.unknowns)
     return {name: env[var] for name, var in program.outputs}
@@ -147,6 +148,7 @@ def _composed(
     near: list[list[Scalar]] | None,
 ) -> State:
     """Return the state after all substeps of a composition method."""
+    # Without this change, ``interpret`` would treat each substep as a composition again.
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
         # A substep has a different step size h, so it uses a copy of the domain.
@@ -264,6 +266,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
         # Row exchanges avoid small pivots.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
+        # All entries below a zero pivot are zero too, so the matrix is singular.
         if not rows[k][k]:
             raise NotConverged("the matrix of Newton's method is singular")
         for i in range(k + 1, n):

@@ -109,6 +109,7 @@ class _Graph:
                 continue
             gone[v] = True
             neighbours = self._take_out(v)
+            # The elimination of v changes only the costs of the neighbours of v.
             for u in neighbours:
                 # Only inner vertices are in both tables. Variables and results are never eliminated.
                 if u in self.before and u in self.after:
@@ -117,6 +118,7 @@ class _Graph:
     def _take_out(self, v: int) -> list[int]:
         # The vertex v and its edges are removed from the graph.
         ins, outs = self.before.pop(v), self.after.pop(v)
+        # Costs are products of table lengths, so no edge of v may remain.
         for u in ins:
             del self.after[u][v]
         for w in outs:
