@@ -77,6 +77,7 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
     if embedded is not None:
         second = embedded.commutator_free().update
         exponent = second_exponent(method.commutator_free(), second, method.ring)
+        # A low-storage scheme does not keep the stage values for a general embedded update.
         if exponent is None:
             return None
     # If ``holds`` is True, the scheme and the tableau define the same step.
@@ -113,6 +114,7 @@ def two_registers(
         register.append(build.lin(f"K{i + 1}", Kind.ALG, terms))
         if estimate is not None:
             terms = [(Coefficient(stages.number(estimate[i])), k[i])]
+            # The slice ``sums[-1:]`` is empty at the first stage, because E starts at zero.
             sums.append(build.lin(f"E{i + 1}", Kind.ALG, [*((one, x) for x in sums[-1:]), *terms]))
         x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
         state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))
@@ -131,12 +133,15 @@ def two_registers(
         return result
 
     def update() -> dict[str, Var]:
+        # The last exponential belongs to the update, because no later stage needs the last point.
         advance(scheme.s - 1)
         if not sums:
             return {"y": state[-1]}
+        # The sum E of the terms D_i k_i contains no factor h.
         x = build.lin("x", Kind.ALG, [(stages.times_h(method.ring.one), sums[-1])])
         return {"y": state[-1], EMBEDDED: build.act("Y", build.exp("g", x), state[-1])}
 
+    # A low-storage scheme is explicit, so the initial guesses for the k_i do not matter.
     return stages.program(k, images, lambda: [stages.f("k0", y, None)] * scheme.s, update)
 
 

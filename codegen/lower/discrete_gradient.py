@@ -113,9 +113,11 @@ def _program(scene: Problem, method: Method) -> Program:
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # H(x1) depends on the unknown xi, so the energies are part of the equation for xi.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
+        # ``Secant`` needs the whole displacement eta = h xi, because <D, eta> is an energy difference.
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
         # If eta = 0, the formula for D in the module docstring contains 0/0. Secant then returns D = g.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
+        # The bivector is skew, so <D, f> = 0 holds for f = omega(D, .).
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
 
@@ -123,6 +125,7 @@ def _program(scene: Problem, method: Method) -> Program:
         # The update uses f = omega(D, .). Its error is O(h) times the error of the computed xi.
         return {"y": moved("1", ONE.value, shared["f"])}
 
+    # The exact xi differs from f(y0) by O(h), so f(y0) is the initial guess.
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
 
 

@@ -132,6 +132,7 @@ class FlowLowering(Lowering):
 
         if scene is None:
             return super().conditions(method)
+        # The order conditions of one tableau can differ between scenes, for example ``rkn`` conditions.
         return families.get(self.read(scene, method).conditions)
 
     @abstractmethod
@@ -162,9 +163,11 @@ class FlowLowering(Lowering):
         # The names t and h are reserved, because they are arguments of emitted code.
         builder = Builder({v.name for v in inputs} | {"t", "h"})
         for summand, duration in reading.word:
+            # The argument 1 is a power of h: the flow lasts ``duration`` step sizes.
             step = Coefficient(duration, 1)
             # All flows of one summand commute with each other, so their order does not matter.
             for name, flow in summand.flows:
+                # The time is constant during the flow of a time-dependent summand, so t is an argument.
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
             # The flow of the carrier does not contain t. After this flow, t is advanced.
             if time is not None and summand is reading.carrier:
@@ -247,6 +250,7 @@ def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
         # A flow of duration zero is dropped, so that the flows before and after it can be joined.
         if x.is_zero:
             continue
+        # All flows of a summand in one word refer to the same Summand object.
         if joined and joined[-1][0] is summand:
             total = joined.pop()[1] + x
             # If the sum of the two durations is zero, both flows are dropped.

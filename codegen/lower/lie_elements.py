@@ -60,6 +60,7 @@ class LieElements:
         If ``power`` is None, the power is the least power of h in the terms.
         """
         terms = [(self.method.number(x), self._value(term)) for term, x in combination]
+        # A zero term must not influence the least power of h.
         terms = [(x, value) for x, value in terms if not x.is_zero]
         # A sum without terms is zero, so its power of h is arbitrary.
         least = min((value.power for _, value in terms), default=1) if power is None else power
@@ -109,5 +110,6 @@ class LieElements:
         for outer in reversed(factors[:middle]):
             x = self._value(outer)
             var = self.build.add(Sandwich(), "product", x.var, result.var)
+            # Each outer factor occurs twice in the product, so its power of h counts twice.
             result = Scaled(var, 2 * x.power + result.power)
         return result

@@ -60,6 +60,7 @@ class LinearLowering(FieldLowering):
             return super().problem(scene, method)
         # The derived scene is stored, because deriving it takes time.
         if "linear" not in scene.derived:
+            # The rate -dH/dt of the momentum u contains the state, so A omits the rate.
             scene.derived["linear"] = without_momentum_rate(scene)
         return scene.derived["linear"]
 
@@ -72,6 +73,7 @@ class LinearLowering(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step."""
+        # A step of the scene has no tableau, so its matrix is used directly.
         if method.step:
             return self._stated(problem, method)
         family = family_class(self.family)
@@ -100,6 +102,7 @@ class LinearLowering(FieldLowering):
 
     def _stated(self, problem: Problem, method: Method) -> Program:
         """Return the program of the step ``method.step`` of the scene."""
+        # The formula for the momentum u is valid only for a symplectic step matrix.
         if problem.carries_momentum and not problem.steps[method.step].canonical:
             raise MethodError(
                 f"{method.label} cannot compute the momentum u conjugate to the time, because the matrix of "
@@ -121,6 +124,7 @@ class LinearLowering(FieldLowering):
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder
 
+        # The object ``method`` contains only the name of the step, and the scene contains the order.
         if scene is None:
             raise MethodError(
                 f"the order of {method.label} is unknown without a scene",
@@ -147,5 +151,6 @@ def _with_momentum(problem: Problem, step: Program) -> Program:
     ((_, point),) = step.outputs
     # In ``moved``, the new momentum replaces the old momentum.
     moved = Var("y_with_u", Kind.POINT)
+    # ``TimeMomentum`` differentiates the whole step with respect to t, so its argument is ``step``.
     last = Assign((moved,), TimeMomentum(step), (step.inputs[0], point, time))
     return verify(replace(step, body=(*step.body, last), outputs=(("y", moved),)))

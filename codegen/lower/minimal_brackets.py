@@ -106,5 +106,6 @@ def lower(scene: Problem, method: Method) -> Program:
         # As in every RKMK method, the update is a single exponential, applied to y0.
         return {"y": build.act("y1", build.exp("g", combination("u", written.update)), y)}
 
+    # The brackets are not unknowns, because brackets are functions of the stage values.
     unknowns = [values["k", i] for i in range(tableau.s)]
     return stages.program(unknowns, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)

@@ -101,12 +101,15 @@ class PartitionedLowering(Lowering):
                 v, f = build.hamilton(f"v{number}", f"f{number}", Q, P, *time)
                 # If the velocity does not depend on positions, it is evaluated at the old position.
                 if not by_position:
+                    # With ``q`` in place of ``Q``, the velocity no longer depends on unknown velocities.
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
                 # If the force does not depend on the momentum, it is evaluated at the old momentum.
                 if not by_momentum:
+                    # With ``mu`` in place of ``P``, the force no longer depends on unknown forces.
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
                 velocities.append(v)
                 forces.append(f)
+            # The order of the results must match the unknowns: first velocities, then forces.
             return velocities + forces
 
         def starts() -> list[Var]:
@@ -146,6 +149,7 @@ def separable(scene: Problem) -> bool:
 
     In this case the velocity depends only on p, and the force only on q and t.
     """
+    # For H = T(p) + V(q, t), only the force may depend on the time.
     return not reads_position(scene) and not reads_momentum(scene) and TIME not in _read(scene, False)
 
 

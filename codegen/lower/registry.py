@@ -34,6 +34,7 @@ def _built_in() -> tuple[type[Lowering], ...]:
     from codegen.lower.vrkmk import VariationalMuntheKaas
     from codegen.lower.vrkmk_pade import VariationalMuntheKaasPade
 
+    # The compiler chooses the first family among families of equal order and equal preference.
     return (
         RungeKuttaLowering,
         MuntheKaas,
@@ -73,6 +74,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
         )
     # Each family has one lowering. A second class would replace the first class.
     known = _lowerings().get(lowering.family)
+    # A second call with the same class is harmless, so only another class is an error.
     if known is not None and type(known) is not lowering:
         raise MethodError(
             f"the family {lowering.family} already has a lowering of another class",

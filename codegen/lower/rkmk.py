@@ -48,6 +48,7 @@ class MuntheKaas(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step."""
+        # A coordinate map other than exp has an exact inverse differential, so the cut-off is ignored.
         if problem.coordinates is not None:
             return in_coordinates(problem, method)
         # Without a cut-off, a search finds the brackets that are needed for the order of the tableau.
@@ -61,6 +62,7 @@ class MuntheKaas(FieldLowering):
         The result is None if ``method.cutoff`` is None, or if the coordinate map of the scene is not exp.
         The result is also None if the tableau is implicit or has no continuous extension.
         """
+        # The polynomial sigma(theta) is an exponent of exp, so other coordinate maps are excluded.
         exact = problem.coordinates is None and method.cutoff is not None
         return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
 
@@ -74,6 +76,7 @@ class MuntheKaas(FieldLowering):
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
 
+            # An exact inverse differential corresponds to the full series of dexp^{-1}, without a cut-off.
             return families.get(self.family)
         if method.cutoff is not None:
             return super().conditions(method, scene)
@@ -162,6 +165,7 @@ def _program(
         for i, row in enumerate(tableau.A):
             # Each pass through the loop computes one Runge-Kutta stage of u' = dexp^{-1}_u f(exp(u).y).
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
+            # Every exponential acts on y0, because the u_i are coordinates relative to y0.
             point = build.act(f"Y{i + 1}", build.add(element, f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
             result.append(inverse(build, f"w{i + 1}", u, k))

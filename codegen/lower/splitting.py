@@ -54,6 +54,7 @@ class SplittingLowering(FlowLowering):
             return _in_order(parts, tableau, steps, chosen)
         # A tableau for two parts also defines a composition of Phi and Phi* (see the top of this module).
         if len(tableau.parts) == 2 and len(chosen) > 2:
+            # The composition has the order of the tableau for every basic method Phi (McLachlan 1995).
             return pairs(parts.arranged, _as_pairs(steps)), self.family
         inexact = [part.name for part in parts.parts if not part.exact]
         raise MethodError(

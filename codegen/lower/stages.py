@@ -34,6 +34,7 @@ class Stages:
     def __post_init__(self) -> None:
         # Emitted functions have the arguments t and h, so other values must not have these names.
         self.builder = Builder({v.name for v in self.inputs} | {"t", "h"})
+        # An autonomous field ignores the time, so its program has no input t.
         self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
 
     def number(self, x: Element) -> Number:
@@ -81,6 +82,7 @@ class Stages:
         """
         # All functions append to one builder, so the order of the calls is the order of the statements.
         first = tuple(starts())
+        # Initial guesses are computed once, so their statements precede the block of the equations.
         before = self.builder.take()
         last = tuple(images())
         # If the stages can be computed one after the other, a later pass splits the block.

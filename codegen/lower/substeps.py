@@ -102,6 +102,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
         ]
         # ``scaled`` contains the tableau of each group of stages: its coefficients, divided by ``total``.
         first = scaled[0]
+        # A loop over explicit substeps would hide common subexpressions of successive substeps.
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]
             return RungeKutta(tuple(elements[:-1]), elements[-1]), tuple(sums)
@@ -123,6 +124,7 @@ def _implicit(rows: Sequence[Sequence[Number]]) -> bool:
 
 
 def _sum(numbers: Sequence[Number]) -> Number:
+    # The built-in ``sum`` starts at the integer 0, and int plus Number is undefined.
     total = Number.rational(0)
     for x in numbers:
         total = total + x

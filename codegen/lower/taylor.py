@@ -88,6 +88,7 @@ class Taylor(Lowering):
         MethodError is raised if the method has step-size control and the degree is less than :data:`LEAST`.
         """
         degree = self.conditions(method).degree_of_step()
+        # The step-size formula contains a root of order ``degree`` - 1, so degree 1 is excluded.
         if method.adaptive and degree < LEAST:
             raise MethodError(
                 f"no step-size control for {method.label}, because its degree is too low",

@@ -150,6 +150,7 @@ class ExpandedStep(ABC):
         """Append the new state: q1 = exp(Y) q0 and mu1 = Ad*_{exp(-Y)} mubar."""
         g = self.build.exp("g", self.Y)
         q = self.build.mul("q1", g, self.q)
+        # The operator Ad*_{exp(-Y)} transports the momentum from q0 to q1 = exp(Y) q0.
         return {"q": q, "mu": self.build.adjoint("mu1", g, self.mubar, inverse=True)}
 
     def program(self) -> Program:

@@ -117,6 +117,7 @@ def _program(scene: Problem, method: Method) -> Program:
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
+                    # A quotient of equal intervals is exactly one, so the division precedes the product.
                     factor = stages.times_h(-(b[j] * (row[i] / b[i])))
                     terms.append((factor, stage.carried(build, i, J, nu[j])))
         return build.lin(f"M{i + 1}", Kind.DUAL, terms)
@@ -167,6 +168,7 @@ def _weights(method: Method, update: Rows, s: int) -> list[Number]:
     """
     b = []
     for i in range(s):
+        # On an abelian group, the exponents add, so b_i is the sum of the coefficients.
         weight = Number.rational(0)
         for row in update:
             weight = weight + row[i]

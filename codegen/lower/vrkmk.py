@@ -75,7 +75,9 @@ class _Step(ExpandedStep):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]
                 own = build.lin(f"p{i + 1}", Kind.DUAL, terms)
+            # The multiplier m_i is b_i times a momentum, so the weight is divided out.
             weighted = build.lin(f"w{i + 1}", Kind.DUAL, [(Coefficient(ONE.value / b[i]), own)])
+            # The argument ``weighted`` is a covector, so ``dexpinv`` applies the dual of dexp^{-1}.
             M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
             Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))

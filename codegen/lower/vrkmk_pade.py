@@ -121,6 +121,7 @@ class _Step(ExpandedStep):
     def starts(self) -> list[Var]:
         """Return the initial guesses of v_i and M_i: the velocity and the momentum before the step."""
         xi, _ = self.build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
+        # The exact v_i and M_i differ from the initial guesses by O(h).
         return [xi] * self.s + [self.mu] * self.s
 
 
