@@ -151,6 +151,7 @@ def _product(space: Space, a: _Dual, b: _Dual) -> _Dual:
 
 
 def _inverse(space: Space, a: _Dual) -> _Dual:
+    # The reciprocal of v_1 h has a pole at h = 0, so no expansion exists.
     if a.value[0].is_zero:
         raise NotLinearised("a divisor vanishes at h = 0")
     # To first order in h, 1/(v_0 + v_1 h) is 1/v_0 - (v_1/v_0^2) h.
@@ -170,6 +171,7 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
     none = (space.zero, space.zero)
 
     def pair(x: Pair, y: Pair) -> Pair:
+        # A sufficiently small h does not change the sign of a nonzero ``test.value[0]``.
         low, high = (space.call(CHOOSE, test.value[0], p, q) for p, q in zip(x, y, strict=True))
         return low, high
 
@@ -207,6 +209,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         at = first = second = space.call("exp", low)
     elif function == "log":
         at, first = space.call("log", low), space.one / low
+        # The second derivative of log x is -1/x^2, minus the square of 1/x.
         second = -(first * first)
     elif isinstance(function, PiecewisePolynomial):
         slope_of = function.derivative()
@@ -221,6 +224,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         # The function f is sin or cos, so f'' = -f.
         other = {"sin": "cos", "cos": "sin"}[function]
         at, turned = space.call(function, low), space.call(other, low)
+        # The derivative of cos is -sin, so only the cosine needs a minus sign in ``first``.
         first, second = (turned, -at) if function == "sin" else (-turned, -at)
     # To first order in h, f'(``low`` + ``high`` h) is f'(``low``) + f''(``low``) ``high`` h.
     slope = (first, second * high)

@@ -33,6 +33,7 @@ def ball(x: mpmath.mpf) -> arb:
     if not mantissa:
         # In mpmath, the mantissa of zero, infinities and NaN is 0. Only zero has the exponent 0.
         return arb(0) if not exponent else arb(float(x))
+    # mpmath stores the sign separately, so ``mantissa`` is never negative.
     return arb((-int(mantissa) if sign else int(mantissa), int(exponent)))
 
 
@@ -75,18 +76,21 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
             f"the exponential of a matrix needs finite entries with absolute values below "
             f"2^{LARGEST_EXPONENT}"
         )
+    # Rounding errors widen the balls, so the exponential needs more than ``bits`` bits.
     extra = 64
     while bits + extra <= MOST_BITS:
         with precision(bits + extra):
             result = _first_row(arb_mat(block_matrix(n, level, jet)).exp().tolist(), level)
             if _is_accurate(size, bits, jet, result):
                 return tuple(x.mid() for x in result)
+        # Doubling bounds the number of attempts by a logarithm of ``MOST_BITS``.
         extra *= 2
     raise OverflowError(f"the exponential of a matrix is not accurate with {MOST_BITS} bits")
 
 
 def _is_accurate(size: int, bits: int, jet: Sequence[arb], result: Sequence[arb]) -> bool:
     """Return True if no radius in ``result`` exceeds the bounds in the docstring of :func:`exponential`."""
+    # A comparison with a NaN is false, so a NaN could otherwise count as accurate.
     if not all(x.is_finite() for x in result):
         return False
     unit, largest = arb((1, -bits)), _largest(result[:size])

@@ -88,6 +88,7 @@ def _halvings(norm: float) -> tuple[float, int, float]:
     scale, squarings = 1.0, 0
     # The relative error is at least 2^-53, and each squaring about doubles it.
     while norm * scale > largest_norms(53)[-1] and squarings < 53:
+        # A power of two scales a double without rounding, apart from underflow.
         scale *= 0.5
         squarings += 1
     return scale, squarings, norm * scale
@@ -167,6 +168,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
         total = a[(n + 1) * i]
         for j in range(n):
             if j != i:
+                # The symmetric part (A + A^T)/2 has the entry (a_ij + a_ji)/2 at (i, j).
                 total += 0.5 * abs(a[n * i + j] + a[n * j + i])
         largest = max(largest, total)
     # As in emitted code, the exponential of ``largest * scale`` is computed by a Taylor polynomial.
@@ -224,6 +226,7 @@ def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]
         # In pass k of the loop, ``term`` becomes A^k/k!, where A is the jet ``a``.
         factor = ring.rational(1, k)
         term = [factor * x for x in product(n, level, term, a)]
+        # A zero power A^k makes all higher powers of A zero.
         if all(ring.is_zero(x) is True for x in term):
             return tuple(total)
         total = [x + y for x, y in zip(total, term, strict=True)]

@@ -56,6 +56,7 @@ class MatrixExponential(VectorFunction):
         next_level = MatrixExponential(self.n, self.level + 1)
         expanded = next_level.expanded(both)
         results = space.vector(next_level.name, both) if expanded is None else expanded
+        # The second half of the results of the next level contains the derivatives.
         return tuple(results[self.size :])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:

@@ -20,6 +20,7 @@ def inverse(
     rows = [list(a[n * i : n * i + n]) for i in range(n)]
     order: list[int] = []
     for k in range(n):
+        # Division by a tiny pivot would amplify rounding errors.
         pivot = max(range(k, n), key=lambda i: size(rows[i][k]))
         # The matrix counts as singular if the size of the pivot is 0 or a NaN.
         if not size(rows[pivot][k]) > 0:

@@ -71,6 +71,7 @@ class BilinearFunction(VectorFunction):
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return a matrix of zeros if a or b is zero, otherwise None."""
+        # A bilinear function is zero if one of its arguments is zero.
         if all(x.is_zero for x in args[: self.size]) or all(x.is_zero for x in args[self.size :]):
             return (args[0].space.zero,) * self.size
         return None
@@ -102,6 +103,7 @@ class MatrixProduct(BilinearFunction):
     @property
     def operations(self) -> dict[str, int]:
         """The numbers of additions and multiplications in the product of two matrices."""
+        # Each of the n^2 entries is a sum of n products with n - 1 additions.
         return {"add": self.n**3 - self.n**2, "mul": self.n**3}
 
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:

@@ -70,6 +70,7 @@ class Multiplier:
     @classmethod
     def constant(cls, value: Number) -> Multiplier:
         """Return the constant function with the value ``value``."""
+        # The zero polynomial has no terms, and the empty monomial () is the constant 1.
         return cls({} if value.is_zero else {(): value})
 
     @classmethod
@@ -274,6 +275,7 @@ class ModeStep:
 
         Here z is h times an eigenvalue of the linear operator L.
         """
+        # Both exp(c z) and phi_1(c z) with c < 0 grow exponentially as z -> -infinity.
         return any(f.function in (EXP, PHI) and float(f.scale) < 0 for f in self.factors)
 
     @property

@@ -74,6 +74,7 @@ class NormalForms:
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
+            # The unsimplified expression is still correct.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
@@ -146,6 +147,7 @@ class NormalForms:
 
     def _sum(self, terms: Mapping[Monomial, Number]) -> Expr:
         total = self.space.zero
+        # Sorting makes the order of the additions independent of the order of insertion.
         for monomial, c in sorted(terms.items()):
             product = self.space.const(c)
             for atom, n in monomial:
@@ -158,6 +160,7 @@ class NormalForms:
         return node.id
 
     def _variable(self, node: Expr) -> Polynomial:
+        # A quotient or a call may simplify to a constant, and constants are not variables.
         if node.op == "const":
             return {(): node.payload}
         return {((self._atom(node), 1),): ONE}
@@ -201,6 +204,7 @@ class NormalForms:
 
 def _product(m: Monomial, n: Monomial) -> Monomial:
     """Return the product of two monomials."""
+    # The empty monomial is the constant 1.
     if not m or not n:
         return m or n
     # If each node number in m is smaller than each node number in n, the tuple m + n is sorted.

@@ -81,6 +81,7 @@ class Number:
             # ``Fraction`` converts the text "0.1" to 1/10 exactly.
             value = Fraction(text) if _TYPED.fullmatch(text) else None
         except ZeroDivisionError:
+            # The text ``1/0`` matches the pattern but is not a number.
             value = None
         if value is None or not is_normal(value):
             expected = "0 or a rational number such as 1/2, with absolute value between 1e-307 and 1e308"
@@ -113,6 +114,7 @@ class Number:
             return self.ring, self.element, other.element
         # If the rings differ, one ring must be QQ (the rational numbers).
         if self.ring is QQ:
+            # Every ring here contains the rational numbers, so a rational operand can be converted.
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
             ring = self.ring
@@ -133,6 +135,7 @@ class Number:
     def __sub__(self, other: Number) -> Number:
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element - other.element)
+        # The difference of two equal balls would be a ball around 0, not exactly 0.
         if self == other:
             return Number.rational(0)
         ring, x, y = self._join(other)

@@ -254,6 +254,7 @@ class InverseDifferential(OfGroup):
     g' = y.g. For matrices, y.g is the matrix product.
     """
 
+    # The linear map dtau^{-1}_x depends nonlinearly on x but is linear in y.
     linear_in_last = True
     name = "inverse_differential"
     takes, gives = A + A, A
@@ -406,6 +407,7 @@ class InverseDexpSlope(Operation):
     """
 
     order: int
+    # The transpose P* is a linear map and acts on mu, the last argument.
     linear_in_last = True
     name = "P*"
     takes, gives = A + A + D, D

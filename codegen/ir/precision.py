@@ -93,9 +93,11 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     """Return the nearest number with ``bits`` significant bits. Ties are rounded to even."""
     if isinstance(value, Number):
         rational = value.is_rational
+        # A number outside QQ is rounded from 40 digits, many more than any format has.
         exact = value.fraction() if rational else Fraction(value.ring.approximate(value.element, 40))
     else:
         exact = Fraction(value)
+    # Zero has no leading bit, so no exponent can be computed.
     if exact == 0:
         return 0.0
     # Rounding to a double first could give a wrong result: the double may lie exactly between two numbers of
@@ -106,6 +108,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     # Every number of the format is a multiple of the smallest positive number.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
+        # Python rounds a Fraction with ties to even, as IEEE 754 does by default.
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)
     except OverflowError:
         # The caller :meth:`Precision.round` raises InputError for an infinity.

@@ -201,6 +201,7 @@ class Sandwich(OfGroup):
     quadratic equation such as g^T g = 1.
     """
 
+    # The product x y x is linear in y but quadratic in x.
     linear_in_last = True
     name = "sandwich"
     takes, gives = A + A, A

@@ -42,10 +42,12 @@ def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign
     if isinstance(function, PiecewisePolynomial):
         return function.value(domain, x, sign)
     order = sign(x)
+    # A NaN argument must give a NaN, and neither formula guarantees a NaN.
     if order is None:
         return x
     if function == ABSOLUTE:
         return -x if order < 0 else x
+    # The second formula includes the boundary x = 0.
     return args[1] if order > 0 else args[2]
 
 

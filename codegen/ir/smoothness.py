@@ -76,6 +76,7 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         return function.on_interval(domain, x, side), margins
     # Each tuple contains the formulas for x <= 0 and for x > 0, in this order.
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
+    # Side 1 requires x > 0, and side 0 is certain if -x > 0.
     return value, [x if side else -x]
 
 
@@ -113,6 +114,7 @@ SHOWN = 3
 def _argument(node: Expr) -> str:
     """Return the text of the first argument of ``node``. A minus sign before the argument is omitted."""
     x = node.args[0]
+    # The zeros of x and -x are the same, so the sign does not matter.
     if x.op == "neg":
         (x,) = x.args
     if x.op == "sub":

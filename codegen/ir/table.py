@@ -83,6 +83,7 @@ class PiecewisePolynomial(str):
         while first < last:
             middle = (first + last) // 2
             order = sign(x - domain.rational(*self.knots[middle].as_integer_ratio()))
+            # A NaN lies in no interval, so the value is the NaN itself.
             if order is None:
                 return x
             first, last = (first, middle) if order < 0 else (middle + 1, last)

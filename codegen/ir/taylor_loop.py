@@ -213,9 +213,11 @@ class _Loop:
                 # The terms a_0 a_n and a_n a_0 are equal, so one of them is doubled.
                 return self.inner(a, a) + space.const(Number.rational(2)) * (self.value(a.term(0)) * x)
             case Slope(a=a):
+                # Differentiation multiplies a_n by n, and the factor s restores the power s^n.
                 return space.sym(ORDER) * _known(self.known[id(a)])
             case Quotient(a=a, b=b):
                 x = self.known[id(a)]
+                # A constant divisor b has no sum in the recurrence, so q_n = a_n/b_0.
                 if self.known[id(b)] is None:
                     return self.value(series.inverse) * _known(x)
                 # The quotient ``series.inverse`` = 1/b_0 is computed before the loop, because a division in
@@ -256,9 +258,11 @@ class _Loop:
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
+                # A constant coordinate has the derivative 0, so only one of the two terms remains.
                 (mean,) = means
                 return space.sym(INVERSE) * (mean if self.known[id(slopes[0])] is not None else -mean)
             case Antiderivative(slope=slope, rate=rate):
+                # The derivative of f(a) is the product of ``rate`` and a'.
                 return space.sym(INVERSE) * self.beyond(slope, rate)
             case Logarithm(a=a, slope=slope):
                 # For the logarithm l of a, l_n = (a_n - z/n)/a_0, where z is the sum of j l_j a_{n-j} over

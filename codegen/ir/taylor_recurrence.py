@@ -101,6 +101,7 @@ class _Builder:
         constants = [a.payload if a.op == "const" else None for a in node.args]
         match node.op:
             case "call" if node.payload == "sqrt":
+                # The argument of the root is kept whole, because sqrt(x^2) is |x| and not x.
                 return one, node.args[0], Fraction(1, 2)
             case "neg":
                 ((c, x, e),) = parts
@@ -198,6 +199,7 @@ class _Builder:
                 # ``Root`` computes a square root with about half of the products that ``Power`` would need.
                 self.shared[key] = Root(self.domain, a)
             elif exponent == -1:
+                # The power recurrence for the exponent -1 simplifies to the recurrence of the quotient 1/a.
                 self.shared[key] = Quotient(self.domain, Given(self.domain, self.domain.rational(1)), a)
             elif exponent.denominator == 1 and exponent > 0:
                 self.shared[key] = self.integer_power(a, int(exponent))
@@ -318,6 +320,7 @@ class Recurrence:
         factors: dict[object, Scalar] = {}
         new = []
         for number, slope in self.slopes:
+            # Integration of s^n gives s^(n+1)/(n + 1).
             number = number * Number.rational(1, n + 1)
             # The product of ``number`` and ``scale`` is computed once for each value of ``number``.
             if number.key not in factors:

@@ -133,6 +133,7 @@ class Root(Series):
         """Return coefficient n of s = sqrt(a). For n > 0 it is (a_n - sum_{0<j<n} s_j s_{n-j})/(2 s_0)."""
         if n == 0:
             root = self.domain.call("sqrt", self.a.term(0))
+            # The unknown s_n occurs in s_0 s_n and s_n s_0, so the divisor is 2 s_0.
             self.inverse = self.domain.rational(1, 2) / root
             return root
         # The sum ``rest`` does not contain the unknown coefficient s_n.
@@ -201,6 +202,7 @@ class Slope(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return n a_n, where a_n is coefficient n of the series a. For n = 0, return None."""
+        # The factor n is zero for n = 0, so coefficient 0 is identically zero.
         return _scaled(self.domain, Number.rational(n), self.a.term(n)) if n else None
 
 
@@ -237,6 +239,7 @@ class Logarithm(Series):
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self.domain.call("log", self.a.term(0))
+        # The equation a l' = a' contains the unknown l_n only in n a_0 l_n.
         rest = _total(multiplied(self.slope.term(j), self.a.term(n - j)) for j in _late_last(n, range(1, n)))
         rest = _scaled(self.domain, Number.rational(1, n), rest)
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)

@@ -40,6 +40,7 @@ class TimeMomentum(Operation):
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
         increment = self._evaluated(cast("Problem", problem), domain, start, t)
+        # The last coordinate of the point is the momentum u.
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:

@@ -125,6 +125,7 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
     A and B are real matrices, and A + i B is the matrix X with the coordinates ``x``.
     """
     width = 2 * ROWS
+    # The block matrices multiply like the complex matrices A + i B.
     result = [zero] * width**2
 
     def put(i: int, j: int, real: T, imaginary: T) -> None:
@@ -158,6 +159,7 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
     """
     scale, squarings, norm = _halvings(_bound(x))
     total = _polynomial([a * scale for a in x], norm)
+    # The matrix exp(X) is the square of exp(X/2), because X commutes with itself.
     for _ in range(squarings):
         total = _square(total)
     # The condition ``not norm <= ...`` is also true if ``norm`` is NaN.
@@ -181,6 +183,7 @@ def _halvings(norm: float) -> tuple[float, int, float]:
     ``norm`` is the bound before scaling.
     """
     scale, squarings = 1.0, 0
+    # A NaN is not larger than the bound, so a NaN causes no halvings.
     while norm * scale > largest_norms(53)[-1] and squarings < most_squarings(53):
         scale *= 0.5
         squarings += 1
@@ -264,6 +267,7 @@ def _polynomial(y: list[float], norm: float) -> list[float]:
             # In the term i^n H^n/n! of degree n = 4 * ``group`` + k, the factor i^n equals i^k.
             added = (0.0, c[4 * group + k]) if k % 2 else (c[4 * group + k], 0.0)
             for part, term in zip(parts, added, strict=True):
+                # The powers i^2 and i^3 are -1 and -i, so both have a minus sign.
                 signed = -term if k >= 2 else term
                 # Since H^3 = p H + q I, the product of H and a I + b H + c H^2 is
                 # q c I + (a + p c) H + b H^2.
