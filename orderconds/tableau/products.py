@@ -155,8 +155,8 @@ class Magnus:
         return tuple(expand(combination, named, ring) for combination in self.exponents)
 
     def extents(self) -> tuple[tuple[int, int], ...]:
-        """Return a pair (m, n) for each exponent: the products in its expansion have at least m and at most n
-        factors."""
+        """Return a pair (m, n) for each exponent. The expanded exponent contains only products of m to n
+        factors A_i."""
         extent = extents(dict(self.elements))
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 

@@ -58,8 +58,8 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     """Rewrite a Runge-Kutta or commutator-free method as a low-storage scheme with two registers (2N). The
     result contains the scheme, or the reason why there is no such scheme. Return None for all other methods.
 
-    If rounded decimals are too inaccurate to decide, and the file has a table ``[proof]``, random numbers
-    replace the decimals. The probability of an error is then negligible
+    If rounded decimals are too inaccurate to decide, the method is tested with random numbers in their place.
+    This test requires a table ``[proof]`` in the file. The probability of an error is then negligible
     (:mod:`orderconds.tableau.random_member`).
 
     >>> from orderconds.tableau import find
@@ -105,9 +105,8 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Return True if the method with random numbers in place of the rounded decimals is symmetric, and None
-    otherwise. The result is never False, because the method with the exact coefficients may still be
-    symmetric."""
+    """Return True if the method is symmetric for random values of the rounded decimals, and None otherwise.
+    The result is never False, because the method with the exact coefficients may still be symmetric."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember
@@ -128,8 +127,8 @@ def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:
 
 
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
-    """Return the properties of a composition of midpoint rules, which is always symplectic and diagonally
-    implicit."""
+    """Return the properties of a composition of midpoint rules. Such a composition is always symplectic and
+    diagonally implicit."""
     gamma = method.gamma
     verdicts = {
         **_of_tableau(method.as_runge_kutta(ring), ring),

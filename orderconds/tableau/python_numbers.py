@@ -22,8 +22,8 @@ EXPECTED = (
 
 
 SMALL = 1024
-"""The largest denominator for which a NumPy float of 16 or 32 bits counts as an exact number. All other such
-floats count as rounded decimals."""
+"""A NumPy float of 16 or 32 bits counts as exact if it is a fraction with at most this denominator. All other
+such floats count as rounded decimals."""
 
 
 class _Listed(Protocol):

@@ -4,9 +4,9 @@ The coefficients of the method are rational functions of the replaced numbers. A
 rational functions is tested at one random point. If the identity holds for all points, it also holds for the
 exact decimals and radicals.
 
-Each coordinate of the random point is drawn from 2^128 numbers. Let two different functions have degree at
-most D. The probability that their values at the point are equal is at most D / 2^128 (Schwartz 1980; Zippel
-1979).
+Each coordinate of the random point is drawn from 2^128 numbers. For two different functions, let D be the
+degree of the numerator of their difference. The probability that their values at the point are equal is at
+most D / 2^128 (Schwartz 1980; Zippel 1979).
 
 The random numbers are computed from a digest of all coefficients in the file. Hence nobody can choose
 coefficients for which the random numbers satisfy a false identity.
@@ -30,10 +30,10 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
 """The number of bits of a random number. The limit :data:`orderconds.tableau.evaluate.MAX_SIZE` keeps the
-degree D of an identity far below 2^40, so D / 2^128 is negligible."""
+degree D of tested functions far below 2^40. Hence the probability of an error, D / 2^128, is negligible."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
-"""The errors that are raised if the method with random coefficients cannot be evaluated."""
+"""The errors that :meth:`RandomMember.method` raises."""
 
 
 class RandomMember(Rationals):

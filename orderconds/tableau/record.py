@@ -227,8 +227,8 @@ from the table [numbers] (none)
     def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
         """Return a copy of the tableau with coefficients in ``ring``.
 
-        If ``convert`` is None, the ring of this tableau is embedded in ``ring``. In this case, raises
-        TypeError if there is no embedding (:func:`orderconds.ring.embed.embedding`).
+        If ``convert`` is None, the ring of this tableau is embedded in ``ring``. Raises TypeError if
+        ``convert`` is None and there is no embedding (:func:`orderconds.ring.embed.embedding`).
         """
         if convert is None:
             from orderconds.ring.embed import embedding
@@ -260,9 +260,8 @@ from the table [numbers] (none)
         """Convert the method to the first format in ``formats`` for which a conversion exists. Return None if
         there is no such format.
 
-        In ``rk``, the basic method of a composition of symmetric steps becomes the implicit midpoint rule.
-        Otherwise, the basic method becomes the explicit Euler method, and its adjoint becomes the implicit
-        Euler method.
+        In the format ``rk``, a composition of symmetric steps becomes a composition of implicit midpoint
+        rules. A composition with adjoints becomes a composition of explicit and implicit Euler methods.
         """
         method = self.method
         for wanted in formats:

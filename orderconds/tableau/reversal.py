@@ -48,9 +48,9 @@ def sign(method: Magnus, ring: Ring) -> int | None:
     """Return -1 if the first exponent of the method is odd, and 1 if it is even. Return None if the terms of
     the exponent are not all odd or all even.
 
-    Let A_i be h times the value of A at node i of s nodes. The replacement of every A_i by -A_{s+1-i}
-    changes the sign of an odd exponent, and does not change an even exponent. The sum of all terms x A_i of
-    the exponent counts as one term.
+    Let A_i = h A(c_i h) for the nodes c_1, ..., c_s. The replacement of every A_i by -A_{s+1-i} changes the
+    sign of an odd exponent, and does not change an even exponent. All multiples of A_1, ..., A_s in the
+    exponent are added, and their sum counts as one term.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

@@ -33,7 +33,7 @@ LARGEST = 100
 block of this size with rational entries, the computation takes about a second."""
 
 EFFORT = 10**11
-"""The limit on the work of polynomial operations, in multiplications of two bits (about a second). The
+"""The limit on the number of bit multiplications in polynomial operations (about a second in total). The
 coefficients in Euclid's algorithm grow fast, so a limit is necessary."""
 
 
@@ -137,8 +137,8 @@ class _Limited:
         return getattr(self.ring, name)
 
     def spend(self, work: int) -> None:
-        """Subtract ``work``, the work of an operation, from the work that is still allowed. Work is measured
-        in multiplications of two bits."""
+        """Subtract ``work`` from the remaining part of the limit :data:`EFFORT`. Work is measured in
+        multiplications of two bits."""
         self.left -= work
         if self.left < 0:
             raise _Undecided

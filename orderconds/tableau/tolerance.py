@@ -1,4 +1,4 @@
-"""Intervals of a width that the caller chooses, in place of the doubles in a tableau file."""
+"""Replace the doubles in a tableau file by intervals. The caller chooses the width."""
 
 from __future__ import annotations
 

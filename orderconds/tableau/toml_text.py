@@ -35,7 +35,7 @@ def _entries(table: Mapping[str, object]) -> Iterator[str]:
 
 
 def _headed(key: str, value: object) -> bool:
-    """Return True if a value is written below a heading."""
+    """Return True if a value is written below a line ``[key]`` or ``[[key]]``."""
     if _blocks(value, key):
         return True
     return isinstance(value, Mapping) and not (key == "embedded" and len(_line(key, value)) <= WIDTH)

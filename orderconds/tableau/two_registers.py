@@ -10,8 +10,7 @@ leads to the update. In a 2N scheme, increment i is B_i K_i with K_i = F_i + sum
 The recognition computes B_i and A_i from the increments of a tableau:
 
 - B_i is the coefficient of F_i in increment i.
-- A_i is the quotient of the coefficients of F_{i-1} and F_i in the first increment in which the coefficient
-  of F_i is not zero.
+- Let x and y be the coefficients of F_{i-1} and F_i in the first increment with non-zero y. Then A_i = x/y.
 
 The tableau is a 2N scheme if all its increments are equal to the increments B_i K_i.
 """
@@ -42,7 +41,7 @@ class TwoRegisters:
 
     def increments(self, ring: Ring) -> tuple[Row, ...]:
         """Return the increments B_i K_i for i = 1, ..., s, where K_i is the register K after stage i. Row i
-        contains the coefficients in B_i K_i of F_1, ..., F_s, the vector fields at the stages.
+        contains the coefficients of F_1, ..., F_s in B_i K_i. Here F_j is the vector field at stage j.
 
         >>> from orderconds.ring import QQ
         >>> half, two = QQ.rational(1, 2), QQ.rational(2)
@@ -58,8 +57,8 @@ class TwoRegisters:
         return tuple(rows)
 
     def as_commutator_free(self, ring: Ring) -> CommutatorFree:
-        """Return the scheme as a commutator-free method. In this method, the exponential of the increment
-        B_i K_i leads from stage i to stage i + 1."""
+        """Return the scheme as a commutator-free method. The exponential of increment i
+        (:meth:`increments`) leads from stage i to stage i + 1."""
         steps = [Stage(i, (row,)) for i, row in enumerate(self.increments(ring))]
         return CommutatorFree((Stage(None, ()), *steps[:-1]), steps[-1])
 
@@ -82,7 +81,7 @@ class Rewriting:
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     """Rewrite a method as a low-storage (2N) scheme. If no such scheme exists, return the reason.
 
-    The scheme computes the same step as ``method`` (on vector spaces, if ``method`` is a Runge-Kutta method).
+    The scheme and ``method`` compute the same step. For a Runge-Kutta method, this is true on vector spaces.
 
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
@@ -114,8 +113,7 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
 
 def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | None:
     """Compare ``second``, a second update for an error estimate, with the update of ``method``. If ``second``
-    applies the exponentials of the update and then one final exponential, return the exponent of the final
-    exponential. Otherwise, return None.
+    is the update of ``method``, followed by one exponential exp(x), return x. Otherwise, return None.
 
     >>> from orderconds.tableau import Tableau, find
     >>> pair = Tableau.load(find("cf43"))
@@ -128,8 +126,8 @@ def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | 
 
 
 def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
-    """Return the coefficient A_i of the 2N scheme with the increments ``rows``, where i is counted from 0. If
-    A_i does not exist or is undecided, return a :class:`Rewriting` with the reason."""
+    """Return the coefficient A_i of a 2N scheme. ``rows[m]`` is increment m. Here i and m are counted from 0.
+    If A_i does not exist or is undecided, return a :class:`Rewriting` with the reason."""
     above = ""
     for m in range(i, len(rows)):
         denominator = rows[m][i]
@@ -150,8 +148,8 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
 
 
 def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
-    """Return the scheme, or the reason why its increments differ from ``rows``, the increments of the
-    method."""
+    """Compare the increments of the scheme with ``rows``. Return the scheme if all are equal. Otherwise,
+    return the first difference."""
     holds: Verdict = True
     for i, (row, expected) in enumerate(zip(rows, scheme.increments(ring), strict=True)):
         for j, (x, y) in enumerate(zip(row, expected, strict=True)):

@@ -12,8 +12,8 @@ The table ``[proof]`` names order conditions in which the decimals with ``~`` ar
     printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
 The name of an unknown is its name under ``numbers``, or its position in the file, for example ``A[2][1]``. If
-two or more decimals occur in one named number or coefficient, the value of the decimal is appended to each
-name. Equal decimals are one unknown.
+a named number or coefficient contains several decimals, their names also contain their values, for example
+``A[2][1]: 0.25``. Equal decimals are one unknown.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ class SymbolicCoefficients(Struct, frozen=True):
 
 
 class _Substituted:
-    """A ring in which given values replace the rounded decimals of the file."""
+    """The ring ``ring`` for the evaluation of a file. ``known`` contains the values of rounded decimals."""
 
     def __init__(self, ring: RootedRing, known: Mapping[Constant, Element]) -> None:
         self.ring, self.known = ring, known

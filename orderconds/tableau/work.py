@@ -3,9 +3,10 @@
 A field evaluation is counted for each stage on which the update depends. The counts of an implicit method are
 those of one iteration.
 
-Equal exponents count as one exponential. The brackets of a Munthe-Kaas method are those of dexpinv at the
-counted stages that differ from the start value. For a Magnus method, the brackets are the commutators in the
-exponents, and equal commutators are counted once. A Cayley transform counts as an exponential.
+Equal exponents count as one exponential. A Munthe-Kaas method needs the brackets of dexpinv at each stage on
+which the update depends. A stage that is equal to the start value needs no brackets. For a Magnus method, the
+brackets are the commutators in the exponents, and equal commutators are counted once. A Cayley transform
+counts as an exponential.
 """
 
 from __future__ import annotations
@@ -22,8 +23,8 @@ from orderconds.tableau.record import Tableau
 
 @dataclass(frozen=True)
 class Work:
-    """Numbers of vector field evaluations, exponentials and brackets in one step. None means that an
-    operation is not counted. For a classical Runge-Kutta method, for example, exponentials are not
+    """Numbers of vector field evaluations, exponentials and brackets in one step. A number is None
+    if the operation is not counted. For a classical Runge-Kutta method, for example, exponentials are not
     counted."""
 
     evaluations: int
@@ -53,7 +54,8 @@ def evaluations(tableau: Tableau) -> Work | None:
 
 def commutator_free_work(tableau: Tableau) -> Work | None:
     """Return the cost of a step of a commutator-free method. A Butcher tableau is interpreted as a
-    Crouch-Grossman method. For all other formats, only field evaluations are counted (:func:`evaluations`).
+    Crouch-Grossman method. For a partitioned method, only field evaluations are counted. Return None for
+    splittings and Magnus methods.
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> commutator_free_work(heun)

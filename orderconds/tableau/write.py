@@ -33,8 +33,8 @@ def dumps(tableau: Tableau) -> str:
     """Return the tableau as TOML text.
 
     If the tableau was read from a file, the coefficients are copied as they are written in the file, together
-    with the named numbers and the table ``[proof]``. Otherwise, values replace the named numbers
-    (:func:`without_names`). A ball is written as a decimal with ``~``.
+    with the named numbers and the table ``[proof]``. In all other cases, each named number is
+    replaced by its value (:func:`without_names`). A ball is written as a decimal with ``~``.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\n[numbers]\\na = "0.50~"\\n'
@@ -138,7 +138,7 @@ def _product(method: AdjointComposition | Splitting | Magnus, text: Spell) -> Da
 
 
 class _Radicals:
-    """Names r1, r2, ... for the nested square roots in the coefficients."""
+    """The names r1, r2, ... of the nested square roots in the coefficients."""
 
     def __init__(self, ring: Any) -> None:
         self.text: Spell = ring.text

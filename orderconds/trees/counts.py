@@ -73,8 +73,8 @@ def free_tree_count(vertices: int) -> int:
 
 
 def essential_free_tree_count(vertices: int) -> int:
-    """Return the number of free trees with the given number of vertices, without the trees in which an edge
-    joins the roots of two equal rooted trees (HLW VI.7.1, Table 7.1).
+    """Return the number of free trees with the given number of vertices. A tree is not counted if it consists
+    of two equal rooted trees and an edge between the two roots (HLW VI.7.1, Table 7.1).
 
     >>> [essential_free_tree_count(n) for n in range(1, 11)]
     [1, 0, 1, 1, 3, 4, 11, 19, 47, 97]
@@ -85,7 +85,7 @@ def essential_free_tree_count(vertices: int) -> int:
 def alternating_free_tree_count(vertices: int) -> int:
     """Return the number of free trees with two colours in which neighbours differ in colour.
 
-    The two colourings of a tree are equal if a symmetry of the tree exchanges the colours.
+    The two colourings of a tree count as one if a symmetry of the tree exchanges the colours.
 
     >>> [alternating_free_tree_count(n) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]

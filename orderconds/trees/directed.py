@@ -4,9 +4,9 @@ A partitioned method has weights b_i and two tableaux, a_ij and ahat_ij. Let an 
 child j. An edge that points away from the root has kind 0 and gives the factor a_ij in the elementary weight.
 An edge that points to the root has kind 1 and gives the factor ahat_ij.
 
-Symplectic methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j. Let t and t' be rooted trees that differ by a
-move of the root across one edge. The sum of their elementary weights is the product of the elementary weights
-of two smaller trees. Hence the order conditions are indexed by free trees with directed edges.
+Symplectic methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j. Let t and t' be the same free tree. Their roots
+are the two ends of one edge. The sum of their elementary weights is the product of the elementary weights of
+two smaller trees. Hence the order conditions are indexed by free trees with directed edges.
 
 A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder. ``level`` is the level of the
 vertex, and ``kind`` is the kind of the edge to its parent. The branches of a vertex are sorted by their
@@ -67,7 +67,7 @@ def density(tree: DirectedTree) -> int:
 
 
 def symmetry(tree: DirectedTree) -> int:
-    r"""Return sigma, the order of the symmetry group of a tree in canonical order.
+    r"""Return sigma, the number of symmetries of a tree in canonical order.
 
     >>> symmetry(b"\0\2\2"), symmetry(b"\0\3\2")
     (2, 1)
@@ -119,8 +119,8 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
     """
     if vertices < 1:
         return ()
-    # At a single centroid, each branch has less than half of the vertices. The edge between two centroids
-    # divides the tree into halves.
+    # If there is only one centroid, each of its branches has less than half of the vertices. The edge between
+    # two centroids divides the tree into halves.
     central = [joined(below) for below in _multisets_in_turn(vertices - 1, (vertices - 1) // 2)]
     if vertices % 2 == 0:
         halves = directed_rooted_trees(vertices // 2)
@@ -132,8 +132,8 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 def representative(tree: DirectedTree) -> DirectedTree:
     """Move the root of the tree to the vertex that gives the simplest order condition.
 
-    Let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1 after the move. The criteria are, in this
-    order, the least min(n_0, n_1), the least height, the least n_1 and the least byte string.
+    Let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1 after the move. The root minimizes, in
+    this order, min(n_0, n_1), the height, n_1 and the byte string.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'
@@ -156,7 +156,7 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
     r"""Yield three trees (u, v, w) for each edge at the root. The removal of the edge gives two trees: u
-    contains the root, and v does not. The tree w is the given tree after a move of the root to the root of v.
+    contains the root, and v does not. The tree w is the given tree, but its root is the root of v.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]
@@ -168,8 +168,8 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Return the preorder indices of the vertices that are the best roots under the first three criteria of
-    :func:`representative`."""
+    """Return the preorder indices of all roots that minimize min(n_0, n_1), then the height, then n_1 (see
+    :func:`representative`)."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
     hats[0] = sum(level & 1 for level in tree[1:])
@@ -233,8 +233,8 @@ def _simplicity(tree: DirectedTree) -> tuple[int, int, int]:
 
 @lru_cache(maxsize=256)
 def _multisets(vertices: int, largest: int) -> tuple[list[Branch], ...]:
-    """Return all multisets of branches with at most ``largest`` vertices each and ``vertices`` vertices
-    together."""
+    """Return all multisets of branches with ``vertices`` vertices in total. Each branch has at most
+    ``largest`` vertices."""
     return tuple(_multisets_in_turn(vertices, largest))
 
 

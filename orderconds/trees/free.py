@@ -20,7 +20,7 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""A pair (u, v): the move of the root from u o v to v o u, where o is Butcher's product."""
+"""A pair (u, v) denotes the move of the root from u o v to v o u, where o is Butcher's product."""
 
 
 @lru_cache(maxsize=32)
@@ -64,7 +64,7 @@ def representative(tree: Tree) -> Tree:
 
 
 def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
-    r"""Yield the three trees u, v and v o u for each edge at the root of a canonical tree.
+    r"""Yield three trees (u, v, v o u) for each edge at the root of a canonical tree.
 
     The edge separates the tree into two parts u and v, and u contains the root. Here o is Butcher's product.
 

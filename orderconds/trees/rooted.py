@@ -24,8 +24,7 @@ def rooted_trees(vertices: int) -> Iterator[Tree]:
     levels = bytearray(range(vertices))
     while True:
         yield bytes(levels)
-        # In the next smaller canonical sequence, copies of levels[parent:last] replace all levels from
-        # ``last`` to the end.
+        # Compute the next canonical sequence: replace levels[last:] by copies of levels[parent:last].
         last = len(levels.rstrip(b"\1")) - 1
         if last < 1:
             return

@@ -1,1 +1,2 @@
-"""Order conditions for papers and notebooks: LaTeX with trees, labels and a legend, and HTML."""
+"""Order conditions for papers and notebooks, in LaTeX and HTML. The LaTeX text contains trees, labels and a
+legend."""

@@ -83,8 +83,8 @@ MEANINGS = {
 
 
 def _trees(kind: kinds.Kind | None, signs: set[str]) -> str:
-    """Return a sentence that explains the column of trees. ``signs`` contains the names of the shapes in this
-    column, see :func:`_signs`."""
+    """Return a sentence that explains the column of trees. ``signs`` contains the results of :func:`_signs`
+    for all trees in this column."""
     if kind is None:
         return ""
     words = signs & {"letter", "bracket"}

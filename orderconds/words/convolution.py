@@ -41,11 +41,11 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     Fraction(3, 1)
     """
     n = len(word)
-    # powers[end] is the value of the m-fold convolution f^m on the first ``end`` letters, first with m = 1.
+    # powers[end] is the value of f^m on the first ``end`` letters. At the start, m = 1.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
-    # tails[end] contains the pairs (start, f(word[start:end])) with start >= 1, without the many pairs where
-    # f is zero.
+    # tails[end] contains the pairs (start, f(word[start:end])) with start >= 1. Pairs with the value ``zero``
+    # are omitted.
     tails = [
         [(start, x) for start in range(1, end) if (x := f(word[start:end])) is not zero]
         for end in range(n + 1)

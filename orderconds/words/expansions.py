@@ -47,7 +47,7 @@ def magnus(word: Word) -> Fraction:
     """Return the coefficient of a word in the Magnus expansion Omega at t = 1.
 
     Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... Omega is the Lie element
-    with Y = exp(Omega). The first letter of a word denotes the last factor of a product: (2, 1) denotes
+    with Y = exp(Omega). A word denotes the product of its letters in reverse order: (2, 1) denotes
     X_1 X_2.
 
     >>> str(magnus((1, 2))), str(magnus((2, 1)))
@@ -60,8 +60,8 @@ def magnus(word: Word) -> Fraction:
 def cayley(word: Word) -> Fraction:
     """Return the coefficient of a word in the Cayley expansion Omega at t = 1.
 
-    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a
-    word denotes the last factor of a product: (2, 1) denotes X_1 X_2. Omega is defined by Y = cay(Omega) with
+    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... A word denotes the
+    product of its letters in reverse order: (2, 1) denotes X_1 X_2. Omega is defined by Y = cay(Omega) with
     the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2). Omega satisfies the equation
     Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
 
@@ -78,8 +78,8 @@ def fer(n: int, word: Word) -> Fraction:
     Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a
     word denotes the last factor of a product: (2, 1) denotes X_1 X_2. The Fer expansion is
     Y = exp(F_1) exp(F_2) exp(F_3) .... F_n is the integral of a series A_n from 0 to t. Here A_1 = A and
-    A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. Each word in F_n has
-    weight (sum of the letters) 2^n - 1 or more.
+    A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. In F_n, the sum of the
+    letters of each word is at least 2^n - 1.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')
@@ -122,7 +122,7 @@ def dexp_inverse(length: int) -> Series:
     """
     numbers = [Fraction(1)]
     for n in range(1, length):
-        # The product of sum_k B_k/k! x^k = x/(e^x - 1) and (e^x - 1)/x is 1, hence
+        # Let f(x) = sum_k B_k/k! x^k. Then f(x) (e^x - 1)/x = 1. The coefficient of x^n is
         # sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0.
         numbers.append(-sum((q / factorial(n + 1 - k) for k, q in enumerate(numbers)), Fraction(0)))
     return _adjoint_series(length, numbers.__getitem__)
@@ -175,22 +175,22 @@ def _fer_field(n: int, word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
-    """Return the coefficient of a word in ad_{F_n}^k A_n at t = 1, where A_n and F_n are defined in
+    """Return the coefficient of ``word`` in the series ad_{F_n}^k A_n at t = 1. A_n and F_n are defined in
     :func:`fer`."""
     if k == 0:
         return _fer_field(n, word)
     result = Fraction(0)
     for cut in range(1, len(word)):
-        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. The first letters of a word denote the last
-        # factor of a product.
+        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. In each product, ``head`` is a word of the
+        # right factor, and ``tail`` is a word of the left factor.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result
 
 
 def _after_first(word: Word) -> Fraction:
-    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. The
-    letters of Y come first, because the first letters of a word denote the last factor of a product."""
+    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. A word
+    denotes the product of its letters in reverse order. Hence the first letters belong to Y."""
     result = iterated_integral(word)
     for cut in range(len(word)):
         scale = exponential_scales(len(word) - cut)[-1]

@@ -68,7 +68,7 @@ def expand(bracket: Bracket) -> Series:
 def backwards(series: Mapping[Word, Fraction]) -> Series:
     """Reverse every word of a series.
 
-    Reversal converts between words that denote products in the written order and in reverse order.
+    Words for products in the written order become words for products in reverse order, and vice versa.
 
     >>> backwards({("A", "B"): Fraction(1)})
     {('B', 'A'): Fraction(1, 1)}
@@ -81,12 +81,12 @@ def coordinates_from_values(
 ) -> dict[Word, Element]:
     """Return the coordinates of a Lie element in the Lyndon basis, from its coefficients at Lyndon words.
 
-    ``value`` returns the coefficient of a word, an element of any ring. A word denotes the product of its
-    letters in the written order.
+    ``value`` returns the coefficient of a word. The ring of coefficients is arbitrary. A word denotes the
+    product of its letters in the written order.
 
-    ``words`` contains all Lyndon words of one weight, or with given multiplicities of the letters, in
-    ascending order. ``key`` returns the sort key of a letter. The function does not check that the values
-    belong to a Lie element.
+    ``words`` contains Lyndon words in ascending order: all words of one weight, or all words with given
+    multiplicities of the letters. ``key`` returns the sort key of a letter. The function does not check that
+    the values belong to a Lie element.
 
     >>> element = expand(("A", ("A", "B")))
     >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])
@@ -118,7 +118,9 @@ def lyndon_coordinates(element: Mapping[Word, Fraction], key: Key | None = None)
     while rest:
         word = min(rest, key=lambda w: (len(w), tuple(map(key, w)) if key else w))
         if not is_lyndon(word, key):
-            raise ValueError(f"not a Lie element: the Lyndon words imply another coefficient of {word}")
+            raise ValueError(
+                f"not a Lie element: the coefficient of {word} contradicts the coefficients of Lyndon words"
+            )
         coordinates[word] = rest[word]
         rest = add((1, rest), (-rest[word], expand(standard_bracketing(word, key))))
     return coordinates

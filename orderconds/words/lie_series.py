@@ -21,7 +21,7 @@ from orderconds.words.lyndon import lyndon_words
 from orderconds.words.shuffle import Letter, Word
 
 Coordinates = dict[Word, Fraction]
-"""The coefficients of bracketed Lyndon words. The coefficients of other Lyndon words are zero."""
+"""The coefficients of bracketed Lyndon words. A Lyndon word that is missing has the coefficient zero."""
 
 
 @dataclass(frozen=True)
@@ -111,8 +111,8 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return a function for the field ``coordinates`` of a :class:`LieSeries`. ``value`` returns the
-    coefficient of a word in the series.
+    """Return a function that maps a weight to the coefficients of bracketed Lyndon words up to this weight.
+    ``value`` returns the coefficient of a word in the series.
     """
 
     def coordinates(weight: int) -> Coordinates:
@@ -160,11 +160,11 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return the function that is stored in :attr:`LieSeries.coordinates` for a series
-    sum_k c_k ad_U^k X with numbers c_k.
+    """Return a function that maps a weight to the coefficients of bracketed Lyndon words up to this weight.
+    The series is sum_k c_k ad_U^k X with numbers c_k.
 
-    ``expand(n)`` maps the words with at most n letters to their coefficients in the series. The Lyndon
-    words are X, UX, UUX, and so on, because U < X.
+    ``expand(n)`` maps the words with at most n letters to their coefficients in the series. Only the
+    Lyndon words X, UX, UUX, ... occur.
     """
 
     def coordinates(weight: int) -> Coordinates:

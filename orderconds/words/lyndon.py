@@ -31,7 +31,7 @@ def lyndon_words(
     if any(w < 1 for w in weights):
         raise ValueError("every letter must have a positive weight")
     # The algorithm is that of K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of
-    # lengths. A word repeats its first ``period`` letters.
+    # lengths. In ``extend``, places[i] = places[i - period] for i >= period.
     places: list[int] = []
 
     def extend(period: int, left: int) -> Iterator[tuple[Letter, ...]]:

@@ -10,7 +10,7 @@ from math import factorial
 from typing import Any
 
 Letter = Any
-"""A letter is a hashable value. Functions without a key function compare letters by the operator ``<``."""
+"""A letter is a hashable value. If no function ``key`` is given, the operator ``<`` compares letters."""
 
 Word = tuple[Letter, ...]
 Series = dict[Word, Fraction]
