@@ -261,6 +261,7 @@ class _Builder:
         # The next statements replace the field V at the point X by W = V - X (X^T V)/2.
         products, halved = Matrix(f"{name} gram", k, k), Matrix(f"{name} correction", k, k)
         self.body.append(Multiplication(products, x, w, True))
+        # The correction makes W X^T - X W^T map X to the field value V.
         self.sum(halved, (self.domain.rational(-1, 2), products))
         self.body.append(Multiplication(w, x, halved, added=True))
         self.blocks += 1
@@ -283,6 +284,7 @@ class _Builder:
         the field is S = E C^T - C E^T.
         """
         k = self.k
+        # A sum without terms is zero, and later statements fill only the nonzero blocks.
         core = self.sum(Matrix(name, first + k, first + k))
         # The matrix E J^T - J E^T has two nonzero blocks: the unit matrix at ``below``, and its negative at
         # ``right``.
@@ -293,6 +295,7 @@ class _Builder:
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
+        # The units are added last, because the blocks of D overwrite these entries.
         self.body += [AddUnit(below, 1), AddUnit(right, -1)]
         return core
 
@@ -343,6 +346,7 @@ class _Builder:
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
         self.body.append(Multiplication(product, x, right))
         size = max(x.rows, y.rows)
+        # The transpose of x G y is y G x, because x and y are skew-symmetric.
         terms = (Term(self.one, product), Term(-self.one, product, True))
         core = Matrix(name, size, size)
         self.body.append(Combination(core, terms))

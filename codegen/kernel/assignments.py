@@ -168,6 +168,7 @@ class Assignments:
         """Delete the values of loop k from ``done``."""
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
+            # Symbols and numbers have no computed values, so their entries remain valid.
             if self.level[node.id] == k and node.args:
                 self.done.pop(node.id, None)
 
@@ -186,6 +187,7 @@ class Assignments:
             args = tuple(self.done[a.id] for a in node.args)
             # ``_make`` does not simplify, because a simplified formula could have different rounding errors.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
+            # A named argument counts as zero operations, because its name replaces its expression.
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
             # A value that is computed before the loop and read inside gets a name.
             crosses = loop >= 0 and target is outer

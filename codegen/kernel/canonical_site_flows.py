@@ -61,6 +61,7 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
         if key not in index:
             index[key] = len(sweeps)
             sweeps.append(_kick(scene, label, ratios) if kick else _local(scene, label, ratios))
+        # Single sites do not overlap, so these flows need only the colour 0.
         flows.append(SiteFlow(index[key], 0, first, moment))
     return kernel_of(scene, label, sweeps, flows)
 
@@ -78,6 +79,7 @@ def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteF
         copied = SiteFlow(len(sweeps) - 1, 0, Number.rational(0))
         flows = [*([copied] if 0 in ends else []), *flows, *([copied] if -1 in ends else [])]
     sites, size = scene.sites, len(scene.symbols)
+    # No flow stores intermediate values, so the workspace has no rows.
     step = SiteStep(sites.dimension, sites.offsets, sites.periodic, tuple(sweeps), size, 0, tuple(flows))
     about = "coordinates of one site; an array of states has one row for each coordinate"
     name = "y" if scene.paired else scene.state[0].name

@@ -92,6 +92,7 @@ class Frames:
 
         If no conversion is needed there, the result is None.
         """
+        # Each step itself converts the momentum if only emitted code uses the body frame.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

@@ -65,6 +65,7 @@ def with_carries(kernel: Kernel) -> Kernel:
             sums.append(old)
             carries.append(space.sym(CARRY + name))
             continue
+        # The increment is small, so its sum with the carry has a small rounding error.
         body += [
             Let(f"added_{name}", added + space.sym(CARRY + name)),
             Let(f"sum_{name}", old + space.sym(f"added_{name}")),
@@ -72,6 +73,7 @@ def with_carries(kernel: Kernel) -> Kernel:
         # ``total`` is a symbol, because the formula (old + d) - old would be simplified to d.
         total = space.sym(f"sum_{name}")
         sums.append(total)
+        # The carry is the part of the increment lost by rounding in ``total``.
         carries.append(space.sym(f"added_{name}") - (total - old))
     fields = tuple(
         Field(CARRY + f.name, tuple(CARRY + s for s in f.symbols), f"rounding errors of {f.name}")
@@ -137,9 +139,11 @@ class Increments:
             # If a = x + d, then (a + b) - x = d + b.
             if (rest := self.of(a, name)) is not None:
                 return rest + b if e.op == "add" else rest - b
+            # A subtracted symbol has the wrong sign, so this rule requires a sum.
             if e.op == "add" and (rest := self.of(b, name)) is not None:
                 return a + rest
         if e.op == "mul":
+            # A product is commutative, so either argument can contain the old coordinate.
             for factor, base in (e.args, e.args[::-1]):
                 # For a factor f and a base b: f b - x = (f - 1) b + (b - x).
                 rest, more = self.of(base, name), self.less_one(factor)

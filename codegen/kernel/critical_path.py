@@ -207,6 +207,7 @@ class _Chains:
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
         """Return the sum of ``a`` and ``b``. These values of a :data:`Sum` have the same key."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
+        # The sign of ``a`` is factored out, so different signs give the difference.
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
     def _product(self, steps: Expr, rest: Expr) -> Expr:
@@ -236,6 +237,7 @@ class _Chains:
         for a, b in (node.args, node.args[::-1]):
             if self.fixed[a.id] and b.op == "mul":
                 for c, d in (b.args, b.args[::-1]):
+                    # A product of fixed factors only is fixed already and needs no new order.
                     if self.fixed[c.id] and not self.fixed[d.id]:
                         return self._product(a * c, d)
         return node

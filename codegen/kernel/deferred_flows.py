@@ -123,6 +123,7 @@ def _joined(
             # The index ``k`` counts from the end of ``kept``, and ``j`` counts from the beginning.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
+            # The condition i < j prevents a flow from being joined with itself.
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
     # All joined flows read their duration from the variable LEAD, so only pairs with equal durations are

@@ -39,6 +39,7 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
 def _moved(kernel: Kernel, problem: Problem) -> Kernel:
     """Return the kernel that computes the point exp(x).y from y and the coordinates of x."""
     domain = SharedArguments()
+    # A name in a scene contains no dot, so these names are new.
     names = tuple(f"{COORDINATES}.{k}" for k in range(problem.group.dim))
     x, y = (tuple(map(domain.space.sym, symbols)) for symbols in (names, problem.symbols))
     # The group action maps the manifold to itself, so the result lies on the manifold for every x.

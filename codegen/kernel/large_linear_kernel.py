@@ -178,6 +178,7 @@ class _Builder:
         match operation:
             # A(t) is h A(t) divided by h, so its power is 1 (:class:`_Value`).
             case Field():
+                # An autonomous matrix A is constant, so any time gives the same value.
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
                 self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
             case Linear():
@@ -209,6 +210,7 @@ class _Builder:
         All terms must have the same power of h.
         """
         given = [(c, x) for c, x in terms if not x.is_zero]
+        # A coefficient with the factor h^q lowers the power p by q.
         powers = {x.power - c.power for c, x in given}
         if len(powers) > 1:
             raise AssertionError(powers)
@@ -231,6 +233,7 @@ class _Builder:
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
+        # The bracket is bilinear, so the powers of h of its arguments add up.
         power = x.power + y.power
         if x.is_zero or y.is_zero:
             return _Value(power)
@@ -312,6 +315,7 @@ def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
     # If the coefficients of x or of y add up to zero, x is returned unchanged.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
+    # The bracket [y, y] is zero, so multiples of y do not change [x, y].
     ratio = totals[0] / totals[1]
     nodes = dict(x.nodes)
     for node, c in y.nodes.items():

@@ -27,7 +27,9 @@ AT_ZERO = {
     # The Stumpff series is c_k(x) = sum_i (-x)^i/(2 i + k)!, so c_k(0) = 1/k!.
     **{f"stumpff{k}": Fraction(1, factorial(k)) for k in range(4)},
     **{f"signed_stumpff{k}": Fraction(1, factorial(k)) for k in range(4)},
+    # The slope is c_k', and the linear coefficient of c_k is -1/(k + 2)!.
     **{f"slope{k}": Fraction(-1, factorial(k + 2)) for k in (2, 3)},
+    # The curvature is c_k'', and the factor 2 is the second derivative of x^2.
     **{f"curvature{k}": Fraction(2, factorial(k + 4)) for k in (2, 3)},
     **{f"signed_slope{k}": Fraction(-1, factorial(k + 2)) for k in (1, 2, 3)},
     **{"sin": Fraction(0), "cos": Fraction(1), "exp": Fraction(1), "sqrt": Fraction(0), "log": None},
@@ -68,6 +70,7 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     slopes = [row[0] for row in jacobian(images, ["h"])]
     # ``images`` and ``slopes`` share subexpressions, so one call inserts h = 0 in both lists.
     values = _at_zero(space, [*images, *slopes])
+    # Higher powers of h are dropped, because Newton's method needs only an approximate matrix.
     n = len(images)
     return [a + h * b for a, b in zip(values[:n], values[n:], strict=True)]
 
@@ -118,6 +121,7 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     # factor.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
+    # A cyclic shift of two indices is odd, so the sign needs a test.
     if n == 2:
         return rows[a][c] if (i + j) % 2 == 0 else -rows[a][c]
     return rows[a][c] * rows[b][d] - rows[a][d] * rows[b][c]

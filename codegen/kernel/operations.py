@@ -90,6 +90,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     if kernel.modes is not None:
         return {STEP: {"transform": kernel.modes.transforms}}
     expansion = kernel.expansion
+    # A kernel without outputs computes its whole step by the loop of its expansion.
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))
     total = operations(arrange(expansion.coefficients))[STEP]

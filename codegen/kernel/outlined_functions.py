@@ -206,6 +206,7 @@ def rewritten(
             args = tuple(new[a.id] for a in below)
             if call is not None:
                 new[node.id] = space._make("call", args, f"{call[0]}.{call[1]}")
+            # An unchanged node is kept, because a rebuilt node might be simplified differently.
             elif all(a is b for a, b in zip(args, node.args, strict=True)):
                 new[node.id] = node
             else:

@@ -203,6 +203,7 @@ class Outline:
         # The names are sorted, so every verification of a step uses the same test points.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
+            # The sine gives irregular values between 0.1 and 0.5 without a random generator.
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
             # The step size is halved for each new test point, because a smaller step gives finite values more
             # often.
@@ -215,6 +216,7 @@ class Outline:
             try:
                 old = evaluate(before, domain, values)
                 new = evaluate(after, WithFunctions(domain, self.outlined), values)
+            # A pole at this test point proves nothing, so the next point is tried.
             except (ArithmeticError, ValueError):
                 continue
             # The comparison is false for infinities and for NaN.

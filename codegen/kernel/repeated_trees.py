@@ -162,6 +162,7 @@ class Trees:
                 if i in used or j in used:
                     continue
                 used |= {i, j}
+                # The joined tree keeps the index j, because tree j contains the last assignment.
                 trees[j] = self._join(trees[i], trees[j])
                 for member in trees.pop(i).members:
                     owner[member] = j

@@ -74,6 +74,7 @@ class Invocation:
         return () if function is None else function.arrays
 
 
+# An ``Invocation`` has a name such as ``v_12``, so ``vary.3`` denotes no result.
 _RESULT = re.compile(r"(v_\d+)\.(\d+)")
 
 
@@ -210,6 +211,7 @@ def arrange(kernel: Kernel) -> Arrangement:
     statements += scope.take()
     # ``rewritten`` contains the outputs first and then the error estimates.
     states = len(kernel.outputs)
+    # A kernel without substeps executes its statements once in each step.
     repeated = max(1, len(kernel.substeps))
     # Each outlined function is arranged separately, so it shares no calls of library functions with the step.
     functions = tuple((function, arrange(_alone(function))) for function in kernel.outlined)
@@ -382,6 +384,7 @@ class _Scope:
         self.pending.append(call)
         for k, name in enumerate(call.names):
             self.results[name] = k
+            # ``_make`` returns the existing node of a call, so equal calls have equal ids.
             whole = node.space._make("call", node.args, f"{function}.{k}")
             self.known[whole.id] = node.space.sym(name)
 

@@ -57,6 +57,7 @@ class SharedArguments(ExprDomain):
             return argument
         try:
             polynomial = self.normal.polynomial(argument)
+        # A missed equality costs only a further call, so giving up is safe.
         except TooLong:
             return argument
         # A polynomial is a dict and cannot be a key, so polynomials are compared one by one.

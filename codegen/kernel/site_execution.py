@@ -99,6 +99,7 @@ class Execution:
             self.env[var] = values[0] if var.kind is Kind.REAL else values
 
     def _names(self, var: Var) -> tuple[str, ...]:
+        # Formulas of the scene already use the names of the given coordinates.
         if var in self.given:
             return next(block.symbols for block in self.problem.state if block.name == var.name)
         if var not in self.named:

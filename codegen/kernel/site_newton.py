@@ -63,6 +63,7 @@ class Linearisation:
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if the equations contain
         nested evaluations of the field.
         """
+        # Only couplings of nearest neighbours give a block-tridiagonal matrix.
         if not set(self.sites.offsets) <= {LEFT, RIGHT}:
             raise MethodError(
                 f"Newton's method cannot be used on a {self.sites.text()}",
@@ -71,6 +72,7 @@ class Linearisation:
                 hint="use the option --solver fixed-point",
             )
         self.taken = {*self.problem.symbols, *self.problem.runtime, "h", TIME}
+        # Values from the loop body may depend on the unknowns, so derivatives include these values.
         self.inside = {t for assign in solve.body for t in assign.targets}
         # At one site, g(u) contains symbols for the unknowns of the site and of its neighbours.
         images = [x for v in solve.images for x in flatten(v.kind, self.value(v, OWN))]
@@ -87,6 +89,7 @@ class Linearisation:
                     slope = space.zero if there is None else next(parts)
                     # The matrix is 1 - g'(u). The unit matrix occurs only in the block of the site itself.
                     block.append((space.one if there == OWN and i == j else space.zero) - slope)
+        # Every neighbour in a periodic chain exists, so the kernel needs no flags.
         exists = () if self.sites.periodic else tuple(map(self._exists, range(len(self.sites.offsets))))
         kernel = self._kernel(label, [x for block in blocks for x in block])
         # Only the numbers that occur in the matrix are loaded.

@@ -127,6 +127,7 @@ class Planner:
         # The workspace contains variables, residuals, border (:class:`codegen.ir.site_step.SiteNewton`) and
         # matrix, in this order.
         border = count + most
+        # A periodic chain couples the first site to the last site, hence the border.
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):

@@ -53,6 +53,7 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
     args: tuple[Var, ...]
     if isinstance(assign.operation, Secant):
         g, x, before, after = assign.args
+        # The excess is formed at each site, because total energies would cancel with large rounding errors.
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
         # ``excess`` is the change of the total energy, minus the sum of ``paired`` over all sites.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))

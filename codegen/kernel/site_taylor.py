@@ -115,6 +115,7 @@ class TaylorSweeps:
 
         Formulas for neighbours outside the lattice are added to ``ghosts``.
         """
+        # An empty name denotes a zero coefficient, so its row is never loaded.
         self.loads |= {s: Load(s, row) for s, row in zip(own, rows, strict=True) if s}
         for number, column in enumerate(around):
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
@@ -217,6 +218,7 @@ class TaylorSweeps:
                 if reused(node):
                     stored.writer.setdefault(node.id, first[node.id])
                     stored.nodes[node.id] = node
+                    # The sweeps are visited in order, so the last assignment names the last reader.
                     stored.last[node.id] = n
         return stored
 

@@ -42,6 +42,7 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
     fields = Frames(problem, program).fields()
     # The expansion computes the whole step, so the kernel itself has no statements and no outputs.
     empty = Kernel(program.name, fields, (TIME, "h", *problem.runtime), (), ())
+    # Only ``with_step_control`` lets a run choose its step size from the coefficients.
     expansion = replace(_expansion(empty, problem, degree, loop), controlled=False)
     return replace(empty, expansion=expansion)
 
