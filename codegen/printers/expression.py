@@ -66,6 +66,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
     # For deeply nested expressions, a recursive function would exceed Python's recursion limit.
     rendered: dict[int, Rendering] = {}
     for node in walk([root]):
+        # The function ``walk`` yields arguments first, so ``rendered`` contains the texts of all arguments.
         args = [rendered[a.id] for a in node.args]
         match node.op:
             case "const":
@@ -123,6 +124,7 @@ def _add(x: Rendering, y: Rendering) -> Rendering:
     first = signed(x)
     # A line may break between the terms of a sum.
     head = first if _sum(x) else (" ".join(first),)
+    # Floating-point addition is not associative, so a sum on the right keeps its parentheses.
     tail = f"({y.text})" if y.precedence == SUM else y.text
     return Rendering((*head, f"{'-' if y.negative else '+'} {tail}"), SUM)
 

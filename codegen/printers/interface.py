@@ -72,6 +72,7 @@ class Interface:
 
     def workspace_of(self, sites: int) -> int:
         """Return the number of entries in the workspace of a lattice with ``sites`` sites."""
+        # Rows at power-of-two distances compete for the same cache lines, so each row is padded.
         return self.workspace * padded(sites)
 
     @classmethod

@@ -177,6 +177,7 @@ def _without_zeros(row: Sequence[str]) -> str:
     """Return the text of a row without zeros at the end, because C sets missing entries to zero."""
     # All rows of a table have the same length, so short rows end with zeros.
     kept = list(row)
+    # C11 does not allow an empty initialiser, so the first entry always stays.
     while len(kept) > 1 and not float(kept[-1].removesuffix("f")):
         kept.pop()
     return ", ".join(kept)
@@ -283,11 +284,13 @@ class _Body:
             for operation in dict.fromkeys(name for name, _ in loop.reductions):
                 reduced = [self.identifiers.of(x) for name, x in loop.reductions if name == operation]
                 clauses.append(f"reduction({operation}:{', '.join(reduced)})")
+            # A short loop runs on one processor, because the start of several threads takes longer.
             if loop.when is not None:
                 clauses.append(f"if({self.terms.line(loop.when)})")
             # A backslash continues a long directive on the next line.
             separator = " " if len(clauses) < 2 else " \\\n        "
             pragma = ["#pragma omp parallel for schedule(static)", *([" ".join(clauses)] if clauses else [])]
+            # A compiler without OpenMP would warn about the unknown pragma under -Wall.
             yield from ("#ifdef _OPENMP", *separator.join(pragma).split("\n"), "#endif")
 
     def inner(self, body: Body) -> list[str]:
@@ -364,6 +367,7 @@ class _Body:
         # C does not allow ``+=`` in a declaration.
         if changed and not kind:
             more = self.terms.text(value.args[1])
+            # The text 1 is always an integer, because a real literal has a decimal point.
             if value.op in "+-" and more.line == "1":
                 # For the target ``*x``, ``(*x)++`` is printed, because ``*x++`` increments the pointer ``x``.
                 yield f"({name}){value.op * 2};" if name.startswith("*") else f"{name}{value.op * 2};"
@@ -410,6 +414,7 @@ class _Body:
     def argument(self, term: Term) -> str:
         """Return the text of an argument. A record is passed by its address."""
         text = self.terms.line(term)
+        # An array of records decays to a pointer, so the argument needs no operator ``&``.
         if term.kind is not Kind.RECORD or term.op == "none" or term.shape:
             return text
         # A record that is a parameter is already a pointer.
@@ -437,6 +442,7 @@ class _Body:
             results = ()
         start = f"{self.printer.called(name, self.function.near)}("
         together = self.printer.packed.get(name)
+        # A packed function returns no value, so its call needs no target.
         if together:
             yield from self.packed_call(start, name, given)
             return

@@ -103,6 +103,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "factors": [write.factor(f, lambda function, w: f"{calls[function]}({w})") for f in step.factors],
         "tables": [write.table(table) for table in step.tables],
         "local": _local(step),
+        # An unused temporary spectrum would cause a compiler warning.
         "spare": bool(inner) or len(outer) > 1,
         "functions": {factor.function for factor in step.factors},
         "inner": [(order, names[s]) for order, s in inner],
@@ -163,6 +164,7 @@ def _usage(interface: Interface, recipe: Recipe) -> list[str]:
         "int main(void)",
         "{",
         "    double u[N];",
+        # The array sizes are results of functions at run time, so ``malloc`` allocates the arrays.
         f"    double *tables = malloc({prefix}tables(N) * sizeof *tables);",
         f"    double *work = malloc({prefix}workspace(N) * sizeof *work);",
         f"    double *memory = malloc({prefix}fft_memory(N) * sizeof *memory);",

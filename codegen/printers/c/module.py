@@ -106,6 +106,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "statuses": statuses(unit),
         "adaptive": interface.adaptive,
         "batch": interface.batch,
+        # A batch module may have no loop over lanes, so the test searches for LANES.
         "vectorised": LANES in unit.parts or bool(interface.dimension),
         "optimised": " ".join(VECTOR_FLAGS) if interface.batch or interface.dimension else "-O2",
         "dimension": interface.dimension,
@@ -214,6 +215,7 @@ def inverted(kernel: Kernel) -> int:
     The result is 0 if the sizes differ or one size exceeds :data:`~codegen.run.sweeps.WIDE`.
     """
     sizes = inverted_sizes(kernel)
+    # The inner loops of ``invert`` are unrolled only for a single small matrix size.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
@@ -257,7 +259,9 @@ def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     names |= {t.name.text for t in unit.tables}
     # The names of all helpers are reserved, even without a call of the helper.
     names |= {snippet.name for snippet in snippets(interface.format)}
+    # The parameters ``event`` and ``data`` have no prefix, so local variables must not have these names.
     local = {"event", "data"} if interface.events else set[str]()
+    # The name H with the prefix is the include guard of the emitted header.
     constants = {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
     return frozenset({f"{prefix}{name}" for name in names} | constants | local)
 
@@ -286,11 +290,13 @@ def prototypes(interface: Interface) -> str:
         f"int {prefix}run({real} *state, {time}{real} h, size_t steps, {parameters}{sampled}"
         f"{real} *trajectory, size_t stride, {statistics}size_t *completed);\n"
     )
+    # The inputs are constant during the step of a Jacobian, so an array replaces the callback.
     held = f"const {real} *inputs, " if interface.inputs else ""
     derived = (
         f"int {prefix}jacobian(const {real} *state, {time}{real} h, {parameters}{held}{real} *jacobian);\n"
     )
     run += derived if interface.variations else ""
+    # Each lane has its own parameters, so a batch receives arrays instead of scalars.
     rows = f"const {real} *parameters, " if interface.parameters else ""
     rows += f"const {real} *inputs, " if interface.inputs else ""
     run += (

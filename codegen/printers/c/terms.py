@@ -45,6 +45,7 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
 
     def called(name: str) -> str:
         name = forms(name)
+        # The prefix prevents a name clash of helper functions from two modules in one file.
         if name not in LIBRARY:
             return prefix + name
         # ``isfinite`` is a macro for all number formats. In single precision, other names need the suffix,
@@ -81,6 +82,7 @@ class Terms(Infix):
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} == NULL",), COMPARED)
         if test.op == "finite" and len(test.args) > 1:
+            # De Morgan's law turns the negation of ``a || b`` into ``!a && !b``.
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
         # If ``a`` or ``b`` is a NaN, ``!(a < b)`` is true, but ``a >= b`` is false.
@@ -148,6 +150,7 @@ class Terms(Infix):
         """Return the C literal of a constant."""
         if term.kind is Kind.REAL:
             return literal(self.precision, term.number)
+        # A nonnegative integer constant converts to ``size_t`` without a compiler warning.
         return str(int(term.number))
 
     def access(self, term: Term) -> Text:
@@ -207,6 +210,7 @@ class Terms(Infix):
         if term.text == "greatest":
             return Text(greatest([self.line(x) for x in term.args], f"{self.prefix}greater"))
         if term.text == "largest":
+            # A C array argument decays to a pointer, so the call also passes the length.
             (array,) = term.args
             return Text((f"{self.prefix}largest({self.line(array)}, {array.shape[0]})",))
         name = FUNCTIONS.get(term.text, term.text)

@@ -33,6 +33,7 @@ _WORDS = """
 _CONSTANTS = """
     M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2
 """
+# The C library glibc also defines constants with format suffixes, such as ``M_PIf32``.
 _FORMATS = ("", "f", "l", "f32", "f32x", "f64", "f64x", "f128")
 
 RESERVED = (

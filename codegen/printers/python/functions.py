@@ -186,6 +186,7 @@ class _Body:
             return s.value if reading else s.target
 
         entries = [_entry(one(s)) for s in (*group, statement)]
+        # An assignment to a name cannot change the list, so one statement can read all entries.
         if any(e is None for e in entries) or (
             reading and any(s.target.op != "name" for s in (*group, statement))
         ):
@@ -212,6 +213,7 @@ class _Body:
         if reading:
             part = name if whole else f"{name}[{start}:{start + len(group)}]"
             return unpacked([self.terms.line(s.target) for s in group], part, depth)
+        # An assignment without ``[:]`` would bind the name to a new tuple.
         part = f"{name}[:]" if whole else f"{name}[{start}:{start + len(group)}]"
         return listed(f"{part} = ", [self.terms.line(s.value) for s in group], depth)
 

@@ -53,6 +53,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     given = [f"{names[p]}={_text(recipe.defaults.get(p, 0.0))}" for p in interface.parameters]
     factors = [write.factor(f, lambda function, w: f"{CALLS[function]}({w})") for f in step.factors]
     variables = {
+        # A backslash or triple quotes would damage the docstring of the emitted module.
         "recipe": [
             line.replace("\\", "\\\\").replace('"""', "'''") for line in mode_header(kernel, recipe, 84)
         ],
@@ -83,6 +84,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     return {f"{interface.module}.py": text}
 
 
+# The helpers ``_phi1`` and ``_bernoulli`` return the limit 1 at 0, instead of 0/0.
 CALLS = {"exp": "np.exp", PHI: "_phi1", BERNOULLI: "_bernoulli"}
 """The Python names of the functions in the coefficients of a step."""
 

@@ -149,6 +149,7 @@ class _Module:
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
         pairs = zip(self.interface.parameters, self.parameters, strict=True)
+        # Python's ``repr`` of a float reads back as exactly the same double.
         return [f"{name}={float(known[p])!r}" for p, name in pairs]
 
     def text(self) -> str:

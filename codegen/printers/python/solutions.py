@@ -26,6 +26,7 @@ def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: flo
     remember, solved = module._remember, dict[int, list[float]]()
 
     def observe(memory: object, solution: Sequence[float]) -> None:
+        # Each substep has its own record ``memory``, so the identity of the record is the key.
         solved[id(memory)] = list(solution)
         remember(memory, solution)
 
@@ -34,6 +35,7 @@ def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: flo
     try:
         integrator.run(list(state), h, 1, t)
     finally:
+        # A failed step must not leave the function ``observe`` in the module.
         vars(module)["_remember"] = remember
     # The unknowns were inserted in the order of the substeps, and a dictionary keeps this order.
     return list(solved.values())
