@@ -48,8 +48,8 @@ class Artifact:
         replaced.
 
         InputError is raised if the folder cannot be written to, or if the old module belongs to another scene
-        or method. In the second case, no error is raised if the option ``--prefix`` set the name of the old
-        or the new module.
+        or method. If the option ``--prefix`` was used for one of the two modules, the old module may belong
+        to another scene or method.
         """
         folder = Path(directory)
         try:
@@ -69,7 +69,7 @@ class Artifact:
             ) from None
 
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
-        """Raise InputError if this module would replace the module ``entry`` of another scene or method.
+        """Raise InputError if ``entry`` has the name and target of this module, but another scene or method.
 
         If the option ``--prefix`` set the name of this module or of ``entry``, no error is raised.
         """

@@ -155,7 +155,7 @@ class CompiledIntegrator(Integrator):
 
         The first list is for the run-time inputs, and the second list is for the iteration counts.
 
-        An error of the callback for run-time inputs is raised at the end of the ``with`` block.
+        If the user's function for the run-time inputs fails, its error is raised after the ``with`` block.
         """
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix

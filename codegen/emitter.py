@@ -322,8 +322,8 @@ def emit(
     - ``integrate``: add a run to a given end time.
     - ``compensate``: use compensated summation. The state then contains correction terms, initially zero.
 
-    :func:`compile_method` describes the other arguments, and raises most errors. UnknownName is raised for an
-    unknown target, and InputError for a prefix that is not a valid name in C.
+    :func:`compile_method` describes the other arguments and most errors. UnknownName is raised for an unknown
+    target, and InputError for a prefix that is not a valid name in C.
     """
     known_target(target)
     known_precision(precision)

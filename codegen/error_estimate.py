@@ -36,7 +36,7 @@ ROUNDING = 1e-90
 
 RATIO = 8
 HIGHER = 0.5
-"""A tolerance: measured orders count as equal if they differ by at most HIGHER."""
+"""A measured order is higher than another measured order if their difference exceeds HIGHER."""
 
 LARGEST_CUTOFF = 12
 
@@ -102,7 +102,8 @@ def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], floa
 
     The function takes a state, the time since the start of the time span, and the step size.
     """
-    # The program from ``lower`` iterates on all stages. ``blocks.run`` makes explicit stages assignments.
+    # The program from ``lower`` iterates on all stages. ``blocks.run`` replaces explicit stages by
+    # assignments.
     problem, program = problem_for(scene, method), blocks.run(lower(scene, method))
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:

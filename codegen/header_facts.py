@@ -1,7 +1,7 @@
 """The content of the header of an emitted module.
 
 The header states facts about the method and the scene. The header line ``left out`` names omitted operations
-and arguments with the reasons.
+and arguments, and gives the reasons.
 """
 
 from __future__ import annotations

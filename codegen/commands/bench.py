@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     "--form",
     "forms",
     multiple=True,
-    help="A form of the equations for peers and for the methods ambient:TABLEAU. Examples are 'printed' "
+    help="A form of the equations. Only peers and the family 'ambient' use it. Examples are 'printed' "
     "(the equations of the scene), 'body-matrix' and 'quaternion'. The option may be repeated. Default: all "
     "forms.",
 )

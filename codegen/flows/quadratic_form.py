@@ -49,7 +49,7 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 
 
 def isotropic_part(B: Matrix) -> Fraction:
-    """Return a number a such that ``squares(shifted(B, a))`` is a short list.
+    """Return a number a such that B - a I is a sum of few squares (:func:`squares`).
 
     If B is diagonal, the result is a diagonal entry that occurs more than once. If all diagonal
     entries are different, the result is the middle entry in ascending order.

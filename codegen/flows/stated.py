@@ -43,7 +43,7 @@ class Stated(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a part with the flow :class:`Stated`.
+    """Return the part ``formula.name`` of the scene with the flow :class:`Stated`.
 
     If the scene gives no formulas for this flow, return None.
     """

@@ -100,9 +100,9 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Return the turns of the Hamiltonian H + w.P, where H is the sum of the Hamiltonians of ``turns``.
+    """Return rotations (:class:`Turn`) with the total Hamiltonian H + w.P.
 
-    Here P is the momentum.
+    H is the total Hamiltonian of ``turns``, and P is the momentum.
     """
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)

@@ -52,9 +52,10 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 def _exponentials(
     d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
 ) -> tuple[S, S]:
-    """Return the coefficients of t and t^2 in a sum of r exp(k t)/t^j, where t^3 = -z t.
+    """Return the coefficients of t and t^2 in a series.
 
-    The sum has one summand for each pair (k, r) in ``terms``.
+    The series is the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``. The rule t^3 = -z t removes
+    all powers above t^2. If z can be negative, ``signed`` is true.
     """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"

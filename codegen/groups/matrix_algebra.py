@@ -44,7 +44,7 @@ class MatrixAlgebra:
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """For each position in a matrix (row by row), the non-zero entries of the dual basis matrices there.
+        """For each position (row by row), the non-zero entries of the dual basis matrices at this position.
 
         A pair (i, x) means that matrix i of the dual basis has the entry x.
         """

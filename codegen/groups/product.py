@@ -59,7 +59,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         Otherwise return None.
         """
         own = super().offers(capability)
-        # The operations of LieGroup and DirectProduct need no capability of the factors.
+        # For the classes LieGroup and DirectProduct, the factors are not tested.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None

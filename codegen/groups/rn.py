@@ -43,7 +43,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return tuple(-a for a in g)
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return x, the coordinates of cay(X) = 1 + X. The matrix X of x satisfies X^2 = 0."""
+        """Return x. The matrix X of x satisfies X^2 = 0, so cay(X) = 1 + X."""
         return x
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -63,7 +63,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return ()
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return v, the solution x of velocity(x, g) = v."""
+        """Return v, because velocity(v, g) = v."""
         return v
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:

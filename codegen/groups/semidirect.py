@@ -60,7 +60,8 @@ class Semidirect(
     - The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u).
     - The exponential is exp(x, u) = (exp x, phi(x) u). Here phi(x) is the sum of X^k/(k+1)! over k >= 0, and
       X is the linear map v -> x.v.
-    - The momentum map J is defined by <J(v, p), x> = <p, x.v> for all x in the algebra of G.
+    - Let v be in V, and p in the dual space of V. The momentum map J is defined by <J(v, p), x> = <p, x.v>
+      for all x in the algebra of G.
     """
 
     covering_formula = (
@@ -104,7 +105,7 @@ class Semidirect(
     def offers(self, capability: type[C]) -> C | None:
         """Return this product if it has the operations of the class ``capability``. Otherwise return None.
 
-        In most cases, the linear factor must have these operations, too.
+        For most classes, the result is None if the linear factor lacks the operations.
         """
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
@@ -181,7 +182,7 @@ class Semidirect(
         """
         (a, u), (b, v) = self._split(x), self._split(y)
         first = self.point_velocity(d, y, u, translated=False)
-        # The second part of the result equals t - (a.t)/2 with t = v + (b.u)/2.
+        # ``moved`` is t = v + (b.u)/2. The second part of the result is t - (a.t)/2.
         half: S = d.rational(1, 2)
         moved = _sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)
@@ -219,7 +220,7 @@ class Semidirect(
         return self.linear.ad(d, a, b) + turned
 
     def _difference(self, d: Domain, a: Vector[S], v: Vector[S], b: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return a.v - b.u, where a.v is the action of a on a vector v in one copy of the space."""
+        """Return a.v - b.u for one copy (see :class:`Semidirect`). Here a.v is the action of a on v."""
         velocity = self.representation.velocity
         pairs = zip(velocity(d, self.linear, a, v), velocity(d, self.linear, b, u), strict=True)
         return tuple(p - q for p, q in pairs)
@@ -306,7 +307,8 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # If ``dual`` is true, ``first`` is a sum over all copies. Only the first summand contains w.
+            # If ``dual`` is true, ``first`` is the sum of ``head`` over all copies of the space. Only the
+            # first summand contains w.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -366,7 +368,7 @@ class Semidirect(
         return self.linear.require(Projection).project(d, q) + a
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return ``laws(d, q)`` of the linear factor for g = (q, a)."""
+        """Return ``self.linear.laws(d, q)`` for g = (q, a)."""
         return self.linear.laws(d, self._element(g)[0])
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -450,12 +452,12 @@ class Semidirect(
         return self._covered().projected_covering(d, g) + a
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return z in the cover's algebra with dp(z) = x (see :meth:`Covered.lifted_velocity`)."""
+        """Return z with dp(z) = x for the covering map p (see :meth:`Covered.lifted_velocity`)."""
         y, u = self._split(x)
         return self._covered().lifted_velocity(d, y) + u
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return ``pivots(d, q)`` of the linear factor for g = (q, a) (see :meth:`Covered.pivots`)."""
+        """For g = (q, a), return the pivots of q (see :meth:`Covered.pivots`)."""
         return self._covered().pivots(d, self._element(g)[0])
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:

@@ -18,7 +18,7 @@ def chain(kernel: Kernel) -> int:
 
     The depth is the largest number of nested Stumpff functions, and at least 1.
 
-    In two cases the result is 1, because previous rounding errors are not amplified:
+    In two cases the result is 1:
 
     - The kernel solves implicit equations by iteration.
     - The kernel is a step of a splitting method with deferred flows (:class:`codegen.ir.kernel.Deferred`).
@@ -51,6 +51,6 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
         # these inputs have depth 0.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # Derivatives (``slope2`` etc.) are not counted. A Stumpff function of the same angle is counted.
+        # Derivatives (``slope2`` etc.) are not counted.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

@@ -136,11 +136,11 @@ def _valued(
         yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
         return
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
-    # In the first call of ``evaluate``, only ``ROW`` and ``COLUMN`` become numbers.
+    # ``kept`` maps each symbol to itself. Below, numbers replace only the symbols ``ROW`` and ``COLUMN``.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # A formula may compare indices. The indices are numbers here, because power series cannot always be
-        # compared.
+        # A formula may compare indices. Numbers can be compared, but the scalars of ``domain`` cannot always
+        # be compared.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -329,7 +329,7 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
-            # For C M, C[row, column] M[column, b] is added to target[row, b].
+            # For C M, ``a`` M[column, b] is added to target[row, b].
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values

@@ -74,8 +74,8 @@ class Move:
         """
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        # Let X = B C, and let G be ``gram``. The summands of ``products`` are the multiplications for
-        # G S, the norm of B S B^T, G C, and S phi(G S) G C, in this order.
+        # The beginning of this module defines B, C, G, S and phi. ``products`` counts the multiplications for
+        # four results: G S, the norm of B S B^T, G C, and S phi(G S) G C.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 
@@ -119,7 +119,7 @@ class ArrayStep:
         for statement in (*self.body, *self.estimate):
             match statement:
                 case AddUnit(target=target):
-                    # The unit matrix changes only the diagonal entries of ``target``.
+                    # One number is added in each row of ``target``: the diagonal entry 1.
                     own = {"add": target.rows}
                 case Move():
                     own = statement.operations

@@ -177,7 +177,7 @@ class BallDomain:
         while abs(term.mid()) > limit:
             total += term
             j += 1
-            # The divisor extends the factorial (2 j + k - 2)! to (2 j + k)!.
+            # Term j is (-z)^j/(2 j + k)!, and term j - 1 has the divisor (2 j + k - 2)!.
             term = -term * z / ((2 * j + k) * (2 * j + k - 1))
         return total
 

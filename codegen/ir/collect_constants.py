@@ -84,7 +84,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # ``read`` contains the pairs of roots, and the pairs of arguments of nodes that have no pair.
+    # A node is read if it is a root, or if a parent is not in ``ranks``. ``read`` contains the values of
+    # ``ranks`` for these nodes.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     # If y or an even power of y is in ``read``, no power of y is rewritten.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
@@ -92,11 +93,11 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 
 
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
-    """Return True if a node equals c y^n, where c is a number and y is an inverse root.
+    """Return True if a node equals c y^n with a number c and y = 1/sqrt x.
 
     ``inside`` contains the pair (node number of y, n) for each argument c y^n of the node.
     """
-    # A numeric factor does not change the exponent of y.
+    # The first argument may be a number.
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
 
@@ -181,7 +182,7 @@ class _Gathering:
         return {atom.id: (one, atom)}
 
     def _power(self, node: Expr) -> Sum:
-        """Convert a node c y^n to the term c times y^n with a number c and y = 1/sqrt x.
+        """Return a node c y^n as a linear combination with one term. c is a number, and y = 1/sqrt x.
 
         Here y^(2 m) = 1/x^m and y^(2 m + 1) = 1/(x^m sqrt x).
         """
@@ -194,7 +195,7 @@ class _Gathering:
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
-        # A processor can compute x^m and sqrt x in parallel, unlike 1/sqrt x and its powers.
+        # The power x^m does not depend on sqrt x, so a processor can compute both at the same time.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}
@@ -224,7 +225,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     sizes: dict[object, Number] = {}
     key: object
     for c, atom in total:
-        # For a constant term, a common factor with another term would save no product.
+        # A constant term needs no product, so it has its own group.
         key = "constant" if atom is space.one else _size(c).key
         sizes.setdefault(key, _size(c))
         groups.setdefault(key, []).append((c.fraction() < 0, atom))
@@ -235,6 +236,6 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
             # The sign of the first term is factored out of the whole group.
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # The factors ``sizes[key]`` are positive. Thus emitted code does not contain both c and -c.
+        # The factors ``sizes[key]`` are positive. If the first term is negative, the group is subtracted.
         result = result - part if first else result + part
     return result

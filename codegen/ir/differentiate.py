@@ -36,9 +36,9 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
         if bar is None or bar is space.zero:
             continue
         for arg, factor in zip(node.args, partials(node), strict=True):
-            # By the chain rule, each use of an argument adds one term to its adjoint.
+            # By the chain rule, each node adds one term to the adjoint of each argument.
             bars[arg.id] = bars.get(arg.id, space.zero) + bar * factor
-    # The expression ``root`` does not depend on a symbol without an adjoint.
+    # If a symbol has no adjoint, the derivative is zero.
     return [bars.get(space.sym(name).id, space.zero) for name in symbols]
 
 
@@ -148,7 +148,7 @@ def _selection(node: Expr) -> list[Expr]:
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # If ``a`` or ``b`` is a constant, the derivative with respect to it is not needed and set to 0.
+    # The derivative with respect to a constant is not needed. The result contains 0 instead.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     # For x != 0, a small change of x does not change the selected formula.

@@ -192,9 +192,9 @@ class FloatDomain:
         # with the largest unknown.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # ``before`` is the previous change. The next change is about ``change``^2/``before``. This estimate
-        # must not exceed the rounding error of the largest unknown. As this estimate is inaccurate,
-        # ``change`` itself must also be small.
+        # ``before`` is the previous change. The next change is about ``change``^2/``before``. The iteration
+        # ends if this estimate is at most the rounding error of the largest unknown. As this estimate is
+        # inaccurate, ``change`` itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Small changes that no longer decrease are rounding errors.
@@ -306,8 +306,8 @@ class PreciseDomain:
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return the pair (converged, change), see :meth:`Domain.settled`.
 
-        ``converged`` is true if the change is zero, or if a change of at most 2^12 rounding units does not
-        decrease.
+        ``converged`` is true if the change is zero. A change of at most 2^12 rounding units is also
+        sufficient if it is not smaller than ``previous``.
         """
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
@@ -416,7 +416,7 @@ class SeriesDomain:
 
         Term j is z^(2j+1)/(2j+1), multiplied by (-1)^j for atan and by binom(2j, j)/4^j for asin."""
         total, power = self.ring.zero, z
-        # Without a constant term in z, term j begins at h^(2 j + 1) or later.
+        # The constant term of z is zero, so term j begins at h^(2 j + 1) or later.
         for j in range(self.order // 2 + 1):
             factor = Fraction((-1) ** j) if function == "atan" else Fraction(math.comb(2 * j, j), 4**j)
             factor /= 2 * j + 1
@@ -464,7 +464,7 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # ``samples`` maps the node number of a time t to t and the symbols for this time.
+        # The keys of ``samples`` are the node numbers of times. A value contains a time and its symbols.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:

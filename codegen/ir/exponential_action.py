@@ -163,7 +163,7 @@ class ExponentialAction(VectorFunction):
           non-zero entries of A.
         - If A has more rows, the result is None.
         """
-        # If ``pattern`` is not 0, this function already omits the zero entries of A.
+        # If ``pattern`` is not 0, the arguments already omit the zero entries of A.
         if self.pattern:
             return None
         size = self.n**2
@@ -207,7 +207,8 @@ class ExponentialAction(VectorFunction):
             for k in range(degree, 1, -1):
                 # With m = ``degree``, the next line changes ``weight`` from m!/k! to m!/(k - 1)!.
                 weight *= k
-                # The factor ``weight`` avoids the division by k in Horner's rule.
+                # The usual form of Horner's rule divides by k here. The factor ``weight`` replaces the
+                # division.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
             # The last step of Horner's rule divides p by ``weight`` = m!.
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
@@ -251,7 +252,8 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # If the matrix A_0 of constant terms is nilpotent, A^(n (p + 1)) = 0 with p = ``ring.order``.
+        # If the matrix of constant terms is nilpotent, A^n = O(h). Then the series has fewer than ``longest``
+        # terms.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)

@@ -117,7 +117,7 @@ class Space:
     """
 
     def __init__(self) -> None:
-        # Nodes are never removed, because the length of the table is the number of the next node.
+        # The number of a new node is the length of the table, so nodes are never removed.
         self._table: dict[tuple[object, ...], Expr] = {}
         self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
         """A cache: the derivatives of calls of vector functions (see

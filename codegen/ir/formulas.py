@@ -11,7 +11,7 @@ from codegen.ir.vector_calls import named
 
 
 class Formulas(ExprDomain):
-    """A domain of expressions in which products and commutators of matrices become scalar formulas.
+    """A domain of expressions. Each entry of a matrix product or commutator is a scalar formula.
 
     The compiler computes the time derivatives of states in this domain.
     """

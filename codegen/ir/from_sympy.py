@@ -95,7 +95,7 @@ class _Reader:
         name = e.func.__name__
         if isinstance(e, sympy.Function) and name in CALLS:
             argument = self.node(e.args[0])
-            # In ``CALLS``, only the functions in ``SAFE`` can be infinite or undefined at a finite double.
+            # All functions outside ``SAFE`` are finite at finite doubles.
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
@@ -168,7 +168,7 @@ class _Reader:
                 where=self.where,
                 expected="a last branch (formula, True)",
             )
-        # ``rest`` means: the outer branch is selected, and all earlier conditions of ``e`` are false.
+        # ``rest`` is true if the outer branch is selected and all earlier conditions of ``e`` are false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
         for formula, condition in e.args:
@@ -214,7 +214,7 @@ class _Reader:
             # A negative power is infinite for the base 0.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # At the base 1, the root and its derivative are finite.
+            # The safe base is 1, because the derivative of the root is infinite at 0.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
             # For odd n > 0, the power x^(n/2) is x^m sqrt(x) with m = (n - 1)/2.

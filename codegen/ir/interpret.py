@@ -148,7 +148,7 @@ def _composed(
     near: list[list[Scalar]] | None,
 ) -> State:
     """Return the state after all substeps of a composition method."""
-    # Without this change, ``interpret`` would treat each substep as a composition again.
+    # ``substep`` is the program of a single substep.
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
         # A substep has a different step size h, so it uses a copy of the domain.
@@ -252,7 +252,10 @@ def _correct(
 
 
 def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
-    """Return the message of :class:`NotConverged` for ``block``. ``change`` is the last change."""
+    """Return the message of :class:`NotConverged` for ``block``.
+
+    ``change`` is the last change of the unknowns.
+    """
     # The message shows only two digits, so the change is converted to a double.
     last = f"{float(change):.1e}" if isinstance(change, SupportsFloat) else str(change)
     return f"{block.label} did not converge in {limit} sweeps; the last change was {last}"

@@ -118,7 +118,7 @@ class _Graph:
     def _take_out(self, v: int) -> list[int]:
         # The vertex v and its edges are removed from the graph.
         ins, outs = self.before.pop(v), self.after.pop(v)
-        # Costs are products of table lengths, so no edge of v may remain.
+        # The following two loops remove the edges of v from the tables of the neighbours.
         for u in ins:
             del self.after[u][v]
         for w in outs:

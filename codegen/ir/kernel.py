@@ -88,8 +88,8 @@ class Newton:
       residuals r(u). The matrix is -r'(u), expanded to first order in h. The matrix is inverted again after
       :attr:`period` steps.
 
-    In all three forms, ``matrix`` is the inverse if ``inverted`` is true. ``changes`` are the names of the
-    variables for the changes of the unknowns in a sweep.
+    If ``inverted`` is true, ``matrix`` is the inverse of the matrix described above. ``changes`` are the
+    names of the variables for the changes of the unknowns in a sweep.
     """
 
     body: tuple[Let, ...]
@@ -128,9 +128,9 @@ class Loop:
     in two main cases:
     - The change no longer decreases, and it is at most ``tolerance`` times the largest unknown.
     - The predicted next change is at rounding level, and the change is at most ``close`` times the largest
-      unknown. For equations r(u) = 0, the second case is different.
+      unknown. For equations r(u) = 0, another rule replaces the second case.
 
-    ``only_unknowns_read`` is true if the code after the loop uses no values of ``body``.
+    ``only_unknowns_read`` is true if the code after the loop reads no variable of ``body``.
     """
 
     label: str
@@ -153,18 +153,16 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """The largest permitted change in the stopping rule (:class:`Loop`), relative to the largest unknown.
+        """The factor ``close`` in the second case of the stopping rule (see :class:`Loop`).
 
         In Newton's method, the values of ``body`` are computed before the last change is added to the
-        unknowns. For equations u = g(u), the error of these values is about the last change times the
-        Lipschitz constant of g.
+        unknowns. So these values are less accurate than the unknowns.
         """
-        # The error of the unknowns is smaller than the last change. If no other values are used later, the
-        # bound is larger.
+        # The error of the unknowns is smaller than the last change, so a larger change is permitted.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # If Newton's matrix is expanded to first order in h, convergence implies a small Lipschitz constant.
-        # Otherwise the bound is smaller.
+        # If Newton's matrix is expanded in h, the loop converges only for small h. For small h, the values of
+        # ``body`` are more accurate.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -180,12 +178,12 @@ class Start:
 
     The degree d is adapted to the sizes of the backward differences u1 - u2 (order 1), u1 - 2 u2 + u3
     (order 2), and so on. Let c be the change of the unknowns from one step to the next. If the estimated
-    error of the first values exceeds ``ROUGH`` c, only u1 is kept.
+    error of the first values is larger than ``ROUGH`` times c, only u1 is kept.
 
-    A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then
-    the step size grows to h. Each solution provides the first values for the next larger step size. The
-    continuation fails after ``TRIES`` attempts, or if the step size would grow by at most the factor
-    1 + ``SHORTEST``.
+    A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then the
+    step size grows to h. Each solution provides the first values for the next larger step size. The
+    continuation fails after ``TRIES`` attempts. It also fails if the growth factor of the step size is
+    1 + ``SHORTEST`` or less.
     """
 
     unknowns: tuple[str, ...]
@@ -193,12 +191,12 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # The extrapolation u1 of degree 0 has the error c (see the docstring).
+    # An extrapolation must have at most half the error of the simplest guess, the last solution.
     ROUGH: ClassVar[float] = 0.5
     # Successful continuations need far fewer than 100 attempts.
     TRIES: ClassVar[int] = 100
     # After the first success, each failure replaces the growth factor by its square root. Nine failures
-    # reduce the factor 4 to less than 1 + 2^-8.
+    # reduce the growth factor from 4 to less than 1 + ``SHORTEST``.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -291,12 +289,11 @@ class Expansion:
     then of order 2, and so on to the order ``degree``.
 
     With ``following``, a loop over the order n computes the coefficients
-    (:class:`codegen.ir.taylor_loop.OrderLoop`). The loop uses the first outputs of the kernel
-    ``coefficients`` for every n. The other outputs are the coefficients of order 1.
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). The first outputs of the kernel ``coefficients`` do not
+    depend on n. The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
-    The loop computes ``sums`` inner sums, one for each product. The kernel ``following`` has these outputs,
-    in this order:
+    ``sums`` is the number of products. The kernel ``following`` has these outputs, in this order:
     - a_n for each product,
     - b_n for each product,
     - the Taylor coefficients of order n + 1.
@@ -365,8 +362,8 @@ class Kernel:
     - ``substeps`` are the substeps of a composition method. The kernel is called once for each substep.
     - ``outlined`` are functions that the expressions of the kernel call.
     - ``carried`` is given if the kernel uses the body momentum in place of the space momentum.
-    - ``expansion`` is the Taylor polynomial of a Taylor method. For other methods, ``estimate`` is the error
-      estimate.
+    - ``expansion`` is the Taylor polynomial of a Taylor method.
+    - ``estimate`` is the error estimate of any other adaptive method.
     - ``batch`` is true if emitted code also contains a function that steps many independent systems.
     - ``observed`` is given if emitted code also contains a function that integrates to a given end time.
 

@@ -79,8 +79,8 @@ class Element:
     """A linear combination of matrices h A(t_i) and of commutators, for example an exponent.
 
     A letter is a linear combination of the matrices h A(t_i). ``letter`` is an index in
-    :attr:`LinearArrayStep.letters`, or None if the sum contains no letter. ``commutators`` contains pairs of
-    a coefficient and an index in :attr:`LinearArrayStep.commutators`.
+    :attr:`LinearArrayStep.letters`, or None if there is no letter. ``commutators`` contains pairs of a
+    coefficient and an index in :attr:`LinearArrayStep.commutators`.
     """
 
     letter: int | None

@@ -92,7 +92,8 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             if node.payload == STEP:
                 # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
-            # Every other symbol u has the expansion u + 0 h. If u is an unknown, its derivative is 1 + 0 h.
+            # Every other symbol u has the expansion u + 0 h. The derivative of an unknown with respect to
+            # itself is 1 + 0 h.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":
@@ -209,7 +210,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         at = first = second = space.call("exp", low)
     elif function == "log":
         at, first = space.call("log", low), space.one / low
-        # The second derivative of log x is -1/x^2, minus the square of 1/x.
+        # The second derivative of log x is -(1/x)^2.
         second = -(first * first)
     elif isinstance(function, PiecewisePolynomial):
         slope_of = function.derivative()

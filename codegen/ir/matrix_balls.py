@@ -60,10 +60,10 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
 
     ``jet`` contains the entries of an n x n matrix A, followed by the entries of its derivatives.
 
-    The largest absolute value of an entry is M in exp(A), e in all derivatives of A, and m in a derivative D
-    of exp(A). The error of an entry is at most:
-    - 2^-``bits`` M in exp(A),
-    - 2^-``bits`` max(m, M (e + e^2)) in D.
+    Let |X| be the largest absolute value of an entry of a matrix X. Let e be the largest |E| of
+    the derivatives E of A. The error of an entry is at most:
+    - 2^-``bits`` |exp(A)| in exp(A),
+    - 2^-``bits`` max(|D|, |exp(A)| (e + e^2)) in a derivative D of exp(A).
 
     OverflowError is raised in three cases:
     - An entry of ``jet`` is not finite.
@@ -83,14 +83,14 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
             result = _first_row(arb_mat(block_matrix(n, level, jet)).exp().tolist(), level)
             if _is_accurate(size, bits, jet, result):
                 return tuple(x.mid() for x in result)
-        # Doubling bounds the number of attempts by a logarithm of ``MOST_BITS``.
+        # ``extra`` is doubled, so the loop ends after few attempts.
         extra *= 2
     raise OverflowError(f"the exponential of a matrix is not accurate with {MOST_BITS} bits")
 
 
 def _is_accurate(size: int, bits: int, jet: Sequence[arb], result: Sequence[arb]) -> bool:
     """Return True if no radius in ``result`` exceeds the bounds in the docstring of :func:`exponential`."""
-    # A comparison with a NaN is false, so a NaN could otherwise count as accurate.
+    # The comparison below would not detect a NaN.
     if not all(x.is_finite() for x in result):
         return False
     unit, largest = arb((1, -bits)), _largest(result[:size])

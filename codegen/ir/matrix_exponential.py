@@ -181,18 +181,18 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
     """Return the jet that results from ``squarings`` squarings of the jet ``total``.
 
-    The first matrix of ``total`` (its first n^2 entries) has a spectral norm of at most ``growth``. If the
-    error bound of the first matrix of the result is too large (:data:`LEAST_DIGITS`), all entries of the
-    result are NaN.
+    The first matrix of ``total`` (its first n^2 entries) has a spectral norm of at most ``growth``. The error
+    of the first matrix of the result is estimated. If the estimate is too large (:data:`LEAST_DIGITS`), all
+    entries of the result are NaN.
 
     Let E be a computed n x n matrix with the spectral norm |E|, and let e be a bound of its error. The error
     of the computed square of E is at most about 2 |E| e + n^2 u |E|^2, where u is the unit roundoff.
     """
     size, unit = n * n, 2.0**-53
-    # Before the first squaring, this number bounds the error of the first matrix of ``total``.
+    # Before the first squaring, this number bounds the error of the matrix ``total[:size]``.
     error = (n + 8) * unit * n
     for _ in range(squarings):
-        # Both ``growth`` and the Frobenius norm are bounds of the spectral norm of the first matrix.
+        # Both ``growth`` and the Frobenius norm are bounds of the spectral norm of ``total[:size]``.
         bound = min(growth, _norm(total[:size]))
         error = 2.0 * bound * error + n * n * unit * (bound * bound)
         # The norm of the squared matrix is at most the square of ``growth``.
@@ -204,7 +204,7 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
 
 
 def in_digits(context: Any, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exponential of the jet ``a``, a matrix of mpmath numbers with its derivatives.
+    """Return the exponential of the jet ``a``. The entries of the jet are mpmath numbers.
 
     The error is about one rounding unit of ``context`` times the norm of the exponential. OverflowError is
     raised in the same cases as in :func:`codegen.ir.matrix_balls.exponential`.
@@ -217,8 +217,8 @@ def in_digits(context: Any, n: int, level: int, a: Sequence[Scalar]) -> tuple[Sc
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
     """Return the exact exponential of the jet ``a``. The entries of the jet are power series.
 
-    If the constant terms of the first matrix of the jet form a nilpotent matrix, the exponential is a finite
-    sum. If the sum has more than ``longest`` terms, ArithmeticError is raised.
+    The first n^2 entries of ``a`` form a matrix. If this matrix is nilpotent at h = 0, the exponential is a
+    finite sum. If the sum has more than ``longest`` terms, ArithmeticError is raised.
     """
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total
