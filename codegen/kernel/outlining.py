@@ -129,8 +129,8 @@ class Outline:
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # Operands and results of assignments also get levels. Simplification may have removed them from
-        # ``roots``.
+        # Operands and results of assignments also get levels. After simplification, ``roots`` may lack
+        # some of these operands and results.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
@@ -140,7 +140,7 @@ class Outline:
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
         """Return the list of trees to outline for each :data:`Shape`."""
-        # A removed tree becomes ordinary code. This code may read further results of the remaining trees.
+        # Each removal of a tree may change ``read`` for the remaining trees.
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
@@ -174,7 +174,7 @@ class Outline:
 
         waiting = list(roots)
         while waiting:
-            # The walk stops at the results of trees. Function calls will compute these results.
+            # The walk stops at each result of a tree. A function call will compute this result.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]
@@ -192,7 +192,8 @@ class Outline:
         # The loop of block ``deepest`` executes the call. Results that do not depend on the unknowns of this
         # block stay outside the loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # An expression has a larger id than its operands. Inputs with smaller ids do not contain the result.
+        # An expression has a larger id than its operands. Therefore no input with a smaller id depends on the
+        # result.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 

@@ -115,7 +115,8 @@ class Trees:
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Only a result with a single reader can be joined. The product removes one reader of ``v``.
+        # Only a result with a single reader can be joined. With the product (c d) v, the result d v has one
+        # reader less.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -144,7 +145,7 @@ class Trees:
                 # ``owner`` does not contain the assignments for which ``may_join`` is false.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # The key of the joined tree shows which input of tree j is the result of tree i.
+                    # The key of the joined tree shows how tree j uses the result of tree i.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
             # The choice is greedy: the pair that saves the most lines is joined first.
@@ -156,7 +157,7 @@ class Trees:
                     best, saved = key, gain
             if best is None:
                 return list(trees.values())
-            # A joined tree has a new key. Therefore each tree is joined at most once in this loop.
+            # A joined tree has a new key. Therefore no tree is joined twice in one round.
             used: set[int] = set()
             for i, j in pairs[best]:
                 if i in used or j in used:

@@ -224,10 +224,10 @@ def _alone(function: Function) -> Kernel:
 
 
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
-    """Return those expressions in ``statement`` that can share calls with other statements."""
+    """Return the expressions in ``statement`` whose function calls other statements may reuse."""
     if isinstance(statement, Let):
         return [statement.value]
-    # A step may skip a ``Start`` statement. Then the results of its function calls do not exist.
+    # A step may skip a ``Start`` statement, together with the function calls in the statement.
     return statement.starts if isinstance(statement, Loop) else []
 
 
@@ -360,14 +360,14 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The keys of ``orders`` are ids of arguments before rewriting.
+        # The keys of ``orders`` are ids of original arguments, but ``argument`` is rewritten.
         orders = self.orders[node.args[0].id]
         # One call returns c_k for all recorded indices k, and each result gets its own name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
-            # In later expressions, ``name`` replaces the call of c_k with this argument.
+            # Later expressions contain ``name`` in place of ``call``.
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 

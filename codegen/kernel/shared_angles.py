@@ -52,7 +52,8 @@ class SharedArguments(ExprDomain):
         return self.shared[argument.id]
 
     def _compared(self, argument: Expr) -> Expr:
-        # The walk stops at the limit. A walk over thousands of nodes in explicit stages would be slow.
+        # At most LONGEST + 1 nodes are visited. A walk over thousands of nodes in explicit
+        # stages would be slow.
         if len(list(islice(walk([argument]), LONGEST + 1))) > LONGEST:
             return argument
         try:
@@ -64,6 +65,6 @@ class SharedArguments(ExprDomain):
         for known, first in self.arguments:
             if known == polynomial:
                 return first
-        # If a later argument has an equal polynomial, ``argument`` replaces it.
+        # ``argument`` will replace all later arguments with an equal polynomial.
         self.arguments.append((polynomial, argument))
         return argument

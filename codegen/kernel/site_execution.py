@@ -25,7 +25,7 @@ from codegen.scene.values import Bindings
 RECOMPUTED = (Linear, Zero, Advance)
 """Cheap operations: each sweep that needs their results computes the results again.
 
-But some linear combinations are stored (:mod:`codegen.kernel.site_plan`).
+Exception: some linear combinations are stored in rows (:mod:`codegen.kernel.site_plan`).
 """
 
 EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
@@ -184,8 +184,7 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # ``self.ghosts`` has one ghost for each symbol. If stages have different ghosts, they need different
-        # symbols.
+        # ``self.ghosts`` has one ghost for each symbol. A different ghost needs a new symbol.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
@@ -210,7 +209,7 @@ class Execution:
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
-            # The ghosts have the order of the loads: output k of ``outside`` replaces the load of ghost k.
+            # The ghosts must have the same order as the loads (:class:`codegen.ir.site_step.Sweep`).
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
             # The ghosts may depend on further values at the site, so these values are loaded, too.

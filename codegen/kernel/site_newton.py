@@ -39,7 +39,8 @@ class Linearisation:
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
     - ``given`` contains the variables of the state at the beginning of the step.
     - ``makers`` maps each computed variable to its assignment.
-    - ``coupled`` contains indices of blocks in ``problem.state``. The field reads these blocks at neighbours.
+    - ``coupled`` contains indices of blocks in ``problem.state``. The vector field at a site
+      also reads these blocks of the neighbours.
     """
 
     problem: Problem
@@ -158,8 +159,8 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a site, computed from the stage values of the site and of its neighbours."""
-        # The field at a neighbour reads the neighbours of this neighbour. Then the matrix is not
-        # block-tridiagonal.
+        # The field at a neighbour reads the neighbours of this neighbour. With such nested
+        # evaluations, the matrix is not block-tridiagonal.
         if site != OWN:
             raise MethodError(
                 "on a chain, Newton's method cannot solve equations with nested evaluations of the field",

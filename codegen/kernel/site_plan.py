@@ -56,8 +56,8 @@ class _Block:
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
         """Return pairs (unknown, new value) for the sweep with the index ``number``.
 
-        The new values are ``solve.starts`` for the sweep ``first - 1``, and ``solve.images`` for the sweep
-        ``last``. For all other sweeps, the result is empty.
+        The new values are ``solve.starts`` for ``number = first - 1``, and ``solve.images`` for
+        ``number = last``. For all other sweeps, the result is empty.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -144,8 +144,8 @@ class Planner:
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
-        # At each site, a Newton matrix has three square blocks. All Newton matrices use the same rows of the
-        # workspace.
+        # At each site, a Newton matrix has three square blocks. The matrices are used one after the other
+        # in the same rows of the workspace.
         return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
@@ -184,8 +184,8 @@ class Planner:
             last = max(first, *(self.sweep_of[v] for v in solve.images))
             points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
-                # The field reads unknowns at neighbours. Therefore only a further sweep may overwrite the
-                # unknowns.
+                # The field reads unknowns at neighbours. The unknowns must not change in the same sweep, so
+                # one more sweep changes them.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
             # The solution satisfies u = g(u), so the rest of the program reads u in place of g(u).
@@ -231,9 +231,9 @@ class Planner:
     def _choose_sums(self) -> None:
         """Choose which linear combinations of vectors are stored.
 
-        If no other operation reads a term of a combination, the combination can be stored in place of this
-        term. A 2N scheme (a low-storage Runge-Kutta method) then stores only one element of the Lie algebra
-        for each site.
+        A combination can be stored in place of one of its terms, if no other operation reads this term. A 2N
+        scheme (a low-storage Runge-Kutta method) then stores only one element of the Lie algebra for each
+        site.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -257,7 +257,7 @@ class Planner:
             if var in need.computed:
                 continue
             maker = self.makers.get(var)
-            # Each sweep computes its cheap values again.
+            # Each sweep repeats the operations in RECOMPUTED, unless their results are in ``sums``.
             again = maker is not None and isinstance(maker.operation, RECOMPUTED) and var not in self.sums
             if maker is None or (self.sweep_of[var] < number and not again):
                 need.loaded.add(var)

@@ -5,8 +5,8 @@ covector g approximates the differential of the energy, and eta is the displacem
 before and after the step are H0 and H1. To reduce the rounding error, e is computed at each site and then
 summed over the sites.
 
-If the equations are not Hamilton's equations, the field f is expressed by the bivector (gamma wedge
-f)/|gamma|^2, where gamma is the differential of the energy (:mod:`codegen.scene.energy`).
+If the equations are not Hamilton's equations, the bivector (gamma wedge f)/|gamma|^2 is applied to D. Here f
+is the field, and gamma is the differential of the energy (:mod:`codegen.scene.energy`).
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
         g, x, before, after = assign.args
         # The excess is formed at each site, because total energies would cancel with large rounding errors.
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
-        # ``excess`` is the change of the total energy, minus the sum of ``paired`` over all sites.
+        # ``excess`` is the number e in the docstring of this module.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):

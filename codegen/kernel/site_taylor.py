@@ -29,7 +29,7 @@ from codegen.scene.sites import Sites, offset_text
 SHORT = 3
 """An expression with at most SHORT operations is not stored. Each sweep computes it again.
 
-With the limits 1 and 3, a step of taylor(8) on 4000 pendulums takes 24 ns for each pendulum. With the limit
+With the limit 1 or 3, a step of taylor(8) on 4000 pendulums takes 24 ns for each pendulum. With the limit
 10, the time is 117 ns. On a chain of spins, the times with the limits 1, 3 and 10 differ by at most 3 per
 cent.
 """
@@ -126,9 +126,10 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return ``terms``. None is replaced by zero if coefficients outside the lattice may be nonzero.
+        """Return ``terms``, possibly with zeros in place of None.
 
-        None represents a coefficient that is zero at all sites. Sweeps do not load this coefficient.
+        None represents a coefficient that is zero at all sites. Sweeps do not load this coefficient. If
+        coefficients outside the lattice may be nonzero, zeros replace None.
         """
         if degree == self.degree:
             return terms
@@ -236,7 +237,7 @@ class TaylorSweeps:
             total = 0
             for x in walk([node]):
                 total += 0 if not x.args else CALL if x.op == "call" else 1
-                # Above SHORT, the exact total does not matter.
+                # The caller only tests whether the total exceeds SHORT.
                 if total > SHORT:
                     break
             known[node.id] = total
@@ -254,7 +255,8 @@ class TaylorSweeps:
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # No sweep reads these rows at neighbours. Therefore the last reader of a row may overwrite it.
+            # No sweep reads these rows at neighbours. Therefore the last sweep that reads a
+            # row may also overwrite this row.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
             # The values in ``names`` were stored by earlier sweeps.

@@ -76,16 +76,17 @@ def to_kernel(
       itself.
     - ``chains`` is AS_WRITTEN, COMBINED, ORDERED or SHORTENED. If the program has implicit equations,
       ``chains`` must be AS_WRITTEN.
-    - If ``whole`` is true, each step converts the momentum. If ``whole`` is false, a run converts the
-      momentum once at its beginning and once at its end (:mod:`codegen.kernel.carried_momentum`). ``whole``
-      is used only if the program needs the body momentum, but the emitted code stores the space momentum.
+    - If ``whole`` is true, each step converts the momentum between the space frame and the body frame. If
+      ``whole`` is false, a run converts the momentum once at its beginning and once at its end
+      (:mod:`codegen.kernel.carried_momentum`). ``whole`` matters only if the program uses the body frame
+      and the emitted code uses the space frame.
     - If ``outlining`` is true, repeated computations of a long step become functions
       (:mod:`codegen.kernel.outlining`).
 
     :class:`codegen.errors.SceneError` is raised if an operation of the group has no closed form.
     :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a derivative in the matrix of Newton's
-    method does not exist. ZeroDivisionError is raised if this matrix must be expanded to first order in h,
-    but the equations cannot be evaluated at h = 0.
+    method does not exist. ZeroDivisionError is raised if the expansion of this matrix in h contains 1/0 or a
+    value such as log(0).
     """
     return _Translation(program, scene, solvers, variations, chains, whole, outlining).kernel()
 
@@ -120,13 +121,13 @@ class _Translation:
         # ``inside`` is true during the execution of a block of equations.
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
-        # With variations, each step starts and ends with the momentum of the emitted code.
+        # With ``variations``, ``whole`` is treated as true.
         self.frames = Frames(scene, program, whole or variations is not None)
 
     def name(self, base: str) -> str:
         """Return a new name, and add it to ``taken``. The name is ``base`` if possible."""
         candidate = base if base not in self.taken else base + "_"
-        # An underscore is appended, and no number: xi1_2 means component 2 of xi1.
+        # No number is appended, because xi1_2 means component 2 of xi1.
         while candidate in self.taken:
             candidate += "_"
         self.taken.add(candidate)
@@ -156,7 +157,7 @@ class _Translation:
                 "without closed forms no code can be emitted",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # Other values share the expressions ``known``. ``gathered`` changes only their numeric factors.
+            # ``gathered`` combines numeric factors, but does not rewrite the expressions ``known``.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
         # Outlined functions cannot read run-time inputs. An operation with a time argument may read these
@@ -172,7 +173,7 @@ class _Translation:
     def begin(self) -> State:
         """Set the values of the program's inputs to symbols, and return the initial state."""
         space = self.domain.space
-        # The momentum in ``start`` is the momentum of the program (space frame or body frame).
+        # The momentum in ``start`` has the frame of ``self.program``: space frame or body frame.
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
@@ -191,7 +192,7 @@ class _Translation:
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # For variations, :func:`_varied` needs the images g(u). Residuals would replace the images.
+        # For variations, :func:`_varied` needs the images g(u). ``compared`` replaces them by residuals.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
         # The block ``residuals`` already contains Newton's matrix.
@@ -199,12 +200,12 @@ class _Translation:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
-            # After the last sweep, u is more accurate than g(u). Later statements read u.
+            # The last sweep computes g(u) before it improves u. Later statements read u.
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # The block is added after all calls of ``run``. Until then, its index is ``len(self.blocks)``.
+        # The block is added after all calls of ``run``. ``run`` relies on this order.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
@@ -232,7 +233,8 @@ class _Translation:
         """
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # Both states are converted to the frame of the emitted code. ``kernel`` computes their difference.
+        # The new state and the embedded solution are converted to the frame of the emitted code. ``kernel``
+        # computes their difference.
         for embedded in (False, True):
             # Without an embedded solution, ``values`` is empty for ``embedded`` = True.
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
@@ -295,16 +297,16 @@ class _Translation:
 
         Computations are outlined only if outlining makes the kernel much shorter.
         """
-        # ``before`` does not contain the names in ``schedule``. A kernel with outlined functions may use
-        # these names again.
+        # ``before`` does not contain the names in ``schedule``. If outlining replaces
+        # ``schedule``, these names are free again.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
         # The number of assignments is a measure of the code size.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # Outlining needs the expressions that ``run`` recorded. COMBINED and SHORTENED replace these
-        # expressions.
+        # Outlining needs the expressions that ``run`` recorded. With COMBINED or SHORTENED,
+        # ``ends`` contains other expressions.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)

@@ -186,7 +186,7 @@ def emitted_forms(
 def peer_forms(
     scene: Problem, peers: Sequence[Peer], exact: Reference, budget: float, equations: Sequence[Equations]
 ) -> list[Candidate]:
-    """Return one candidate for each pair of a peer and an element of ``equations``.
+    """Return one candidate for each pair of a peer (another integrator) and an element of ``equations``.
 
     Exception: a peer with projection onto the manifold has only one candidate.
     """

@@ -28,7 +28,7 @@ For larger orders, the search takes seconds.
 
 
 DEGREES = (4, 6, 8, 10, 12, 14, 16, 18, 20, 24)
-"""The degrees of the recipes for families without tableaux, such as Taylor's method (``taylor``)."""
+"""The degrees of the methods without tableaux, such as 8 for ``taylor(8)``."""
 
 
 @dataclass(frozen=True)
@@ -81,8 +81,8 @@ class Recipe:
 def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for a scene.
 
-    If ``tableaux`` is empty, all tableaux of the library are used. If a method treats the state as a vector
-    in R^n, it has one recipe for each form of the equations (for example, with unit quaternions).
+    If ``tableaux`` is empty, all tableaux of the library are used. A method that treats the state as a vector
+    in R^n has one recipe for each form of the equations.
     """
     forms = [form.key for form in classical_forms(problem)]
     for recipe in in_printed_form(problem, tableaux):
@@ -134,7 +134,7 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
 
     The cut-off of a method is its number of commutators, such as the 2 in ``rkmk(2)``. For each order, only
     the smallest cut-off that gives this order is used. Orders below half the classical order of the tableau
-    have no recipe. A tableau can have one more recipe without a cut-off. For this recipe, the compiler
+    have no recipe. A tableau can have an additional recipe that has no cut-off. For this recipe, the compiler
     searches for the smallest number of commutators (:data:`SEARCHED`).
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)

@@ -79,7 +79,8 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # Each sweep adds about the same number of digits. Emitted code needs about twice the digits of SETTLED.
+    # Each sweep adds about the same number of digits. Emitted code needs about twice the digits of SETTLED,
+    # and hence about twice the number of sweeps.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 

@@ -1,4 +1,4 @@
-"""Determines the order of the recipes for the predictions of CPU times.
+"""Determines the sequence in which the CPU times of recipes are predicted.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations.
 """
@@ -23,7 +23,7 @@ FRESH = 8
 
 
 EVEN = 4.0
-"""The divisor EVEN in the delay (n + d)/EVEN + s of a queue of recipes.
+"""The delay of a queue of recipes is (n + d)/EVEN + s.
 
 The next recipe comes from the queue with the smallest delay. All recipes in a queue have the same kind
 (:data:`Kind`) and the same order.
@@ -35,7 +35,7 @@ The next recipe comes from the queue with the smallest delay. All recipes in a q
 """
 
 FAILED = 4.0
-"""The value of s at :data:`EVEN` if all predicted times for this kind of recipe are infinite."""
+"""The slowness s of a queue (:data:`EVEN`) if all predicted times of the same kind are infinite."""
 
 
 def usual_order(error: float) -> float:
@@ -65,8 +65,8 @@ Job = tuple[Recipe, tuple[Bar, ...]]
 class Jobs(Sequence[Job]):
     """The sequence of jobs for the worker processes. A job is a recipe with a :class:`Bar` for each goal.
 
-    The bars depend on the predictions for earlier recipes. Therefore a job is created only when a worker
-    process is free.
+    The limits in a bar depend on the predictions for earlier recipes. Therefore a job is created only when a
+    worker process is free.
 
     The choice of the next recipe is explained at :data:`EVEN`.
 
@@ -133,7 +133,7 @@ class Jobs(Sequence[Job]):
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return s at :data:`EVEN` for a queue: the least value over all goals, or 0 if it is unknown."""
+        """Return the least slowness s of a queue over all goals (:data:`EVEN`), or 0 without predictions."""
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
         ratios = [
@@ -164,7 +164,7 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
-        """Return a bar: the limits on the error and the CPU time of ``recipe`` for ``goal``.
+        """Return a :class:`Bar` with the limits on the error and the CPU time of ``recipe`` for ``goal``.
 
         To save time, the bar is updated only after several new predictions (:data:`FRESH`).
         """

@@ -58,9 +58,9 @@ interval.
 TRIES = 3
 """If TRIES consecutive methods of one kind fail, fewer runs are made for this kind.
 
-A kind is a pair (family, explicit). After failures with equal steps, equal steps are used only on the first
-interval of the time span (:data:`PARTS`). After failures with step-size control, step-size control is not
-used.
+A kind is a pair (family, explicit). After failures with equal steps, further runs with equal steps cover only
+the first interval of the time span (:data:`PARTS`). After failures with step-size control, step-size control
+is not used.
 """
 
 FEWEST_SWEEPS = 3
@@ -98,7 +98,7 @@ class Prediction:
     - ``sweeps``: the mean number of sweeps in a step.
     - ``steps``: the number of steps for which ``error`` is predicted.
     - ``error``: the predicted error with ``steps`` steps, or infinity if the interpreted runs failed.
-    - ``rough``: True if equal steps over the whole time span failed or had large errors (:data:`SMALL`).
+    - ``rough``: True if no run with equal steps over the whole time span has a small error (:data:`SMALL`).
     - ``controlled``: the prediction with step-size control, or None.
     - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS. Then the
       predicted times may be too short.
@@ -154,8 +154,8 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e). The error e is defined at :data:`FAR`, for the CPU time
-      ``seconds``. If ``family`` is not '', only methods of this family are compared.
+    - ``least``: triples (family, explicit, e). The error e for the CPU time ``seconds`` is defined
+      at :data:`FAR`. If ``family`` is not '', only methods of this family are compared.
     - ``steps``: the number of steps of the first run in the interpreter.
     - ``explicit``: True if methods that solve equations are excluded.
     """
@@ -167,13 +167,13 @@ class Bar:
     explicit: bool = False
 
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
-        """Return True if this bar excludes a method of the given family.
+        """Return True if the limits exclude a method of the given family.
 
         A method is excluded in three cases:
 
         - The predicted CPU time of one step, ``step_seconds``, exceeds the time limit of the bar.
         - The bar requires explicit methods, and the argument ``explicit`` is False.
-        - Even methods of slightly higher order are too inaccurate (:data:`FAR`).
+        - The predicted error e in ``least`` exceeds :data:`FAR` times the attribute ``error``.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -200,11 +200,11 @@ class Predictor:
     - ``exact``: the reference solution.
     - ``beginning``: a function with two results: the equations on the first interval of the time span
       (:data:`PARTS`), and the reference solution at the end of the first interval.
-    - ``failures``: for each kind of method, the number of consecutive failures with equal steps
+    - ``failures``: for each kind of method, the number of consecutive methods that failed with equal steps
       (:data:`TRIES`).
     - ``uncontrolled``: the same numbers for failures with step-size control.
-    - ``costs``: for each operation, the predicted time in nanoseconds and the numbers of components of the
-      results.
+    - ``costs``: for each operation, the predicted time in nanoseconds and the number of components of each
+      result.
     """
 
     equations: Equations
@@ -239,7 +239,7 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # If ``most`` is below MANY_STEPS, more steps would take too long. Then a large error is final.
+        # If ``most`` is below MANY_STEPS, runs with smaller steps exceed the time limits of the bars.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -258,8 +258,9 @@ class Predictor:
     def controlled(self, method: Method, equal: Prediction, target: float) -> Prediction | None:
         """Return the prediction for a method with step-size control, or None.
 
-        The tolerance of the interpreted runs decreases. The runs end after a failure, after an error of at
-        most ``target``, or after PATIENCE/4 seconds of CPU time. The result is None in three cases:
+        The interpreted runs use decreasing tolerances (:data:`TOLERANCES`). The runs end after a failure,
+        after an error of at most ``target``, or after PATIENCE/4 seconds of CPU time. The result is None in
+        three cases:
 
         - No run has a small error (:data:`SMALL`).
         - The method has no embedded solution.
@@ -301,7 +302,7 @@ class Predictor:
         return problem, program, widths_of_inputs(program, problem)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
-        """Return two predicted times in nanoseconds: operations outside of implicit equations, and one sweep.
+        """Return the predicted times of operations outside of implicit equations and of one sweep, in ns.
 
         A sweep is one iteration over all implicit equations. ``widths`` maps each input of the program to its
         number of components. The function stores the other variables of the program in ``widths``, too.

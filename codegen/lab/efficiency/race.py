@@ -81,7 +81,7 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # For other forms of the equations, the states may leave the manifold of the scene.
+        # With this form of the equations, the states may leave the manifold of the scene.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 
@@ -182,8 +182,9 @@ class Racer:
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the result for the fastest run that reaches an error.
 
-        ``best`` is the least CPU time in seconds of the other recipes. A much slower run ends the search
-        (:data:`PATIENT`). If the error is not reached, the attribute ``reached`` of the result is False.
+        ``best`` is the least CPU time in seconds of the other recipes. The search ends after a run with a
+        much longer CPU time (:data:`PATIENT`). If the error is not reached, the attribute ``reached`` of the
+        result is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
@@ -234,7 +235,7 @@ class Racer:
 
         - There are at least five runs.
         - The smallest error, relative to the size of the state, is below 1e-9.
-        - The last three errors are all larger than half of the smallest earlier error.
+        - Each of the last three errors exceeds e/2. Here e is the smallest earlier error.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
@@ -245,8 +246,8 @@ class Racer:
     def _coarsened(self, control: float, error: float) -> float:
         """Reduce ``control`` by bisection, and return the smallest value that reaches ``error``.
 
-        ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k. A run with
-        ``control`` must reach the error.
+        ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k. The given value
+        must reach the error.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

@@ -55,7 +55,7 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     The runs are sorted from coarse to fine. Runs after the most accurate run are not used. The time is
     interpolated between two runs: the last run whose error is above ``error``, and the next run. The
     interpolation is linear in the logarithms of time and error. The result is the least of the
-    interpolated time, the time of the next run, and the times of later runs.
+    interpolated time and the times of all finer runs.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -71,7 +71,7 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the result of :func:`seconds_to`. All ``rows`` must have the same form of the equations."""
+    """Return the result of :func:`seconds_to`. All ``rows`` must use the same form of the equations."""
     good = [r for r in rows if r.error is not None and r.seconds]
     if not good or _error(min(good, key=_error)) > error:
         return None
@@ -98,7 +98,7 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful runs of one integrator, without runs on slow forms of the equations.
+    """Return the successful runs of one integrator on the fastest forms of the equations.
 
     A run is omitted if another form reaches the same error in less time. If there are several forms, the
     result is sorted by error, from large to small.
@@ -116,7 +116,7 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
 
 
 def prevailing_form(rows: Sequence[Row]) -> list[Row]:
-    """Return all rows with the most frequent fastest form of the equations.
+    """Return the rows of the form of the equations that is most often the fastest.
 
     The fastest form is determined for each error 10^-k with k in :data:`DECADES`.
     """

@@ -40,7 +40,7 @@ class Request:
     tableaux: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        assert self.goal  # Goal checks ``error`` and ``needs``.
+        assert self.goal  # ``Goal`` checks the attributes ``error`` and ``needs``.
 
     @property
     def goal(self) -> Goal:
@@ -61,7 +61,8 @@ class Request:
 class Recommendation:
     """The result of a search for the fastest recipe.
 
-    - ``places``: the fastest run of each recipe that reaches the error, from fast to slow.
+    - ``places``: for each successful recipe, the fastest run with at most the required error. Fast runs
+      come first.
     - ``best``: the most accurate run if no recipe reaches the error, and otherwise None.
     - ``predicted``: the number of predicted recipes.
     - ``raced``: the number of measured recipes.

@@ -43,7 +43,7 @@ LEADERS, CLOSE = 4, 1.4
 """The LEADERS fastest recipes are timed again if their CPU time is at most CLOSE times the best CPU time."""
 
 CONTROLLED = 100.0
-"""Unreliable predicted times for step-size control are divided by CONTROLLED (:meth:`Search.hoped`).
+"""The divisor for unreliable predictions of the CPU time with step-size control (:meth:`Search.hoped`).
 
 On stiff scenes, a time that is predicted from equal steps can be a hundred times the true time.
 """
@@ -93,7 +93,7 @@ class Search:
 
     - ``predictions``: the predicted errors and times of recipes.
     - ``ratios``: the ratios of measured to predicted times, for each kind of recipe and each required error.
-    - ``results``: for each error, a dictionary of the measured recipes and their results.
+    - ``results``: for each required error, a dictionary of the measured recipes and their results.
     - ``lost``: for each goal, the recipes that fail the test of conserved quantities in a long run.
     - ``complete``: False if the time budget ended the search.
     """
@@ -301,7 +301,8 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If the recipe does not reach the error, the large ratio delays similar recipes.
+                # If the recipe does not reach the error, a long time is assumed. The predicted times of
+                # similar recipes then become longer.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)

@@ -22,7 +22,7 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 
 AGAIN = 3
-"""If a run with fewer steps takes longer, both runs are measured again, at most AGAIN times."""
+"""Two consecutive runs are measured again if the run with fewer steps took longer, at most AGAIN times."""
 
 NEAR_ROUNDING = 1e-9
 """Rounding may cause errors up to NEAR_ROUNDING times the size of the state."""

@@ -58,8 +58,8 @@ STAYS times its largest value.
 WALKING = (0.5, 1.6)
 """Limits for the variance ratio V_k/(k V_1) of a random walk. Only the lower limit is used for k = FAR.
 
-V_k is the mean of (r_(i+k) - r_i)^2 over all i. A line is fitted to the means over all blocks of the
-record, and r_i is the residual for block i.
+V_k is the mean of (r_(i+k) - r_i)^2 over all i. A line is fitted to the block means. The residual for block i
+is r_i.
 """
 
 CONFINED = 0.04
@@ -70,10 +70,11 @@ Only 3 % of all random walks have a scatter below CONFINED.
 """
 
 STRAIGHT = 0.0225
-"""A record does not count as a random walk if its scatter V/(n D) about a line is below STRAIGHT.
+"""A record does not count as a random walk if its scatter about a line is below STRAIGHT.
 
-A line is fitted to the means over n blocks. V is the variance of the residuals. D is the variance of the
-differences between consecutive means. Only 1 % of all random walks have a scatter below STRAIGHT.
+The scatter is V/(n D). A line is fitted to the means over n blocks. V is the variance of the residuals. D is
+the variance of the differences between consecutive means. Only 1 % of all random walks have a scatter below
+STRAIGHT.
 """
 
 STEADY = 3.2
@@ -84,16 +85,16 @@ Here m is the average difference between the means of consecutive blocks, and s 
 """
 
 TINY = 1e-24
-"""A variance of the differences between block means below TINY is attributed to rounding errors.
+"""Differences between block means count as rounding errors if their variance is below TINY.
 
 All variances are divided by the square of the largest deviation.
 """
 
 FINE, NEAR, FAR = 100, 5, 20
-"""FINE is the largest number of blocks for :data:`WALKING`, :data:`CONFINED` and :data:`STRAIGHT`.
+"""The tests with :data:`WALKING`, :data:`CONFINED` and :data:`STRAIGHT` use at most FINE blocks.
 
-The variance ratio is computed for k = NEAR and for k = FAR. In a short record, the number of blocks and the
-second value of k are smaller.
+The variance ratio is computed for k = NEAR and for k = FAR. A short record has fewer blocks, and a smaller k
+replaces FAR.
 """
 
 
@@ -135,7 +136,7 @@ class Drift:
     def law(self) -> str:
         """The verdict on the deviation: one of the following strings.
 
-        - ``lost``: the deviation reaches the size of the quantity. If it saturates, half the size suffices.
+        - ``lost``: the deviation reaches the size of the quantity, or saturates at half this size or more.
         - ``exact``: all deviations are zero.
         - ``rounding``: the deviation is so small that rounding errors can cause it.
         - ``drift``: the attributes ``is_drift``, ``persists`` and ``unlike_walk`` are all True.
@@ -157,7 +158,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # A deviation with alternating sign may grow without a drift. Therefore the exponent is tested.
+        # A deviation with alternating sign may grow without a drift. Therefore ``exponent`` must be below
+        # WALK.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -270,7 +272,7 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the scatter V/(n D) at :data:`CONFINED` for degree 0, and at :data:`STRAIGHT` for degree 1."""
+    """Return the scatter V/(n D), defined at :data:`CONFINED` (degree 0) or :data:`STRAIGHT` (degree 1)."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
