@@ -12,13 +12,13 @@ from codegen.ir.table import PiecewisePolynomial
 from codegen.lab.number_types import Scalar
 
 TABLES = "table"
-"""In a dictionary :data:`Functions`, this key has the function for piecewise polynomials."""
+"""The key for piecewise polynomials in a dictionary :data:`Functions`."""
 
 Functions = Mapping[str, Scalar]
 """A dictionary that maps names such as ``sin`` to functions of numbers or arrays.
 
-The value for the key :data:`TABLES` is a function with two arguments: a piecewise polynomial, and a function
-that converts its exact coefficients. The result is a function that evaluates the polynomial.
+The value for the key :data:`TABLES` is a function with two arguments: a piecewise polynomial, and a
+conversion of exact coefficients. The result is a function that evaluates the polynomial.
 """
 
 

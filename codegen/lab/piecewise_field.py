@@ -26,7 +26,7 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""Operations such as abs(x) have several cases. The case just after the time t is the case at t + AHEAD.
+"""Operations such as abs(x) have several cases. The sign of x at t + AHEAD gives the case just after t.
 
 AHEAD is much larger than the rounding error of t, and much smaller than the time scales of the solution.
 """
@@ -45,7 +45,7 @@ The field can be non-smooth at a zero of a margin (a function of the state and t
 """
 
 SUBSTEPS = 24
-"""The largest number of points inside a step at which the signs of the margins are tested."""
+"""The largest number of tested points inside a step (:meth:`Sided.leaves`)."""
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
@@ -179,7 +179,7 @@ class Sided:
         """Return True if a margin is negative at a tested point of a step from (y, t) to ``new``.
 
         The end of the step is always tested. If the step is longer than twice the shortest permitted length,
-        the points of the last :data:`SUBSTEPS` evaluations of the field are tested, too.
+        the last :data:`SUBSTEPS` entries of ``points`` are tested, too.
         """
         inner, self.points = self.points[-SUBSTEPS:], []
         if any(x < 0 for x in self.margins(new, t + length)):

@@ -41,15 +41,15 @@ SHORT = 1e-3
 RESOLUTION = 0.1
 """The largest accepted uncertainty of a time, relative to the time without the overhead.
 
-For the run and for the overhead, take the difference between the two least measurements. The uncertainty is
-the sum of these two differences.
+Let a be the difference between the two least times of the run, and b the same difference for the overhead.
+The uncertainty is a + b.
 """
 
 AGAIN = 3
 """The largest number of repeated measurements of a run whose time is too uncertain."""
 
 LEAST_SHARE = 0.1
-"""The overhead is subtracted from a measured time s. Results below LEAST_SHARE s become LEAST_SHARE s."""
+"""A time without the overhead is at least LEAST_SHARE times the measured time."""
 
 
 @dataclass(frozen=True)
@@ -69,8 +69,8 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
     """Return the sorted mean CPU times of a call in several batches of calls, in seconds.
 
     A batch contains enough calls to take ``batch`` seconds or longer. If the first batch takes longer than
-    :data:`LONG` seconds, at most :data:`FEWER` batches are timed. Otherwise ``batches`` batches are timed,
-    and further batches if the least times differ (:data:`CONFIRMED`).
+    :data:`LONG` seconds, at most :data:`FEWER` batches are timed. Otherwise the number of batches is
+    ``batches``. It is increased if the two least times differ too much (:data:`CONFIRMED`).
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:

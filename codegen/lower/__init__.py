@@ -61,7 +61,7 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     named = family if isinstance(given, Tableau) or family else family_in(given)
     # A name such as ``rkmk(2)`` consists of the family ``rkmk`` and the cut-off 2.
     known = named.partition("(")[0]
-    # An objection gives the reason, but ``method_of`` would only list other families.
+    # If the family does not accept the scene, ``_check`` raises an error with the reason.
     if known in names():
         _check(scene, lowering(known))
     try:
@@ -90,7 +90,7 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
             expected=f"one of {', '.join(scene.steps)}" if scene.steps else "a scene that defines steps",
             hint='define the step in the argument "steps" of LinearScene',
         )
-    # The lowering of ``magnus`` methods also forms the programs of steps with a given matrix.
+    # The lowering of ``magnus`` methods also forms the programs of steps defined by a scene.
     return Method("magnus", None, step=name)
 
 

@@ -72,8 +72,8 @@ class Lowering(ABC):
     preference: ClassVar[int] = 0
     """The preference for this family, used if the user names a tableau without a family.
 
-    The family with the highest order in the tableau file is chosen. If several families have this order, the
-    largest preference decides.
+    The tableau file gives the orders of families. The family with the highest order is chosen. If several
+    families have this order, the largest preference decides.
     """
     repeats_substeps: ClassVar[bool] = False
     """True if emitted code may compute a step of a composition by a loop over its substeps."""
@@ -98,12 +98,15 @@ class Lowering(ABC):
         return None
 
     def storage(self, method: Method) -> str:
-        """Return a header line for the emitted file, or ''. The line lists the values that a step stores."""
+        """Return a header line for the emitted file. The line lists the values that a step stores.
+
+        By default the result is ''.
+        """
         return ""
 
     @abstractmethod
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the problem for which :meth:`lower` forms the program.
+        """Return the argument ``problem`` of :meth:`lower` for a scene and a method.
 
         The family must accept the scene (:meth:`objection`). If ``method`` cannot be used on the scene,
         :class:`codegen.errors.MethodError` is raised.

@@ -26,7 +26,7 @@ class CayleyLowering(LinearLowering):
 
         The family accepts a scene if the equation has the form y' = A(t).y and the group has a Cayley map.
         """
-        # ``linear`` is the objection of the base class. For y' = A(t).y, the base class has no objection.
+        # If the equation does not have the form y' = A(t).y, ``linear`` is an objection.
         linear = super().objection(scene)
         group = scene.as_field().group
         if linear is not None or group.offers(CayleyMap) is not None:

@@ -77,7 +77,7 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
     if embedded is not None:
         second = embedded.commutator_free().update
         exponent = second_exponent(method.commutator_free(), second, method.ring)
-        # A low-storage scheme does not keep the stage values for a general embedded update.
+        # Other embedded methods need all stage values, but a low-storage scheme overwrites stage values.
         if exponent is None:
             return None
     # If ``holds`` is True, the scheme and the tableau define the same step.
@@ -133,7 +133,7 @@ def two_registers(
         return result
 
     def update() -> dict[str, Var]:
-        # The last exponential belongs to the update, because no later stage needs the last point.
+        # This call computes the new state exp(h B_s K_s) Y_s.
         advance(scheme.s - 1)
         if not sums:
             return {"y": state[-1]}

@@ -122,7 +122,7 @@ def _program(scene: Problem, method: Method) -> Program:
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
-        # The update uses f = omega(D, .). Its error is O(h) times the error of the computed xi.
+        # The update uses f = omega(D, .). The error of f is O(h) times the error of the computed xi.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     # The exact xi differs from f(y0) by O(h), so f(y0) is the initial guess.

@@ -1,7 +1,7 @@
 """Lowerings of splitting methods: a step on T*G is a sequence of exact flows of parts of a Hamiltonian.
 
-The sequence is called a word. A part is a sum of summands with exact flows. If the Hamiltonian depends on
-time, one autonomous summand is chosen. The flow of this summand also advances the time. During all other
+The sequence is called a word. Each part is a sum. Each summand has an exact flow. If the Hamiltonian depends
+on time, one autonomous summand is chosen. The flow of this summand also advances the time. During all other
 flows the time is constant.
 """
 
@@ -55,7 +55,7 @@ class Parts:
 
     @property
     def arranged(self) -> list[Summand]:
-        """The summands of all parts, in the order in which Phi* applies their flows (see :func:`pairs`).
+        """The summands of all parts, in the order for the function :func:`pairs`.
 
         A kick is a flow that changes only the momentum. If the scene is not a lattice, kicks come first,
         because the kicks of two successive steps can be joined. On a lattice, steps are not joined. There
@@ -70,9 +70,8 @@ class Parts:
 class Reading:
     """The flows in one step of a method on a scene.
 
-    ``word`` is the sequence of flows. ``carrier`` is the summand in ``word`` whose flow advances the time, or
-    None if the scene does not depend on time. ``conditions`` is the label of the family whose order
-    conditions apply.
+    ``word`` is the sequence of flows. ``carrier`` is the summand whose flow advances the time, or None if the
+    scene does not depend on time. ``conditions`` is the label of the family whose order conditions apply.
     """
 
     word: tuple[tuple[Summand, Number], ...]
@@ -163,13 +162,13 @@ class FlowLowering(Lowering):
         # The names t and h are reserved, because they are arguments of emitted code.
         builder = Builder({v.name for v in inputs} | {"t", "h"})
         for summand, duration in reading.word:
-            # The argument 1 is a power of h: the flow lasts ``duration`` step sizes.
+            # The argument 1 is the exponent of h: ``step`` is duration h^1.
             step = Coefficient(duration, 1)
             # All flows of one summand commute with each other, so their order does not matter.
             for name, flow in summand.flows:
                 # The time is constant during the flow of a time-dependent summand, so t is an argument.
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # The flow of the carrier does not contain t. After this flow, t is advanced.
+            # The summand ``carrier`` does not depend on t. After its flow, t is advanced.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
@@ -194,7 +193,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
 
 
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
-    """Return the sequence of flows of a composition, and the label of the family of its order conditions.
+    """Return the flows of a composition, and the label of the family whose order conditions apply.
 
     A step applies Phi* and Phi in turn. Phi is the product of the flows of all summands, and Phi* is the
     adjoint of Phi.

@@ -47,10 +47,7 @@ class LieElements:
     known: dict[Term, Scaled] = field(default_factory=dict)
 
     def exponent(self, target: str, combination: Combination) -> Var:
-        """Append an exponent of the step, and return its variable ``target``.
-
-        The value of this variable is the exponent itself, with all factors h.
-        """
+        """Append an exponent of the step, and return its variable ``target``."""
         # The argument 0 means that the sum is not divided by a power of h.
         return self._sum(target, combination, 0).var
 

@@ -60,7 +60,7 @@ class LinearLowering(FieldLowering):
             return super().problem(scene, method)
         # The derived scene is stored, because deriving it takes time.
         if "linear" not in scene.derived:
-            # The rate -dH/dt of the momentum u contains the state, so A omits the rate.
+            # The result has u' = 0 for the momentum u conjugate to time. ``_with_momentum`` updates u.
             scene.derived["linear"] = without_momentum_rate(scene)
         return scene.derived["linear"]
 
@@ -73,7 +73,7 @@ class LinearLowering(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step."""
-        # A step of the scene has no tableau, so its matrix is used directly.
+        # ``method.step`` is the name of a step defined by the scene. Such a step has no tableau.
         if method.step:
             return self._stated(problem, method)
         family = family_class(self.family)
@@ -88,7 +88,7 @@ class LinearLowering(FieldLowering):
         family().require(tableau, method.ring)
         y = Var("y", Kind.POINT)
         stages = Stages(problem, method, (y,))
-        # In y' = A(t).y, only constant coordinates of y may occur in A. All nodes use the initial y.
+        # The matrix A may contain constant coordinates of y, but no others. All nodes use the initial y.
         nodes = [stages.f(f"k{i + 1}", y, c) for i, c in enumerate(tableau.c)]
         values = LieElements(stages.builder, method, nodes, dict(tableau.elements))
         point = y
@@ -124,7 +124,7 @@ class LinearLowering(FieldLowering):
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder
 
-        # The object ``method`` contains only the name of the step, and the scene contains the order.
+        # The order is an attribute of the step in ``scene.steps``.
         if scene is None:
             raise MethodError(
                 f"the order of {method.label} is unknown without a scene",

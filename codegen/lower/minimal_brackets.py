@@ -25,7 +25,7 @@ A key contains the ring of the coefficients and the coefficients of the tableau 
 
 
 def bracket_program(method: Method) -> BracketProgram:
-    """Return the list of brackets and exponents of an ``rkmk`` method without a cut-off.
+    """Return the brackets and exponents of an ``rkmk`` method without a cut-off (a number of brackets).
 
     The method has the order of the Runge-Kutta method on R^n, with as few brackets as possible.
 
@@ -83,7 +83,7 @@ def lower(scene: Problem, method: Method) -> Program:
 
     def combination(name: str, row: Row) -> Var:
         terms = [
-            # Stage values are multiplied by h. Brackets contain the factors h of their arguments.
+            # Stage values are multiplied by h. Brackets already contain powers of h.
             (stages.times_h(x) if key[0] == "k" else Coefficient(stages.number(x)), values[key])
             for key, x in row.items()
         ]

@@ -105,7 +105,7 @@ class PartitionedLowering(Lowering):
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
                 # If the force does not depend on the momentum, it is evaluated at the old momentum.
                 if not by_momentum:
-                    # With ``mu`` in place of ``P``, the force no longer depends on unknown forces.
+                    # P depends on the unknown forces n_j, but ``mu`` is known.
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
                 velocities.append(v)
                 forces.append(f)

@@ -62,7 +62,7 @@ class MuntheKaas(FieldLowering):
         The result is None if ``method.cutoff`` is None, or if the coordinate map of the scene is not exp.
         The result is also None if the tableau is implicit or has no continuous extension.
         """
-        # The polynomial sigma(theta) is an exponent of exp, so other coordinate maps are excluded.
+        # The continuous extension is exp(sigma(theta)).y0 with a polynomial sigma.
         exact = problem.coordinates is None and method.cutoff is not None
         return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
 
@@ -70,7 +70,7 @@ class MuntheKaas(FieldLowering):
         """Return the family with the order conditions of the method.
 
         If the scene has a coordinate map other than exp, the result is the family ``rkmk`` without a cut-off.
-        If the map is exp and ``method.cutoff`` is None, the order conditions are for the brackets from
+        If the map is exp and ``method.cutoff`` is None, the family uses the brackets from
         :func:`codegen.lower.minimal_brackets.bracket_program`.
         """
         if scene is not None and scene.coordinates is not None:

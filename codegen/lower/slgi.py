@@ -42,8 +42,8 @@ class SymplecticIntegrator(VariationalLowering):
 
 # The operation dexp*_{-Y} replaces the two operations dexp*_Y Ad*_{exp(-Y)}.
 #
-# Let a = a_11, b = b_1 and x = h xi. For s = 1, the momentum M of the stage has two terms that contain the
-# force n. The following identity merges these terms:
+# Let a = a_11, b = b_1 and x = h xi. With one stage, two terms of the momentum M contain the force n. The
+# following identity merges these terms:
 #
 #     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x}.
 def _program(scene: Problem, method: Method) -> Program:
@@ -72,8 +72,8 @@ def _program(scene: Problem, method: Method) -> Program:
         return momenta
 
     def one() -> list[Var]:
-        """Append the momentum M of a method with one stage, and return its variable in a list."""
-        # M has one term with the force n (see the comment before ``_program``).
+        """For a method with one stage, append the momentum M to the program, and return [M]."""
+        # M = dexp*_{-b x} mu + h (b - a) dexp*_{-(b - a) x} n, where a = a_11, b = b_1 and x = h xi.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])

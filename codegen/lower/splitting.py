@@ -47,7 +47,7 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # Each summand counts as a separate part.
+        # If some part has several summands, each summand counts as a separate part.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
@@ -149,5 +149,5 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha
-    # The durations of A and of B have the same sum. The final value of ``carried`` is therefore zero.
+    # The durations of A and of B have the same sum. The final ``carried`` is the difference of these sums.
     return composed

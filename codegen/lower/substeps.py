@@ -80,13 +80,13 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
     The result is None if the step cannot be divided, or if the common tableau is explicit.
     """
-    # Objects of the class Number are compared exactly, even if they are balls (enclosing intervals).
+    # A comparison of two Number objects is always decided, even for balls (enclosing intervals).
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a stage before which the step can be divided. A group contains the stages k with
-    # cuts[m] <= k < cuts[m + wide], where m is a multiple of ``wide``.
+    # A cut is a stage before which the step can be divided. The cuts divide the stages into pieces. A group
+    # consists of ``wide`` successive pieces.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
-    # The loop begins with the smallest groups of stages. The first success gives the most substeps.
+    # The loop begins with the smallest groups of stages. Smaller groups give more substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
         # The number of cuts minus one is a multiple of ``wide``, so the last group is complete.
         ends = cuts[::wide]
@@ -100,9 +100,9 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
             [[x / total for x in row] for row in (*([A[i][j] for j in g] for i in g), [b[j] for j in g])]
             for g, total in zip(groups, sums, strict=True)
         ]
-        # ``scaled`` contains the tableau of each group of stages: its coefficients, divided by ``total``.
+        # ``scaled`` contains the tableau of each group of stages. All coefficients are divided by ``total``.
         first = scaled[0]
-        # A loop over explicit substeps would hide common subexpressions of successive substeps.
+        # Explicit substeps are excluded, because a loop would hide common subexpressions.
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]
             return RungeKutta(tuple(elements[:-1]), elements[-1]), tuple(sums)

@@ -1,8 +1,8 @@
 """Variational commutator-free methods on T*G.
 
 Each exponent is a linear combination of the velocities xi_j of the stages. In exponent J of stage i, xi_j has
-the coefficient alpha_iJ^j. In exponent J of the update, xi_j has the coefficient beta_J^j. The products of
-exponentials are
+the coefficient alpha_iJ^j (j is an index). In exponent J of the update, xi_j has the coefficient beta_J^j.
+The products of exponentials are
 
     X_iJ = h sum_j alpha_iJ^j xi_j,   E_i^J = exp(X_iJ) E_i^{J-1},   Q_i = E_i q0,
     Y_J = h sum_j beta_J^j xi_j,      e^J = exp(Y_J) e^{J-1}.
@@ -117,7 +117,7 @@ def _program(scene: Problem, method: Method) -> Program:
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
-                    # A quotient of equal intervals is exactly one, so the division precedes the product.
+                    # If row[i] == b[i], the class Number returns the exact quotient 1, even for intervals.
                     factor = stages.times_h(-(b[j] * (row[i] / b[i])))
                     terms.append((factor, stage.carried(build, i, J, nu[j])))
         return build.lin(f"M{i + 1}", Kind.DUAL, terms)
@@ -168,7 +168,7 @@ def _weights(method: Method, update: Rows, s: int) -> list[Number]:
     """
     b = []
     for i in range(s):
-        # On an abelian group, the exponents add, so b_i is the sum of the coefficients.
+        # The weight b_i is the sum of the coefficients of xi_i in all exponents.
         weight = Number.rational(0)
         for row in update:
             weight = weight + row[i]

@@ -39,8 +39,8 @@ class VariationalCrouchGrossman(VariationalLowering):
         return _program(problem, method)
 
 
-# For a_ji = b_i, b_j (a_ji/b_i) must be exactly b_j, even if the coefficients are balls (intervals). The
-# quotient a_ji/b_i is therefore computed before the product with b_j.
+# If a_ji = b_i, the product b_j (a_ji/b_i) must be exactly b_j, even for balls (intervals). The quotient
+# a_ji/b_i is therefore computed before the product with b_j.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs

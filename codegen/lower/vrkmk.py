@@ -11,8 +11,8 @@ stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-In general, the unknowns are v_i and m_i. If a_ji = 0 for all j <= i, this m_i is not an unknown. The program
-computes this m_i from the unknown Lambda and from lambda_j with j > i.
+In general, the unknowns are v_i and m_i. If a_ji = 0 for some i and all j <= i, m_i is not an unknown. The
+program computes this m_i from the unknown Lambda and from lambda_j with j > i.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class _Step(ExpandedStep):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]
                 own = build.lin(f"p{i + 1}", Kind.DUAL, terms)
-            # The multiplier m_i is b_i times a momentum, so the weight is divided out.
+            # M_i is computed from m_i / b_i (see the docstring of this module).
             weighted = build.lin(f"w{i + 1}", Kind.DUAL, [(Coefficient(ONE.value / b[i]), own)])
             # The argument ``weighted`` is a covector, so ``dexpinv`` applies the dual of dexp^{-1}.
             M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
@@ -83,7 +83,7 @@ class _Step(ExpandedStep):
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
             # With different cut-offs in v_i and M_i, the step would not be symplectic.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # The vector P*_(r)(X_i, xi_i) m_i in lambda_i is zero for r = 0.
+            # The vector ``slope`` is P*_(r)(X_i, xi_i) m_i (see the module docstring). It is zero for r = 0.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
             # A small change d of X_i moves Q_i = exp(X_i) q0 by dexp_{X_i} d. Hence the force n_i occurs in

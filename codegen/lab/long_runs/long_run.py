@@ -63,8 +63,7 @@ class LongRun:
     - ``reversals``: two pairs (n, d), or () if not measured. After n steps forward and n steps back, d is the
       distance from the initial state. The number n is about a hundredth of ``steps`` in the first pair, and
       ``steps`` in the second.
-    - ``symplectic``: the largest symplectic defect of steps from several states, or None if it was not
-      measured.
+    - ``symplectic``: the largest symplectic defect of three steps, or None if it was not measured.
     - ``failure``: the message of a step that failed, or ''. The results describe the steps before the
       failure.
     - ``rounding``: the growth of rounding errors in the quantities that the method conserves exactly.

@@ -85,7 +85,7 @@ class Growth:
         - ``random walk or systematic``: the interval contains 1/2 and 1.
         - ``neither law``: no other case applies.
 
-        The tests for 1/2 and 1 use a half width of at least 0.1.
+        For the tests of 1/2 and 1, a half width below 0.1 is replaced by 0.1.
         """
         if self.exponent + self.half_width < 0.25:
             return "bounded"
@@ -109,9 +109,8 @@ class Growth:
 def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
     """Measure how rounding errors grow in every exactly conserved quantity over ``steps`` steps.
 
-    For each quantity, the result contains one item without compensated summation. If the method can use
-    compensated summation, a second item is for steps with compensated summation. If a run fails, the result
-    is empty.
+    For each quantity, the result contains one item without compensated summation. If possible, the result
+    also contains one item with compensated summation. If a run fails, the result is empty.
     """
     scene, plain = compiled.scene, Emitted(compiled)
     domain = PreciseDomain(0, DIGITS)

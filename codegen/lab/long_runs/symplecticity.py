@@ -37,7 +37,7 @@ SWEEPS = 40
 """The largest number of fixed-point iterations for each system of implicit equations in a step."""
 
 LEFT = 0.5
-"""After a larger relative deviation of a conserved quantity, no symplectic defect is computed."""
+"""The largest permitted relative deviation of a conserved quantity (:func:`largest_defect`)."""
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:

@@ -163,7 +163,7 @@ def array_functions(
 
     ``kept`` contains the expressions of each quantity, by default those of the conserved quantities of the
     scene. The functions return infinity in place of values that are not finite. The symbols in ``swept`` are
-    parameters. The values of each parameter are an additional row of the array of states.
+    parameters. Each parameter adds one row of values to the array of states.
     """
     symbols = (*scene.symbols, *swept)
 

@@ -98,9 +98,9 @@ class Advice(Measurement[Recommendations]):
     part_of = "cost"
 
     def run(self, subject: Subject) -> Recommendations:
-        """Return the fastest methods, and the properties of the methods that the report measures.
+        """Return the fastest methods, and the properties of the measured methods.
 
-        The search considers the methods that the user named, by default the whole library.
+        The search considers the methods named by the user. Without names, it considers the whole library.
         """
         cost = Cost().result(subject)
         known = [features(m.compiled, m.artifact) for m in subject.compiled.measured]
@@ -182,7 +182,7 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Add other methods to the lines of an unfinished search, and return the new lines.
+    """Return ``lines``, the result of an unfinished search, with faster methods from ``known``.
 
     ``known`` contains the properties of the other methods, and ``entries`` contains runs. A faster method in
     ``known`` that satisfies the requirement replaces the method of the search. Requirements on long times are
@@ -206,7 +206,7 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return a copy of ``line`` in which no method is slower than the method for a smaller error."""
+    """Return a copy of ``line``. A faster method for a smaller error replaces a slower method."""
     best = list(line.best)
     for i in reversed(range(len(best) - 1)):
         entry, smaller = best[i], best[i + 1]
@@ -216,7 +216,7 @@ def monotone(line: Line) -> Line:
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return a tuple with one :class:`Line`: the fastest peers (other integrators) for all errors.
+    """Return a tuple with one :class:`Line`: the fastest peer (other integrator) for each error.
 
     If no peer was measured, the tuple is empty.
     """

@@ -112,7 +112,7 @@ class Conditions(Measurement[ConditionTables]):
 
 
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
-    """Return a pair (family, n) for each family whose conditions of the orders 1 to n are shown.
+    """Return pairs (family, n). The report shows the conditions of the family for the orders 1 to n.
 
     The number n is the minimum of DEEPEST and the highest order among the methods of the family.
     """

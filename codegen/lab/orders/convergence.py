@@ -25,7 +25,7 @@ ROUNDING = "rounding"
 UNPROVED = ("stated", "claimed")
 """The values of ``certificate`` for an order that is not proved by order conditions.
 
-If the observed order agrees with an unproved order, very short steps test the order a second time.
+If the observed order agrees with an unproved order, the order is tested again with very short steps.
 """
 
 FEWEST = 4
@@ -57,8 +57,8 @@ class Convergence:
     def observed(self) -> float | None:
         """The observed order, or None if there is no slope.
 
-        If :attr:`limit` (an upper bound) is below the stated order, the observed order is the slope between
-        the first and the last usable run. Otherwise, the observed order is the last slope.
+        If :attr:`limit` is below the stated order, the observed order is the slope between the first and the
+        last usable run. Otherwise, the observed order is the last slope.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:

@@ -85,8 +85,8 @@ class FrozenFields:
     def tree(self, tree: Tree) -> Vector:
         """Return the elementary differential F(t) of a tree t.
 
-        F(t) is a derivative of the field f. For each branch b of t, f is differentiated once along the vector
-        field y -> F(b).y with constant F(b).
+        F(t) is a derivative of the field f. For each branch b of t, let x be F(b) at the initial point. Then
+        f is differentiated once along the vector field y -> x.y.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
@@ -97,8 +97,8 @@ class FrozenFields:
     def forest(self, forest: Forest) -> Vector:
         """Return the elementary differential of an ordered forest.
 
-        For each tree t of the forest, the coordinates of y are differentiated once along the vector field
-        y -> F(t).y with constant F(t).
+        For each tree t of the forest, let x be F(t) at the initial point. Then the coordinates of y are
+        differentiated once along the vector field y -> x.y.
         """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)

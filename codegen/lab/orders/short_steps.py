@@ -25,7 +25,7 @@ from codegen.lower import problem_for
 
 DIGITS = 100
 SMALLEST = 70
-"""Defines the shortest step size h for order p and a time span of length T: (h/T)^(p+2) = 10^-SMALLEST.
+"""The shortest step size h satisfies (h/T)^(p+2) = 10^-SMALLEST for the order p and the time span T.
 
 The number 10^-SMALLEST is much larger than the rounding errors of arithmetic with 100 digits.
 """

@@ -20,7 +20,7 @@ LEAST = 1e-17
 """Deviations smaller than LEAST are drawn as LEAST."""
 
 GROWS = 1.02
-"""Between successive points of a curve, the largest deviation grows by about this factor or more."""
+"""A point is drawn when the largest deviation reaches a new value LEAST GROWS^k, with k an integer."""
 
 
 def draw(figure: Deviation, source: Source) -> Drawn:

@@ -57,7 +57,7 @@ class _Sheet:
 
     @classmethod
     def of(cls, frame: numpy.ndarray, points: numpy.ndarray, top: float) -> _Sheet:
-        """Return the map from space to a picture with the coordinate axes and the given points.
+        """Return the map from space to a picture. The picture shows the coordinate axes and the given points.
 
         The points are the columns of ``points``.
         """

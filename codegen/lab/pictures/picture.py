@@ -1,4 +1,4 @@
-"""A class for drawn pictures, each with a note for the caption and with the numbers in the picture."""
+"""A class for drawn pictures. Each picture has a note for its caption."""
 
 from __future__ import annotations
 

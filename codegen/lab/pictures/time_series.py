@@ -1,7 +1,7 @@
 """Draws quantities of the runs of a figure against time.
 
 The first quantity along the reference run is drawn as a separate line. If the attribute ``difference`` of the
-figure is True, the values on this line are subtracted from all quantities instead.
+figure is True, this line is omitted, and its values are subtracted from all quantities.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The approximate limit on the CPU time of a run forward, or of a run back, in seconds.
+"""The approximate limit on the CPU time of the steps in one direction, in seconds.
 
 If the steps in one direction would take longer than the limit, the number of steps is reduced.
 """
@@ -34,9 +34,9 @@ class Endurance:
     - ``returned``: the distance of the final state from the initial state after a run forward and back.
     - ``failure``: the error message of the integrator if a step failed.
 
-    The test detects failures without an error message. A run with an error message passes. A complete run
-    forward passes if ``defect`` is None, or at most 64 ``steps`` 2^-53 (a bound for rounding errors). A
-    complete run forward and back passes if ``returned`` is finite. A large ``returned`` is permitted.
+    The test detects only unreported failures. A run with an error message passes. A complete run forward
+    passes if ``defect`` is None, or at most 64 ``steps`` 2^-53 (a bound for rounding errors). A complete run
+    forward and back passes if ``returned`` is finite. A large ``returned`` is permitted.
     """
 
     name: str

@@ -12,8 +12,8 @@ There are three verdicts:
 - *undetermined*: rounding can cause the error, and fewer digits are correct.
 
 Correct digits are counted separately for each component (for example a group element) of the state. Implicit
-equations can have several solutions. To find the solution of the emitted code, the interpreter starts
-Newton's method at this solution.
+equations can have several solutions. The interpreter therefore starts Newton's method at the solution found
+by the emitted code.
 """
 
 from __future__ import annotations
@@ -173,7 +173,7 @@ def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple
 
 
 def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
-    """Evaluate the vector field at (state, t), and return the norm of this element of the Lie algebra."""
+    """Return the norm of the vector field at (state, t), an element of the Lie algebra."""
     field = compiled.scene.as_field()
     domain = FloatDomain(0.0)
     (value,) = field.apply(domain, "field", None, (tuple(state), t))
@@ -283,8 +283,8 @@ class Rounding(BallDomain):
     """Arithmetic with many digits that adds one rounding error of a double to the result of every operation.
 
     The signs of the errors are random, but the error of a repeated operation keeps its sign. Otherwise the
-    equations of an implicit method would change in each iteration. The errors are relative. The right-hand
-    side of an implicit equation gets a second error, relative to the right-hand side of another equation.
+    equations of an implicit method would change in each iteration. The errors are relative. In a system of
+    implicit equations, right-hand side k also gets an error relative to right-hand side k + 1.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:

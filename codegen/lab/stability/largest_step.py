@@ -47,7 +47,8 @@ class Limit:
 def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
     """Return the largest usable step size of a compiled method.
 
-    The step size is T/n, where T is the length of the time span. A run with n - 1 steps is not usable.
+    The step size is T/n, where T is the length of the time span. If n > 1, the longer step size T/(n - 1) is
+    not usable.
     """
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "the length of the time span; a single step over the whole span is usable", 0, 1
