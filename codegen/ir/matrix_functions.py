@@ -25,8 +25,8 @@ class MatrixExponential(VectorFunction):
     """The exponential of an n x n matrix, and its derivatives (:mod:`codegen.ir.matrix_exponential`).
 
     For ``level`` = 0 the function maps a matrix A to exp(A). For ``level`` = 1 the arguments are A and a
-    derivative of A, and the results are exp(A) and the derivative of exp(A). Each further level doubles both
-    lists: a derivative of each entry is appended.
+    derivative of A, and the results are exp(A) and the derivative of exp(A). For ``level`` = k,
+    both lists contain the entries for ``level`` = k - 1, followed by the derivatives of these entries.
     """
 
     n: int
@@ -56,7 +56,7 @@ class MatrixExponential(VectorFunction):
         next_level = MatrixExponential(self.n, self.level + 1)
         expanded = next_level.expanded(both)
         results = space.vector(next_level.name, both) if expanded is None else expanded
-        # The second half of the results of the next level contains the derivatives.
+        # ``results`` contains the values of this function, then their derivatives.
         return tuple(results[self.size :])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
@@ -102,8 +102,8 @@ class MatrixExponential(VectorFunction):
         nilpotent.
         """
         # The matrix C of the constant terms of A satisfies C^n = 0. A power of the jet is a sum of products.
-        # A non-zero product has fewer than n successive factors C. At most ``ring.order`` of its factors
-        # contain h, and at most ``level`` of its factors are derivatives.
+        # A non-zero product has fewer than n successive factors C. It has at most ``ring.order`` + ``level``
+        # other factors: factors with h, and derivatives.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 

@@ -62,7 +62,7 @@ class BilinearFunction(VectorFunction):
         space = args[0].space
         # The derivative is f(E, b) or f(a, E), where E has a 1 at this entry and zeros elsewhere.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
-        # E replaces a or b. ``half`` is the slice of the replaced entries in ``args``.
+        # ``half`` is the slice of the replaced entries in ``args``.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]

@@ -80,7 +80,7 @@ class Multiplier:
             # At 0, POWER has the value 0, EXP has the value 1, and PHI and BERNOULLI have the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # A multiple of z is stored as the monomial z with the coefficient ``scale``.
+            # ``scale`` becomes the coefficient of the monomial z.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -280,7 +280,7 @@ class ModeStep:
 
     @property
     def growth(self) -> int:
-        """The exponent p in a bound of the functions of z in the coefficients (:attr:`Table.multiplier`).
+        """The exponent p of the bound C (1 + |z|)^p for the functions :attr:`Table.multiplier` of z.
 
         For z < 0, the absolute value of each function is at most C (1 + |z|)^p with a constant C. If
         :attr:`backwards` is true, p has no meaning.

@@ -78,7 +78,7 @@ class NormalForms:
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
-        """Expand ``root`` as a polynomial, and apply the relations to its products until no relation applies.
+        """Return ``root`` as an expanded polynomial, simplified by the ``relations`` of the constructor.
 
         :class:`TooLong` is raised if a product in the expansion has too many terms.
         """
@@ -166,7 +166,7 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # Equal products are added to one term, so the limit for pairs is larger than ``MOST_TERMS``.
+        # Different pairs of terms may have equal products. Equal products form one term.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}

@@ -3,8 +3,8 @@
 Rational and algebraic numbers are stored exactly. Each other number is stored as a ball (an interval that
 contains the number).
 
-Two balls with equal end points are treated as the same number (:attr:`Number.key`). If both operands are the
-same number, their difference is exactly 0. The quotient of two equal non-zero numbers is exactly 1.
+Two balls with equal end points are treated as the same number (:attr:`Number.key`). The difference of two
+equal numbers is exactly 0. The quotient of two equal non-zero numbers is exactly 1.
 """
 
 from __future__ import annotations

@@ -124,7 +124,7 @@ class Zero(Operation):
         return NONE, (self.kind,)
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True for no arguments and one result of the kind ``kind``, if ``kind`` has a zero vector."""
+        """Return True if ``arguments`` is (), ``results`` is (``kind``,), and ``kind`` has a zero vector."""
         # Groups and manifolds have no zero vector, so ``kind`` must be the algebra or its dual.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
@@ -212,7 +212,7 @@ class OfGroup(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results of the function called :attr:`function` for the arguments ``args``."""
-        # These functions are not truncated, so the argument ``order`` is None.
+        # None means that the function is not a truncated series.
         return problem.apply(domain, self.function, None, args)
 
 

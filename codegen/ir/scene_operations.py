@@ -158,8 +158,8 @@ class Bivector(OfGroup):
 class TaylorStep(Operation):
     """The Taylor polynomial of the solution about the time t, evaluated at t + h.
 
-    The arguments are the state y at the time t and, if ``timed`` is true, t. The result and y may
-    have different coordinates (:mod:`codegen.scene.evolution`).
+    The arguments are the state y at the time t and, if ``timed`` is true, t. The module
+    :mod:`codegen.scene.evolution` chooses the coordinates of the result.
     """
 
     degree: int

@@ -47,7 +47,7 @@ def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign
         return x
     if function == ABSOLUTE:
         return -x if order < 0 else x
-    # The second formula includes the boundary x = 0.
+    # For x = 0, the result is ``args[2]``.
     return args[1] if order > 0 else args[2]
 
 

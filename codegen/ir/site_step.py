@@ -65,8 +65,8 @@ class Sweep:
 
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
-    - ``outside`` is a kernel for sites at the boundary of the lattice. If a neighbour does not exist, output
-      k of ``outside`` replaces the number of the load ``read_outside[k]``.
+    - ``outside`` is a kernel for sites at the boundary of the lattice. Its output k is the value of
+      ``read_outside[k].symbol`` if the neighbour does not exist.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
       single sites, ``axis`` is :data:`OWN`. The second site of a pair is the neighbour with the index 0. The
       second half of ``stores`` contains the rows for the second site.
@@ -101,7 +101,7 @@ class Sweep:
     @property
     def rows_read(self) -> tuple[Row, ...]:
         """The rows that the sweep reads, without duplicates."""
-        # Numbers with the array name ``EXISTS`` are computed. They are not in memory.
+        # The flags ``EXISTS`` are computed at each site. They are not in memory.
         return tuple(dict.fromkeys(load.row for load in self.loads if load.row.array != EXISTS))
 
     @property
@@ -114,9 +114,9 @@ class Sweep:
 class SiteNewton:
     """The matrix of Newton's method for implicit equations u = g(u) on a chain of sites.
 
-    The matrix is the derivative of u - g(u) with respect to u, to first order in the step size h. Each site
-    has ``size`` unknowns. For each site, ``kernel`` computes three square blocks: the derivatives with
-    respect to the unknowns of the left neighbour, of the site, and of the right neighbour.
+    The matrix is the Jacobian matrix of u - g(u), expanded to first order in the step size h. Each site has
+    ``size`` unknowns. For each site, ``kernel`` computes three square blocks: the derivatives with respect to
+    the unknowns of the left neighbour, of the site, and of the right neighbour.
 
     In an open chain, the symbol with the name ``exists[k]`` is 1 if the neighbour with the index k in
     :attr:`SiteStep.offsets` exists, and 0 otherwise.
@@ -149,7 +149,7 @@ class SiteNewton:
         # The matrix of a periodic chain is not block-tridiagonal, because the last site is a neighbour of the
         # first site.
         if periodic:
-            # Linear equations are solved for n right-hand sides: the columns for the last site's unknowns.
+            # In this case, n additional linear systems are solved, one for each unknown of the last site.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written
@@ -337,7 +337,7 @@ def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     If a sweep reads a number several times, the number counts once, because it remains in the cache.
     """
     listed = list(sweeps)
-    # The stopping test reads the rows ``measured``. Each sum in ``sums`` reads the row of its terms.
+    # The stopping test reads the rows ``measured``. Each sum in ``sums`` reads one row.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 

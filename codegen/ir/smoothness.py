@@ -44,7 +44,7 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
-            # The selections in the arguments of the node are already replaced.
+            # In ``args``, selections from ``nodes`` are already replaced by their formulas.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:
@@ -76,7 +76,7 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         return function.on_interval(domain, x, side), margins
     # Each tuple contains the formulas for x <= 0 and for x > 0, in this order.
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
-    # Side 1 requires x > 0, and side 0 is certain if -x > 0.
+    # For x > 0, formula 1 is selected. For -x > 0, formula 0 is selected.
     return value, [x if side else -x]
 
 

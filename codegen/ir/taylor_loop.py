@@ -35,8 +35,8 @@ from codegen.ir.taylor_series import (
 )
 
 ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
-"""The names of four symbols in the loop over n. They denote n, 1/n, 1/(n + 1), and Taylor coefficient n of
-the time. Coefficient n of the time is 1 for n = 1, and 0 for n > 1.
+"""The names of four symbols in the loop over n. They denote n, 1/n, 1/(n + 1), and coefficient n of the
+Taylor series of the time t. Coefficient n of the time is 1 for n = 1, and 0 for n > 1.
 """
 
 PROBED = 3
@@ -162,7 +162,9 @@ class _Loop:
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return ``x`` if ``x`` is a number, otherwise a symbol. ``x`` is computed before the loop."""
+        """Return ``x`` if ``x`` is a number, otherwise a symbol. The value of the symbol is computed
+        before the loop.
+        """
         if x.op == "const":
             return x
         if x.id not in self.positions:
@@ -201,7 +203,7 @@ class _Loop:
             case Sum(a=a, b=b, minus=minus):
                 x, y = (self.known[id(s)] for s in (a, b))
                 if x is None or y is None:
-                    # If an operand is constant in time, its coefficient n is zero for n > 0.
+                    # A constant operand contributes only to coefficient 0.
                     return _known(x) if y is None else -y if minus else y
                 return x - y if minus else x + y
             case Multiple(number=number, a=a):
@@ -213,11 +215,11 @@ class _Loop:
                 # The terms a_0 a_n and a_n a_0 are equal, so one of them is doubled.
                 return self.inner(a, a) + space.const(Number.rational(2)) * (self.value(a.term(0)) * x)
             case Slope(a=a):
-                # Differentiation multiplies a_n by n, and the factor s restores the power s^n.
+                # Let s be the variable of the series a. The series s a' has the coefficients n a_n.
                 return space.sym(ORDER) * _known(self.known[id(a)])
             case Quotient(a=a, b=b):
                 x = self.known[id(a)]
-                # A constant divisor b has no sum in the recurrence, so q_n = a_n/b_0.
+                # For a constant divisor b, coefficient n of the quotient is a_n/b_0.
                 if self.known[id(b)] is None:
                     return self.value(series.inverse) * _known(x)
                 # The quotient ``series.inverse`` = 1/b_0 is computed before the loop, because a division in
@@ -228,7 +230,7 @@ class _Loop:
                 return self.function(series)
 
     def function(self, series: Series) -> Expr:
-        """Return coefficient n of ``series``, for example of a root, a power or a sine."""
+        """Return coefficient n of ``series`` (a root, a power, a sine or another function)."""
         space = self.space
         match series:
             case Root(a=a):
@@ -236,8 +238,8 @@ class _Loop:
                 # 0 < j < n.
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # For the power p = a^e, p_n = ((e + 1) u/n - v)/a_0. The sums over 0 < j <= n are u and v: u
-                # has the terms j a_j p_{n-j}, and v has the terms a_j p_{n-j}.
+                # For the power p = a^e, let u be the sum of j a_j p_{n-j} and v the sum of a_j p_{n-j} over
+                # 0 < j <= n. Then p_n = ((e + 1) u/n - v)/a_0.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -249,7 +251,7 @@ class _Loop:
                 mean = space.sym(INVERSE) * self.beyond(slope, other)
                 return -mean if minus else mean
             case Chosen(test=test, a=a, b=b):
-                # For all n, a is selected if ``test`` is positive at the beginning of the step, otherwise b.
+                # If ``test`` is positive at the beginning of the step, the result is a_n, otherwise b_n.
                 pair = (space.zero if x is None else x for x in (self.known[id(a)], self.known[id(b)]))
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
@@ -258,7 +260,7 @@ class _Loop:
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
-                # A constant coordinate has the derivative 0, so only one of the two terms remains.
+                # If x is constant, q x' is zero. If y is constant, p y' is zero.
                 (mean,) = means
                 return space.sym(INVERSE) * (mean if self.known[id(slopes[0])] is not None else -mean)
             case Antiderivative(slope=slope, rate=rate):
@@ -287,7 +289,7 @@ def _operands(series: Series) -> Sequence[Series]:
         case Angle(slopes=slopes):
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
-            # Coefficient n of a logarithm depends only on lower coefficients of ``slope``.
+            # Coefficient n of ``slope`` does not occur in the formula for the logarithm.
             return (a,)
         case Given() | Start():
             return ()

@@ -116,7 +116,7 @@ class _Builder:
                 return constants[0] / c, x, -e
             case "pow":
                 ((c, x, e),) = parts
-                # For e = 1, the node is not rewritten. The power is computed by repeated squaring.
+                # For e = 1, the node is not rewritten.
                 if e == 1:
                     return plain
                 for _ in range(node.payload - 1):

@@ -201,7 +201,9 @@ class Slope(Series):
         self.a = a
 
     def following(self, n: int) -> Coefficient:
-        """Return n a_n, where a_n is coefficient n of the series a. For n = 0, return None."""
+        """Return n a_n, where a_n is coefficient n of the series a. The result None for n = 0
+        represents zero.
+        """
         # The factor n is zero for n = 0, so coefficient 0 is identically zero.
         return _scaled(self.domain, Number.rational(n), self.a.term(n)) if n else None
 
@@ -265,7 +267,7 @@ class Antiderivative(Series):
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # The series ``rate`` may depend on f(a). Only its coefficients 0, ..., n - 1 are needed.
+        # Only the coefficients r_0, ..., r_{n-1} are needed. They contain only lower coefficients of f(a).
         return _mean(self.domain, self.slope, self.rate, n)
 
 
@@ -312,7 +314,7 @@ class Angle(Series):
         """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
-        # The ``means`` are the sums of j y_j p_{n-j}/n and of j x_j q_{n-j}/n over 0 < j <= n.
+        # The sum is computed in two parts: the terms with y_j, and the terms with x_j.
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
         return _subtract(*means)
 

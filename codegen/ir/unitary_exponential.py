@@ -91,7 +91,8 @@ class SpecialUnitaryExponential(VectorFunction):
         ``args`` are the coordinates of X, and ``rates`` are their derivatives.
         """
         zero = args[0].space.zero
-        # ``embedded`` is linear in the coordinates, so ``embedded`` of ``rates`` is the derivative.
+        # The function ``embedded`` is linear, so ``embedded(rates, zero)`` is the derivative of
+        # ``embedded(args, zero)``.
         both = (*embedded(args, zero), *embedded(rates, zero))
         # ``MatrixExponential(n, 1)`` returns the entries of the exponential, then the entries of its first
         # derivative.
@@ -246,7 +247,7 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         # The entries (j, k) of the two linear combinations are p + i q and r + i s.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
-        # Both matrices are Hermitian. Their entries (k, j) are p - i q and r - i s.
+        # The two linear combinations are Hermitian. Their entries (k, j) are p - i q and r - i s.
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
         real[ROWS * k + j], imaginary[ROWS * k + j] = p + s, r - q
     return [*real, *imaginary]

@@ -73,7 +73,7 @@ def component(payload: str) -> tuple[VectorFunction, int] | None:
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)
     """
-    # Only the name of a result of a vector function contains a dot.
+    # In ``inverse5.7``, the name of the function precedes the dot, and 7 is the index.
     name, dot, index = payload.partition(".")
     function = vector_function(name) if dot else None
     return None if function is None else (function, int(index))

@@ -246,7 +246,7 @@ class _Builder:
             self.body.append(Multiplication(target, columns, displacement, added=True))
 
     def evaluated(self, target: Var, point: Var, *time: Var) -> Matrix:
-        """Append statements for the field value B S B^T at ``point``. Return the matrix S, called core."""
+        """Append statements for the field value B S B^T at ``point``, and return S. B is ``basis``."""
         n, k, name = self.matrices.rows, self.k, target.name
         displacement, x = self.points[point], self.argument
         if displacement is not None:
@@ -274,7 +274,7 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append the computation of the matrix S in the field value B S B^T at a point X, and return S.
+        """Append the computation of a matrix S, and return S. The field at a point X has the value B S B^T.
 
         The point is X = X_0 + B D with the ``displacement`` D. If D is zero, ``displacement`` is None. The
         matrix W consists of the k columns of B that begin at the index ``first``. The field at X is the
@@ -330,7 +330,7 @@ class _Builder:
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
         """Append the computation of a linear combination of the matrices in ``terms``, and return the result.
 
-        The result has the size of the largest matrix.
+        Smaller matrices are extended by zeros to the size of the largest matrix.
         """
         # A smaller core S is extended by zero rows and columns, which do not change the element B S B^T.
         size = max([m.rows for _, m in terms], default=self.k)
@@ -370,7 +370,7 @@ class _Builder:
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
         """Append the computation of the point exp(B S B^T) X = X_0 + B D, where ``core`` is S. Return D.
 
-        ``start`` is the displacement of X, or None if the displacement is zero.
+        ``start`` is the displacement D_0 of the point X = X_0 + B D_0, or None if D_0 is zero.
         """
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)

@@ -77,7 +77,7 @@ class Assignments:
                     inside.append(Let(name, value))
             # If ``block.leading`` is false, Newton's matrix can use names from the loop body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # In the last sweep, Newton's method changes the unknowns after the loop body. If ``recomputed``
+            # At the end of a sweep, the values of the body belong to the old unknowns. If ``recomputed``
             # is true, the values of the body are computed again after the loop.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
@@ -130,18 +130,18 @@ class Assignments:
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a first value depends on the unknowns of a loop")
         for node in walk(values):
-            # A step can skip the start statement, so the values in ``later`` are assigned before it.
+            # Some steps skip the start statement. Values in ``later`` are assigned before this statement.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
-        # The start statement can be skipped, so the loops and the outputs must not use its names.
+        # The loops and the outputs must not use the names in ``own``.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 
     def _newton(self, block: Block) -> Newton:
         """Return the matrix of Newton's method for ``block``, and the assignments that compute it."""
-        # ``done`` is restored below, so no other statement uses the names in ``own``.
+        # Other statements must not use the names in ``own``, so ``done`` is restored below.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before

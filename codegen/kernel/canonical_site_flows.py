@@ -31,8 +31,8 @@ Word = Sequence[tuple[Summand, Number]]
 COPY = "the state is copied"
 """The description of a sweep that copies the state.
 
-A copy is added before the first sweep if the first sweep reads neighbours or visits pairs of sites. By the
-same rule, a copy is added after the last sweep.
+A copy is added before the first sweep if the first sweep reads neighbours or visits pairs of sites. A copy is
+added after the last sweep if the last sweep reads neighbours or visits pairs of sites.
 """
 
 
@@ -104,7 +104,7 @@ def _copy(scene: Problem, label: str) -> Sweep:
 def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
     """Return the sweep for flows that act on each site separately.
 
-    In the kernel of the sweep, all durations are multiples of the first duration h.
+    In the kernel of the sweep, h denotes the duration of the first flow in ``run``.
     """
     ends = _moved(scene, SharedArguments(), run)
     loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))

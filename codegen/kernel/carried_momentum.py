@@ -1,9 +1,9 @@
 """Conversion of the momentum between the space frame and the body frame.
 
 Emitted code is compiled from a program. If only the emitted code uses the body frame, each step converts the
-momentum. If only the program uses the body frame, the momentum is converted before the first step and after
-the last step (:class:`codegen.ir.kernel.Carried`). In this case, the option ``whole`` makes each step convert
-the momentum instead.
+momentum. Suppose that the program uses the body frame, and the caller uses the space frame. Then the momentum
+is converted before the first step and after the last step (:class:`codegen.ir.kernel.Carried`). In this
+case, the option ``whole`` makes each step convert the momentum instead.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Frames:
     """The frames of the momentum in a program and in emitted code.
 
     ``whole`` matters only if the program uses the body frame and the emitted code uses the space frame. If
-    ``whole`` is true, each step converts the momentum.
+    ``whole`` is true, each step converts the momentum to the body frame and back.
     """
 
     scene: Problem
@@ -72,7 +72,7 @@ class Frames:
         if not self.whole:
             return new
         # ``outward`` converts the momenta in ``start`` and ``new`` to the space frame. The difference of
-        # the results is added to the old momentum.
+        # these two momenta is added to the momentum in ``state``.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 

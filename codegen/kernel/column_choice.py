@@ -42,10 +42,10 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # Without flows and T*G, the kernel is the same for all implementations of the group.
+    # If neither flows nor T*G are used, all variants of the group give the same kernel.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # A deferred flow cannot sample the run-time inputs of each step.
+    # With run-time inputs, no flow is deferred: the inputs can change in each step.
     parted = None if scene.inputs else part(program, scene)
     # Deferred flows are applied once in a run of many steps, so their cost is neglected.
     core = program if parted is None else parted.core

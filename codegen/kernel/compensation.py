@@ -1,7 +1,7 @@
 """Compensated steps: the state together with the rounding error of each coordinate (Kahan summation).
 
-The carry is the stored rounding error of the sum y0 + d. A step with the increment d computes s = d + carry,
-y1 = y0 + s and the new carry s - (y1 - y0).
+The carry is the rounding error in the addition of the previous step. A step from y0 with the increment d
+computes s = d + carry, y1 = y0 + s and the new carry s - (y1 - y0).
 
 The increment of a step exp(x) y0 of a group action is (exp(x) - 1) y0, and exp(x) - 1 is computed without
 cancellation.
@@ -84,7 +84,7 @@ def with_carries(kernel: Kernel) -> Kernel:
         state=(*kernel.state, *fields),
         body=_live(body, (*sums, *carries)),
         outputs=(*sums, *carries),
-        # A flow outside of the steps would not update the carries, so no flow is deferred.
+        # Flows before or after the steps would not update the stored rounding errors.
         deferred=None,
         estimate=None,
         vary=None,

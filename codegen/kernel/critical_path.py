@@ -31,7 +31,7 @@ ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
 
 SLACK = 1
-"""A chain of operations is rewritten if the longest chain exceeds it by at most this limit.
+"""A chain of operations is rewritten if its length is at least the maximal length minus ``SLACK``.
 
 The unit is the latency of an addition. The limits 0, 2 and 4 give the same emitted files. Without a limit,
 the code of the splitting methods on fast_heavy_top changes.
@@ -65,14 +65,15 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     for let in lets:
         times.append(_measured(let.value, ready))
         ready[let.value.space.sym(let.name).id] = times[-1]
-    # A value is never ready before its arguments. Assignments with equal times keep their order.
+    # The sorted order is valid, because no value is ready before its arguments. Assignments with equal times
+    # keep their order.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 
 def _measured(root: Expr, ready: dict[int, int]) -> int:
     if root.id in ready:
         return ready[root.id]
-    # ``walk`` stops at nodes with known times, and also yields these nodes.
+    # ``walk`` also yields nodes with known times, but not the arguments of these nodes.
     for node in walk([root], lambda n: n.id in ready):
         if node.id not in ready:
             ready[node.id] = max((ready[a.id] for a in node.args), default=0) + TIMES[node.op]
@@ -162,14 +163,15 @@ class _Chains:
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # If ``node`` is linear and has the same level, its expansion includes ``arg``.
+                # If ``node`` is linear in ``arg`` and has the level ``late``, both are expanded together.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return ``node`` as a :data:`Sum`. The late factors are nodes with the given ``level``."""
-        # When ``node`` is expanded, ``self.new[node.id]`` changes. Therefore its id is part of the key.
+        """Return ``node`` as a :data:`Sum`. Its keys are nodes of the given ``level``, or None."""
+        # When ``node`` is expanded, ``self.new[node.id]`` changes. Therefore the id of
+        # ``self.new[node.id]`` is part of the key.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -177,7 +179,7 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # A node with a level below ``level`` contains no late factor.
+        # A node of a lower level contains no node of the level ``level``.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
@@ -187,7 +189,7 @@ class _Chains:
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
-                # Products with the same late factor c are added: c x + c y = c (x + y).
+                # Products with the same key c are combined: c x + c y = c (x + y).
                 total[atom] = self._joined(total[atom], term) if atom in total else term
             return total
         if node.op == "mul":
@@ -201,11 +203,11 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # Each other node is a late factor of the :data:`Sum`.
+        # Other nodes are not expanded. The sum has one product: the node times 1.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Return the sum of ``a`` and ``b``. These values of a :data:`Sum` have the same key."""
+        """Return the sum of ``a`` and ``b``: the values for the same key in two dictionaries :data:`Sum`."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         # The sign of ``a`` is factored out, so different signs give the difference.
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
@@ -230,7 +232,7 @@ class _Chains:
         return value if sign > 0 else self._known(-value)
 
     def _combined(self, node: Expr) -> Expr:
-        """Return ``node``. In a product, the factors that are constant in a run are multiplied first."""
+        """Return ``node`` or a reordered product: factors that are constant in a run are multiplied first."""
         if node.op != "mul":
             return node
         # For fixed c1 and c2, c1 (c2 x) becomes (c1 c2) x.

@@ -23,15 +23,15 @@ from codegen.passes.rewrite import uses
 MANY = 12
 """The largest number of unknowns for which all products of sums in Newton's matrix are expanded.
 
-An unexpanded sum is computed before the loop and occupies a register in all sweeps. For vcf:cf4 on dipole
-(12 unknowns), the expansion increases the number of assignments from 439 to 472.
+An unexpanded sum is computed before the iteration and occupies a register during the iteration. For vcf:cf4
+on dipole (12 unknowns), the expansion increases the number of assignments from 439 to 472.
 """
 
 LONGEST_MATRIX = 1500
 """The largest number of operations for the exact matrix of Newton's method. A matrix with more operations is
 replaced by its expansion to first order in h.
 
-The limit 6000 does not change the emitted kernels.
+A limit of 6000 in place of 1500 would give the same emitted kernels.
 """
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
@@ -69,12 +69,12 @@ class Block:
 def compared(
     block: Solve, entered: Block, env: dict[Var, Any], name: Callable[[str], str], program: Program
 ) -> Block | None:
-    """Return ``entered`` with Newton's matrix. The images g(u) are replaced by the residuals r(u).
+    """Return ``entered`` (the expressions of ``block``) with Newton's matrix.
 
-    The matrix is -r'(u), expanded to first order in h. The result is None if ``block`` has no residuals, or
-    if the residuals cannot be expanded in h.
+    The images g(u) are replaced by the residuals r(u). The matrix is -r'(u), expanded to first
+    order in h. The result is None if ``block`` has no residuals, or if the residuals cannot be expanded in h.
 
-    The last sweep computes values in ``env`` before it changes the unknowns. Therefore a first-order
+    In the last sweep, the values in ``env`` are computed before the unknowns change. Therefore a first-order
     correction is added to each of these values in ``env``. If a correction costs at least half as much as a
     new computation, the value is computed again after the loop.
     """
@@ -97,7 +97,7 @@ def compared(
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
-        # A correction is a sum, so only values in vector spaces are corrected.
+        # Only values in vector spaces can be corrected by addition.
         if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
@@ -158,11 +158,11 @@ def with_matrix(block: Block, solver: str) -> Block:
     """Return the block with the matrix of Newton's method.
 
     The matrix is expanded to first order in h if ``solver`` is SIMPLIFIED_NEWTON, or if the exact matrix has
-    more than LONGEST_MATRIX operations. Operations that also occur in g(u) are not counted.
+    more than LONGEST_MATRIX operations. Operations in ``block.images`` are not counted.
     """
     leading = solver == SIMPLIFIED_NEWTON
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
-    # The expansion requires more sweeps, but each sweep has far fewer operations.
+    # The first-order matrix needs more sweeps than the exact matrix, but less work in each sweep.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:
         rows = newton.leading_matrix(block.images, block.unknowns)
     # A small matrix is inverted by formulas, and a larger matrix by elimination at run time.

@@ -63,7 +63,7 @@ def _model(timed: bool) -> Problem:
     from sympy import Rational, Symbol
 
     t = Symbol(TIME) if timed else Rational(1, 3)
-    # The values of A at different times do not commute, so their commutators are not zero.
+    # For commuting values of A, errors in commutators would remain undetected.
     A = SquareMatrix(3, 3, lambda i, j: Rational(i + 1, j + 2) * t + Rational(i * j - 1, 3) + (i - j) * t**2)
     return LinearScene(group=GL(3), action=LinearMaps(), A=A, y0=[1, 0, 0], span=(0, 1))
 
@@ -137,7 +137,7 @@ class _Builder:
             for var in _needed(x, statements):
                 self.run(statements[var])
             value = self.values[x]
-            # The exponents of a step have the power p = 0 (:class:`_Value`).
+            # The exponents contain matrices h A(t_i) without a division by h (:class:`_Value`).
             if value.power:
                 raise AssertionError(value.power)
             if not value.is_zero:
@@ -176,7 +176,7 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # A(t) is h A(t) divided by h, so its power is 1 (:class:`_Value`).
+            # A(t) is stored as h A(t)/h^p with p = 1 (:class:`_Value`).
             case Field():
                 # An autonomous matrix A is constant, so any time gives the same value.
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
@@ -228,8 +228,8 @@ class _Builder:
     def bracket(self, x: _Value, y: _Value) -> _Value:
         """Return [x, y].
 
-        If x and y contain no commutators, the equal bracket [x - c y, y] is computed (:func:`_difference`).
-        The bound of its norm is usually smaller.
+        If x and y contain no commutators, the result is computed as [x - c y, y] with c from
+        :func:`_difference`. The bound of its norm is usually smaller.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
@@ -312,7 +312,7 @@ def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
     If possible, the coefficients of x - c y add up to zero. Otherwise, c is 0.
     """
     totals = [_total(x), _total(y)]
-    # If the coefficients of x or of y add up to zero, x is returned unchanged.
+    # If a sum in ``totals`` is almost zero, x and y are returned unchanged.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
     # The bracket [y, y] is zero, so multiples of y do not change [x, y].

@@ -10,8 +10,8 @@ b is a linear combination of values of N. The coefficients of b are functions of
 - Let a be nonzero, x = h (a, b) and beta = a z/(exp(a z) - 1). Then dexp^{-1}_x (c, d) is the pair
   (c, beta d + (1 - beta) c b/a).
 
-Let ad be the linear map y -> [x, y]. Then ad^2 = a z ad, so f(ad) = f(0) + (f(a z) - f(0))/(a z) ad for a
-power series f. The third formula is the case f(w) = w/(exp(w) - 1).
+Let ad be the linear map y -> [x, y]. Then ad^2 = a z ad. Hence f(ad) = f(0) + r ad with
+r = (f(a z) - f(0))/(a z) for a power series f. The third formula is the case f(w) = w/(exp(w) - 1).
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ ZERO = Number.rational(0)
 
 @dataclass(frozen=True)
 class _Element:
-    """The Lie algebra element h^power (a, b).
+    """The vector field u -> h^power (a lambda u + b) on one Fourier mode.
 
     ``b`` contains the coefficients of a linear combination of values of the nonlinearity N.
     """
@@ -179,7 +179,7 @@ class _Execution:
                 # Times are in units of h, and the step begins at time 0.
                 self.times[var] = ZERO
             else:
-                # The step begins at the old state, which has the coefficient 1.
+                # The initial point of the step is 1 times the old state.
                 self.points[var] = {STATE: _constant(ONE)}
         for assign in program.assigns():
             self._execute(assign)
@@ -266,12 +266,12 @@ class _Execution:
         """Record an evaluation of N at ``point`` and ``time``."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # N_j is the new value of N. The pair (1, N_j) denotes the vector field u -> lambda u + N_j.
+        # N_j is the new value of N. The result is the vector field u -> a lambda u + N_j with a = 1.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
         assert x.is_zero or x.power == 1
-        # The exponential of x = h (a, b) maps u to exp(a z) u + h phi_1(a z) b.
+        # For z = h lambda, the exponential of x = h (a, b) maps u to exp(a z) u + h phi_1(a z) b.
         return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
 
     def _product(self, g: _Map, k: _Map) -> _Map:

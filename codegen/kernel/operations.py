@@ -104,7 +104,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
         # For n = 1, ..., ``last``, a loop computes the sums a_1 b_(n-1) + ... + a_(n-1) b_1 of n - 1 terms.
         number += expansion.sums * (last * (last - 1) // 2)
     total = _plus(total, {"add": number, "mul": number})
-    # ``enter`` and ``leave`` convert between the state and the coordinates of the polynomial.
+    # ``enter`` and ``leave`` change the coordinates before and after the Taylor expansion.
     for part in (expansion.enter, expansion.leave):
         total = total if part is None else _plus(total, operations(arrange(part))[STEP])
     return {STEP: total}
@@ -158,7 +158,8 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # At the end of a run, the change of ``outward`` over the run is added to the momentum.
+        # At the end of a run, mu + outward(q', m') - outward(q, m) is computed
+        # (:class:`codegen.ir.kernel.Carried`).
         added = {"add": 2 * len(turned[1].outputs)}
         # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]

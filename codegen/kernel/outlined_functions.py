@@ -33,7 +33,7 @@ class _Inputs:
     def take(self, words: Sequence[str]) -> Values:
         """Return the next inputs of the function, one for each name in ``words``."""
         first = len(self.symbols)
-        # ``fixed`` has entries for all inputs, and ``words`` only for the next inputs.
+        # ``fixed[first:]`` may be longer than ``words``.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
@@ -41,7 +41,7 @@ class _Inputs:
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Return the text of the coefficient ``c``, for example ``c1 h``.
 
-        Let c = a h^p with a number a. ``x`` is the function input for a: a symbol or a constant.
+        Let c = a h^p with a number a. ``x`` is a symbol or a constant with the value a.
         """
         # The symbol is named ``FUNCTION.ARGUMENT``.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
@@ -65,7 +65,7 @@ def function(
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The recorded expressions may be simplified for the inputs of one tree. Here the inputs are symbols.
+    # Expressions for the inputs of one call can be too special for other calls. Here the inputs are symbols.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -90,7 +90,7 @@ def function(
             # In ``numbers``, the coefficients of this sum begin at the index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
-            # For a coefficient a h^p, the function input is a. The function multiplies a by h^p.
+            # For a coefficient c = a h^p, the input x has the value a. The function multiplies a by h^p.
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [
@@ -101,7 +101,7 @@ def function(
         else:
             own = assign.operation.evaluate(scene, domain, args)
             results += own
-            # All results of the operation get the same text. ``texts[k]`` belongs to ``results[k]``.
+            # The ``len(own)`` results share one text. ``texts[k]`` belongs to ``results[k]``.
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
