@@ -44,7 +44,8 @@ class Method:
     - ``cutoff`` is the number of brackets after which the series of dexp^{-1} or dexp is truncated. For a
       family without tableau, ``cutoff`` is the number in the label, for example 12 in ``taylor(12)``.
     - ``adaptive`` is True if the emitted code controls the step size.
-    - ``step`` is the name of a step y1 = M y0 if the scene defines the matrix M. Otherwise, it is ''.
+    - If the scene defines the method as a map y1 = M y0, ``step`` is the name of this map. Otherwise, it is
+      ''.
     """
 
     family: str
@@ -347,7 +348,7 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
-    """Compute the order in each suitable family from the order conditions, and yield the order as a claim.
+    """For each family that can use ``tableau``, compute the order and yield it as a claim.
 
     If ``family`` is not empty, all other families are omitted. A cut-off in ``family`` has no effect.
     """
@@ -389,8 +390,8 @@ def parse(text: str, families: Sequence[str]) -> Method:
     claimed order is at most 6. The compiler then searches for the fewest brackets that preserve the order.
 
     :class:`MethodError` is raised if the text cannot be read, or if the scene or the tableau does not fit the
-    family. MethodError is also raised if a missing family or a missing cut-off does not follow from the
-    claimed orders. :class:`orderconds.errors.UnknownName` is raised for an unknown tableau.
+    family. MethodError is also raised if a family or a cut-off must be chosen without a claimed order.
+    :class:`orderconds.errors.UnknownName` is raised for an unknown tableau.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -408,7 +409,7 @@ def parse(text: str, families: Sequence[str]) -> Method:
 def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
     """Return the method with the given tableau.
 
-    If ``text`` contains no family, the claimed orders of the tableau determine the family.
+    If ``text`` contains no family, the family with the highest claimed order is chosen.
     """
     assert match is not None
     family, cutoff = match["family"], match["cutoff"]
@@ -429,8 +430,8 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"no cut-off, or a family with a cut-off: {' or '.join(cutting)}",
         )
-    # A commutator-free tableau may claim an order for the family rk. This order is valid for another method:
-    # the coefficients of all exponentials of a stage are added.
+    # A commutator-free tableau may claim an order for the family rk. This claim belongs to a Runge-Kutta
+    # method. Its coefficients are sums over the exponentials of a stage.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

@@ -52,8 +52,8 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # forces[i] is n_i, and slopes[i] is R*_(r)(X_i, v_i) M_i (see the docstring of this module). The sum
-        # of the terms in corrections[i] is M_i - dexp*_{(r),X_i} M_i.
+        # In the notation of the module docstring, forces[i] is n_i, and slopes[i] is R*_(r)(X_i, v_i) M_i.
+        # The sum of the terms in corrections[i] is M_i - dexp*_{(r),X_i} M_i.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
@@ -72,7 +72,8 @@ class _Step(ExpandedStep):
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
         # With X = X_i, ``brackets`` contains ad_X^k v_i, and ``momenta`` contains (ad*_X)^k M_i.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
-        # The new v_i is xi_i - sum_{1<=k<=r} ad_X^k v_i/(k+1)!. The sum contains the old v_i.
+        # The new v_i is xi_i - sum_{1<=k<=r} ad_X^k v_i/(k+1)!. In the sum, v_i is the value from the
+        # previous iteration.
         velocity = build.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *_rest(brackets)])
         self.forces.append(n)
         self.slopes.append(self._slope(f"R{i + 1}", brackets, momenta))
@@ -87,16 +88,16 @@ class _Step(ExpandedStep):
         return powers
 
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
-        """Append the vector R*_(r)(x, v) M.
+        """Return a new variable for the vector R*_(r)(x, v) M (see the docstring of this module).
 
-        ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. The result is
-        the sum of ad*_{z_i} (ad*_x)^i M for i = 0, ..., r - 1. The vector -z_i is the sum of
-        ad_x^{k-1-i} v/(k+1)! for k = i + 1, ..., r.
+        ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. The result is the
+        sum of ad*_{z_i} (ad*_x)^i M for i = 0, ..., r - 1. The vector z_i is the sum of
+        -ad_x^{k-1-i} v/(k+1)! for k = i + 1, ..., r.
         """
         terms: Terms = []
         # Let u = ad_x^k v. The dual of the derivative of u with respect to x maps M to the sum of
-        # ad*_w (ad*_x)^i M for i = 0, ..., k - 1, where w = -ad_x^{k-1-i} v. For each i, one bracket with z_i
-        # is sufficient: z_i is the sum of the vectors w/(k+1)!.
+        # ad*_w (ad*_x)^i M for i = 0, ..., k - 1, where w = -ad_x^{k-1-i} v. For each i, z_i is the sum of
+        # w/(k+1)! over all k > i.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             subscript = self.build.lin("z", Kind.ALG, inner)
@@ -106,11 +107,11 @@ class _Step(ExpandedStep):
     def _momentum(self, i: int) -> Var:
         """Append the new value of the momentum M_i of stage i."""
         build, times_h = self.build, self.stages.times_h
-        # The equation is divided by b_i. Its left-hand side is then dexp*_{(r),X_i} M_i. The sum of this
-        # left-hand side and corrections[i] is M_i.
+        # The equation is divided by b_i. Its left-hand side is then dexp*_{(r),X_i} M_i. M_i is the
+        # right-hand side plus corrections[i].
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The exponent X_j contains the term h a_ji v_i. The terms of stage j have the factor
+            # The exponent X_j contains the term h a_ji v_i. slopes[j] and dexp*_{X_j} n_j have the factor
             # -h b_j a_ji/b_i.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
@@ -127,7 +128,7 @@ class _Step(ExpandedStep):
 
 def _rest(powers: list[Var]) -> Terms:
     """Return the terms -p_k/(k+1)! for k >= 1, where p_k is ``powers[k]``."""
-    # The caller solves for the term k = 0. The result omits this term.
+    # In the caller's equation, the term k = 0 is the unknown. The result omits this term.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

@@ -58,8 +58,8 @@ class Optimiser:
     """Runs the passes on ``program``, and compares each new program with ``program``.
 
     If the step repeats a shorter method in several substeps (:mod:`codegen.lower.substeps`), ``composed`` is
-    another program for the step. It contains the statements of one substep, and ``composed.substeps``, the
-    list of all substeps. If ``composed`` is given, the passes rewrite ``composed``.
+    another program for the step. The statements of ``composed`` compute one substep. The list
+    ``composed.substeps`` contains all substeps. If ``composed`` is given, the passes rewrite ``composed``.
     :class:`codegen.ir.verify.IllFormed` is raised if a pass changes the results.
     """
 
@@ -85,11 +85,11 @@ class Optimiser:
         If the scene has no body frame, the program stays in the space frame.
         """
         plain, reports = self.program, list(self.reports)
-        # For a program in the body frame, the interpreter transforms the momentum to the space frame.
+        # For the comparison in ``_run``, momenta in the body frame are transformed to the space frame.
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # The method :meth:`plain` must still return the program in the space frame.
+        # Later calls of :meth:`plain` must return the program in the space frame.
         self.program, self.reports = plain, reports
         return outcome
 
@@ -121,7 +121,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # The previous pass has assigned equal right-hand sides of equations to one variable.
+        # After the previous pass, equal right-hand sides of equations are the same variable.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # After two stages have been merged, terms of a sum may be equal, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
@@ -130,7 +130,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("unused values", UNUSED, dead.run),
         # Terms that cancel would look like dependencies, so the pass for zeros precedes this pass.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # The next pass counts the operations that read a linear map. Unused operations must not count.
+        # The next pass counts the operations that read a linear map. Unused operations are removed before the
+        # count.
         Pass("unused values", UNUSED, dead.run),
         # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y).
         Pass("factored maps", FACTORED, factor_linear.run),
@@ -141,7 +142,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # This pass counts the operations that read exp(x), so equal exponentials must be merged first.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
-        # After factoring, more values are independent of the unknowns. This pass moves them out of the block.
+        # After factoring, more values are independent of the unknowns. The pass ``blocks`` moves these values
+        # out of the implicit equations.
         Pass("blocks", "stages are solved one after the other", blocks.run),
     ]
 
@@ -166,11 +168,12 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
-        # This pass removes operations that read exp(x). The next pass may keep Ad_{exp x} if others remain.
+        # This pass removes operations that read exp(x). The next pass may keep Ad_{exp x} if another
+        # operation still reads exp(x).
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # A residual is the difference of two values of a momentum. The functions of ad determine which
-        # momentum is used.
+        # A residual is the difference of two values of a momentum. The choice of this momentum depends on the
+        # result of the previous pass.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain inverses of maps. This pass removes products of a map and its inverse.
         Pass("inverse maps", inverse, opposites.run),

@@ -1,8 +1,8 @@
 """If Lie brackets vanish, replace operations by their argument or by zero.
 
 The pass is exact. On an abelian group, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad
-is zero. On every group, dexp^{-1} truncated at order 0 is the identity. In both cases, the derivative of
-dexp^{-1}_x with respect to x is zero.
+is zero. On every group, dexp^{-1} truncated at order 0 is the identity. If dexp^{-1}_x is the identity, its
+derivative with respect to x is zero.
 """
 
 from __future__ import annotations

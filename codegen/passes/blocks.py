@@ -40,7 +40,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # If a start value is an unknown of an earlier block, ``names`` contains the variable that replaces it.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
-    # The nodes are the indices of the assignments. The order of integers is reproducible.
+    # The nodes are the indices of the assignments. Sets of integers have a reproducible order.
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
     # The graph must also contain the assignments without edges.
@@ -94,7 +94,7 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
-        # The assignments of the new block must read its unknowns, not their images.
+        # The unknowns of the new block are not replaced by the right-hand sides of their equations.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

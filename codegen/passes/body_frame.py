@@ -85,7 +85,7 @@ class _Framing:
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # For the position q at the start of the step, E is the identity, so the entry is None.
+        # The position q is E q with the identity E, so the entry is None.
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:
@@ -113,9 +113,9 @@ class _Framing:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
         E = self.relative[element]
-        # Let q' = q E~ be the final position. In the new program, the variable ``E`` has the value
-        # E~ = q^{-1} E q. Because Ad*_{q'} = Ad*_{E~} Ad*_q, the map Ad*_{E~} transforms the momentum from
-        # the body frame at q to the body frame at q'.
+        # Let q' = q E~ be the final position. In the new program, the variable ``E`` contains E~. Because
+        # Ad*_{q'} = Ad*_{E~} Ad*_q, the map Ad*_{E~} transforms the momentum from the body frame at q to the
+        # body frame at q'.
         m = momentum if E is None else self.build.adjoint("m", E, momentum)
         ends = {"q": self.names.get(element, element), "mu": m}
         body += self.build.take()
@@ -138,7 +138,7 @@ class _Framing:
             # The pass cannot rewrite the product of two positions.
             if left in self.relative:
                 raise NotFramed
-            # The factors are L = ``left``, and R q with R = ``right``. Their product is E q with E = L R.
+            # The product is L R q with L = ``left`` and R = ``right``. It is E q with E = L R.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # The new program computes the position E q as q E~, where E~ = q^{-1} E q.

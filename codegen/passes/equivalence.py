@@ -37,7 +37,7 @@ two.
 """
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
-"""Errors of the interpreter during a step. ValueError is raised for roots of negative numbers."""
+"""Possible exceptions in the computation of a step. ValueError is raised for roots of negative numbers."""
 
 SWEEPS = 24
 """Largest number of fixed-point iterations (sweeps) of the reference program in double precision.
@@ -46,13 +46,13 @@ If each sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""A step is repeated with at most MORE_SWEEPS sweeps, in arithmetic with FEW_DIGITS decimal digits."""
+"""Largest number of sweeps and number of decimal digits for the repetition of a failed comparison."""
 
 NOT_A_NUMBER = "differs by nan"
 """End of the description of a difference that is not a number (NaN)."""
 
 APART = 16
-"""Each step of the reference is shorter than the step before it by at least this factor."""
+"""Smallest ratio of two consecutive step sizes of the reference."""
 
 LARGEST = 2.0**512
 """Upper bound for the absolute values of the results. A step with larger results is not used."""
@@ -113,7 +113,7 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """Steps of the reference program from one state, in order of decreasing step size."""
+    """Steps of the reference program. All start at one state, and their step sizes decrease."""
 
     def __init__(self, more: Iterator[_Step]) -> None:
         self._more = more
@@ -130,9 +130,9 @@ class _Point:
 class Reference:
     """The results of the reference program after one step.
 
-    The program computes steps from two states: the initial state, and a nearby state without symmetry. For
-    each state, the step sizes decrease. The first step is the longest step with finite results and converging
-    iterations.
+    The program computes steps from two states: the initial state, and a nearby state without symmetry. From
+    each state, it tries several step sizes in decreasing order. The first step is the longest step with
+    finite results and converging iterations.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -229,8 +229,9 @@ class Reference:
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
         """Compare ``program`` with the reference in the longest step that can be compared.
 
-        Return a description of the difference, or '' if there is none. If no step can be compared, the
-        result describes the last failure of ``program`` alone. Without such a failure, the result is None.
+        Return a description of the difference, or '' if there is none. If no step can be compared, the result
+        describes the last failure of ``program`` without a failure of the reference. Without such a failure,
+        the result is None.
         """
         failure = None
         for step in point.results():
@@ -305,7 +306,7 @@ class Reference:
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
-                # ``scale`` is the change of the state, but at least a small number above rounding errors.
+                # ``scale`` is at least the change of the state, and larger than rounding errors.
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))

@@ -25,7 +25,7 @@ from codegen.scene.problem import Problem
 
 def run(program: Program, scene: Problem) -> Program:
     """Combine successive functions of ad_x, if the group has closed forms for products of such functions."""
-    # Without closed forms of products, the pass saves no Lie brackets.
+    # Without a closed form, a product of functions needs as many Lie brackets as its factors.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
@@ -43,7 +43,7 @@ def rows(program: Program, scene: Problem) -> Program:
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
     # For a matrix group, ``names`` are the symbols of the matrix entries, row by row.
     side = round(len(names) ** 0.5)
-    # The third condition fails if the formulas contain entries of two or more rows.
+    # The formulas must contain entries of at most one row.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
         return program
     fields = {a.args[0] for a in program.assigns() if isinstance(a.operation, BodyVelocity | BodyForce)}
@@ -51,7 +51,7 @@ def rows(program: Program, scene: Problem) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
-        # The first and the second condition hold if ``own`` is True.
+        # ``own`` is True if velocity or force is evaluated at the product, and the product is not an output.
         own = assign.targets[0] in fields and assign.targets[0] not in kept
         if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)
@@ -106,7 +106,7 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
     read more than once.
     """
     source = rewriter.definitions.get(var)
-    # Combining functions saves nothing if another operation also needs W(ad_y) v.
+    # If another operation also reads ``var``, combining functions saves nothing.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, source.args[0])
@@ -116,7 +116,7 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Append the sum of c F(s ad_y) W(ad_y) v over all entries (s, (y, W, v)) of ``parts``.
+    """Append a sum with one term c F(s ad_y) W(ad_y) v for each entry (s, (y, W, v)) of ``parts``.
 
     The coefficients c are those of the sum ``total``. ``word`` contains the factors of F. The result is the
     variable of the new sum.

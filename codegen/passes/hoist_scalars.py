@@ -15,7 +15,7 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that contain a value v, as pairs (k, c_k / c).
+"""The coefficients c_k of a value v in several sums, as pairs (k, c_k / c).
 
 The sum with index k contains the term c_k v, and c is the coefficient of v in the first of these sums.
 """
@@ -50,7 +50,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Append the sum ``assign`` with nested sums expanded, and return its variable."""
+    """Expand the nested sums in the sum ``assign``, and return the variable of the result."""
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
@@ -71,7 +71,7 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """Compute a linear combination once if several sums of an implicit block contain its multiples."""
+    """If several sums of an implicit block contain multiples of one linear combination, compute it once."""
     builder = Builder({v.name for v in defined(program)})
     # Only implicit blocks are changed: iterations evaluate them several times in a step.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
@@ -80,7 +80,7 @@ def _added(program: Program) -> Program:
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
-    # Values u and v form a group if every sum contains a multiple of a u + b v with fixed a and b.
+    # Values u and v form a group if they occur only in multiples of one combination a u + b v.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
@@ -88,7 +88,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
         # group have equal tuples ``relative``.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
-        # A sum can contain v twice, with two powers of h. Such values v are omitted.
+        # ``distinct`` is False if a sum contains v twice, with two powers of h. Such values v are omitted.
         distinct = len({k for k, _ in places}) == len(places)
         # The quotients in ``relative`` must not contain negative powers of h.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):

@@ -55,7 +55,7 @@ def run(program: Program, scene: Problem) -> Program:
 
     If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
     """
-    # The pass needs the map from the velocity to the momentum.
+    # ``scene.body.inverse`` describes the map from the velocity to the momentum.
     if scene.body is None or scene.body.inverse is None:
         return program
     build = Builder({v.name for v in defined(program)})
@@ -71,7 +71,8 @@ def run(program: Program, scene: Problem) -> Program:
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # At the solution, images equal unknowns. Later statements read the unknown in place of its image.
+        # At the solution, each unknown equals its image (the right-hand side of its equation). Later
+        # statements read the unknown in place of its image.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -81,8 +82,8 @@ def run(program: Program, scene: Problem) -> Program:
 def residuals(program: Program, scene: Problem) -> Program:
     """Return the program with residuals added to its blocks of implicit equations.
 
-    Each unknown gets one residual. A block is unchanged if :func:`path` returns None for an unknown.
-    If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
+    Each unknown gets one residual. A block is unchanged if :func:`path` returns None for at least one
+    unknown. If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
     """
     if scene.body is None or scene.body.inverse is None:
         return program
@@ -148,7 +149,7 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append assignments that compute the variables of a path from its unknown.
+    """Append assignments that compute the other variables of ``route`` from ``route.unknown``.
 
     The first result maps the old variables to the new variables. The second result is the new variable for
     ``route.base``.
@@ -171,11 +172,11 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append the residual of the equation for ``route.unknown``, and return the variable of the residual.
 
-    The residual is the difference m - n of two values of one momentum. The block computes m, and
+    The residual is m - n. The momenta m and n are equal at the solution. The block computes m, and
     :func:`_values` computes n from the unknown.
     """
     replaced, computed = _values(build, route)
-    # The momentum ``given`` can be ``route.base`` or the result of any map in ``route.inward``.
+    # The residual may compare values of ``route.base`` or of the result of a map in ``route.inward``.
     given = route.base
     # If P = Ad*_{exp x} m, and m is a sum of terms f(ad*_x) v, then P is also a sum of such terms.
     if _function_of_one(block, route):
@@ -205,18 +206,18 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return ``block`` with new assignments: they reverse the steps of ``route``, from unknown to base.
+    """Return ``block`` with new assignments. They compute all variables of ``route`` from ``route.unknown``.
 
     Assignments outside ``route`` read the new variables in place of the old variables.
     """
     # A later pass removes the new variables that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # If the base is not P and not an unknown, assignments outside ``route`` still read the old base.
+    # The variable of the base is replaced only if it contains the momentum P or an unknown.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
-    # The assignments of ``route`` read the old variables. With the new variables, the equation for the
-    # unknown v would be v = v.
+    # The assignments of ``route`` read the old variables. Otherwise, they would only reverse the new
+    # assignments.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))

@@ -76,7 +76,7 @@ def _counted(noun: str, n: int) -> str:
 
 
 def _nouns(program: Program) -> Counter[str]:
-    """Return the number of operations of each kind. The keys are the names of operations in reports.
+    """Return the number of operations of each kind. The keys are the attributes ``noun`` of the operations.
 
     Operations that cost nothing are omitted.
     """

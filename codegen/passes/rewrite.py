@@ -57,7 +57,7 @@ class Rewriter:
         if isinstance(statement, Assign):
             self._visit(statement)
             return self._out
-        # Start values are renamed before the body is rewritten: earlier statements compute them.
+        # Start values come from earlier statements, so they are renamed before the body is rewritten.
         starts = tuple(self.now(v) for v in statement.starts)
         for assign in statement.body:
             self._visit(assign)

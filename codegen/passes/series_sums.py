@@ -75,7 +75,7 @@ class SeriesSums:
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # Nesting saves no brackets if another operation also needs the term v.
+            # If another operation also reads v, v is not moved into a nested sum.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
@@ -86,7 +86,7 @@ class SeriesSums:
                     break
             else:
                 groups.append([term])
-        # For a single term, nesting saves no brackets.
+        # A nested sum of a single term saves no Lie brackets.
         return [group for group in groups if len(group) > 1]
 
     def _nested(

@@ -31,7 +31,7 @@ def run(program: Program) -> Program:
         values: dict[Share, Var] = {}
 
         def rule(
-            # As default arguments, ``wanted`` and ``values`` keep their objects of this iteration.
+            # The default arguments bind the objects of this iteration.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,
@@ -89,7 +89,7 @@ def _worthwhile(program: Program) -> set[Share]:
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
     """Collect the terms a_k L(x_k) of the sum ``assign`` for each linear map L.
 
-    The keys of the result are the scaled combinations (:data:`Share`), and the values are their factors.
+    The sum of these terms is a factor c times a :data:`Share`. The result maps each :data:`Share` to c.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:

@@ -39,7 +39,7 @@ class Text:
 
     def within(self, level: int) -> tuple[str, ...]:
         """Return the segments. If ``self.level`` is below ``level``, the text gets parentheses."""
-        # For parentheses around a text of level n, a caller passes ``level = n + 1``.
+        # ``level = n + 1`` puts parentheses around a text of level n.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")

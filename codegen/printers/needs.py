@@ -9,7 +9,7 @@ from codegen.run.language import LANGUAGE, Call, Unit, statements, terms
 def functions_of(unit: Unit) -> tuple[str, ...]:
     """Return the sorted names of functions that a module calls, but does not define.
 
-    Only expressions and ``Call`` statements are searched, but no terms with the operation ``call``.
+    Terms with the operation ``call`` are ignored.
     """
     names: set[str] = set()
     for function in unit.functions:

@@ -48,7 +48,7 @@ The limit applies to states with more than :data:`LONGEST_STATE` coordinates.
 
 
 IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
-"""The usage example contains this comment if :func:`entries_set` returns an empty tuple."""
+"""If the usage example sets no coordinates, it contains this comment (see :func:`entries_set`)."""
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:

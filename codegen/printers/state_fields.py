@@ -26,6 +26,6 @@ def times(kernel: Kernel) -> tuple[str, ...]:
     """
     if not kernel.inputs:
         return ()
-    # The line contains the input names of the scene. The emitted code may use different identifiers.
+    # The returned line contains the input names of the scene. The emitted code may use different identifiers.
     read = ", ".join(" ".join(render(sample.time, {})) for sample in kernel.samples)
     return (f"{', '.join(kernel.inputs)}, as functions of time, evaluated at {read}",)

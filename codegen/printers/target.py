@@ -38,7 +38,8 @@ class Target:
     - ``printer`` is a function (kernel, interface, recipe) -> files.
     - ``loader`` is a function (interface, parameter values, files) -> :class:`codegen.integrator.Integrator`.
     - ``suffix`` is the suffix of the file that contains the step.
-    - ``most_steps`` limits the steps in a run of a convergence test. The longest run takes about one second.
+    - ``most_steps`` limits the steps in a run of a convergence test. With this limit, a run takes at most
+      about one second.
 
     The other fields are optional:
 

@@ -50,7 +50,7 @@ The arguments are the first column of the group (None for column 0) and the numb
 class ArrayLoops:
     """Translates assignments of matrices into loops.
 
-    ``arrays`` maps names of matrices to arrays. A matrix outside ``arrays`` and its array have the same name.
+    ``arrays`` maps names of matrices to arrays. For other matrices, the array has the name of the matrix.
     """
 
     arrays: dict[str, Term]
@@ -239,9 +239,9 @@ class ArrayLoops:
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
         """Return a function that yields statements for a group of columns.
 
-        The statements multiply the number :data:`_ENTRY` by the row of ``a.matrix`` with index ``column``. If
-        ``added`` is True, the product is added to row ``row`` of ``a.target``. Otherwise the product replaces
-        this row.
+        The number :data:`_ENTRY` is the entry of a constant matrix at ``row`` and ``column``. The statements
+        multiply row number ``column`` of ``a.matrix`` by it. If ``added`` is True, the product is added to
+        row ``row`` of ``a.target``. Otherwise the product replaces this row.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -317,7 +317,8 @@ def constant_entry(
         return [], real(table, len(given))[place]
     read = {node.payload for node in walk([given]) if node.op == "sym"}
     indices = ((ROW, row), (COLUMN, column))
-    # An index outside the formula is not converted. C compilers would report an unused variable.
+    # An index is converted only if the formula contains it. Otherwise, C compilers would report an unused
+    # variable.
     before: list[Statement] = [Assign(own(s), narrow(wide(at))) for s, at in indices if s in read]
     return before, value(given)
 
@@ -329,8 +330,8 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of all constant matrices whose entries are numbers and not formulas."""
-    # ``constants`` may contain several matrices with one name, one for each stage time. Entries that are
-    # numbers do not depend on the time.
+    # ``constants`` may contain several matrices with one name, one for each stage time. Their numeric entries
+    # are equal, so one table is sufficient.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (

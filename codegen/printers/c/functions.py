@@ -74,8 +74,8 @@ class FunctionPrinter:
         If ``near`` is true, the C function has no branches and is valid only for arguments near zero.
         """
         # Loops over batch systems or lattice sites compute sines and cosines of small arguments by
-        # polynomials. If a module has such loops, all its functions use the polynomials, so all rounding
-        # errors agree.
+        # polynomials. If a module has such loops, all its functions use the polynomials and have the same
+        # rounding errors.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -153,7 +153,7 @@ class FunctionPrinter:
         rows = [[literal(self.precision, x) for x in row] for row in table.rows]
         size = "".join(f"[{n}]" for n in table.name.shape)
         start = f"static const {self.real} {self.prefix}{table.name.text}{size} ="
-        # A compiler knows the entries of a static const array.
+        # With ``static const``, compilers can insert the entries into the code.
         about = [f"/* {comment(table.about)} */"]
         if len(table.name.shape) == 1:
             entries = [f"{x}," for x in rows[0][:-1]] + [rows[0][-1]]
@@ -300,7 +300,8 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # ``finite`` is the test without its negation. A C comment explains a test of several numbers.
+        # ``finite`` is the test without its negation. For a test of several numbers, the emitted code
+        # contains the comment ONE_TEST.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"

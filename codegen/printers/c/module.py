@@ -187,7 +187,7 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the names of the called helpers, for a batch module or a lattice module.
+    """Return the names of the helpers called by a batch module or a lattice module.
 
     A name may be the name of a variant, for example ``sin_near``.
     """
@@ -225,8 +225,8 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The emitted function ``invert`` adds FRAMES / 2 bytes. If ``is_looped(plan)`` is true, FRAMES / 2 bytes
-    # are subtracted.
+    # FRAMES / 2 bytes are added for the emitted function ``invert``. If ``is_looped(plan)`` is true,
+    # FRAMES / 2 bytes are subtracted.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],

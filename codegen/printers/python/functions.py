@@ -159,7 +159,7 @@ class _Body:
         return lines
 
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
-        """Return the first assignments of ``body``, as many as one statement can replace together.
+        """Return the first assignments of ``body`` that one statement can replace.
 
         Either all these assignments read consecutive entries of one list, or all of them write consecutive
         entries of one list.
@@ -203,7 +203,7 @@ class _Body:
         return neighbours and same and apart
 
     def together(self, group: Sequence[Assign], depth: int) -> list[str]:
-        """Return the lines of one assignment to or from a slice, in place of ``group``."""
+        """Return the lines of one assignment with the same effect as ``group``."""
         reading = all(_entry(s.value) is not None and s.target.op == "name" for s in group)
         entry = group[0].value if reading else group[0].target
         array, start = entry.args[0], _entry(entry) or 0

@@ -112,7 +112,7 @@ class _Module:
     def needed(self) -> Needed:
         """The library functions and the helper functions that the module needs."""
         wanted = {*functions_of(self.unit)}
-        # ``functions_of`` does not find ``power`` and ``sqrt`` in terms, for example in the step control.
+        # ``functions_of`` does not find the calls of ``power`` and ``sqrt`` in the step control.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 

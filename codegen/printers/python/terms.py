@@ -1,7 +1,7 @@
 """Prints terms (:mod:`codegen.run.terms`) in Python.
 
 In double precision, a real constant is printed as a literal. In single precision, the name of a float32
-number of NumPy is printed. With a literal (a Python float), a product would be a double before NumPy 2.
+number of NumPy is printed. Before NumPy 2, the product of a float32 number and a literal is a double.
 """
 
 from __future__ import annotations
@@ -160,8 +160,8 @@ class Terms(Infix):
         """
         (x,) = term.args
         inner = self.text(x)
-        # In double precision, reals are Python floats, so no conversion is needed. Flags and counts are not
-        # float32 numbers, so ``wide`` does not convert them.
+        # In double precision, reals are Python floats, so no conversion is needed. In single precision,
+        # ``wide`` converts only reals.
         if not self.single or (term.op == "wide" and x.kind is not Kind.REAL):
             return inner
         return Text(closed("float(" if term.op == "wide" else "float32(", inner.segments, ")"))
