@@ -20,7 +20,7 @@ CAUSE = "cause"
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
     # After a failed step with a warm start, :mod:`codegen.run.continuation` determines the status. A step of
-    # size zero does not read the run-time inputs at later times, but these inputs may be NaN.
+    # size zero would not find NaNs in the run-time inputs at later times.
     return plan.start is None and not plan.kernel.inputs
 
 
@@ -38,7 +38,7 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
         Array(same),
         Assign(same, state),
         *memory,
-        # The step size is 0 times h. For the constant 0, a compiler might copy the step function.
+        # The step size is 0 times h. For the constant 0, a compiler might compile the step function twice.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )

@@ -1,8 +1,9 @@
 """Continuation in h: find the solution of a step from the solutions of shorter steps.
 
-The first attempt repeats a failed step. Its initial guess does not use the solutions of earlier steps. If the
-first attempt fails, the step is halved until an attempt succeeds. Each solution is then the initial guess for
-a longer step. The continuation finds the solution that changes continuously as h grows from 0.
+If a step of size h fails, the first attempt has the same size h. Its initial guess does not use the solutions
+of earlier steps. If the first attempt fails, the step is halved until an attempt succeeds. Each solution is
+then the initial guess for a longer step. The continuation finds the solution that changes continuously as h
+grows from 0.
 """
 
 from __future__ import annotations
@@ -92,7 +93,7 @@ class _Continuation:
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of size zero leaves the state unchanged.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # If ``factor`` is near 1, the step size would hardly grow, so the attempts end.
+        # The loop ends if ``factor`` is near 1, because the step size would hardly grow.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -131,7 +132,7 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of the last failed attempt.
 
-        NOT_FINITE is replaced by TOO_FAR if a shorter step succeeded and no run-time input can be the cause.
+        Without run-time inputs, NOT_FINITE is replaced by TOO_FAR if a shorter step succeeded.
         """
         # If a run-time input is NaN at a later time, a shorter step can succeed. The cause is then the input.
         if self.plan.kernel.inputs:
@@ -155,7 +156,7 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # Only step-size control needs the error estimate, but it does not use the continuation.
+        # Runs with step-size control do not use the continuation. Other runs need no error estimate.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state and time.

@@ -176,7 +176,7 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
-            # No flow is deferred, so FINISH is called in the same step.
+            # FINISH completes the state after this step.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),
@@ -220,8 +220,8 @@ class _Deferring:
         """Return the statements of one attempt to make all steps."""
         state = self.plan.state()
         failed = (
-            # If ``careful`` is True, this attempt has tested the state after every step. The first DONE steps
-            # were successful.
+            # If ``careful`` is True, this attempt has tested the state after every step. DONE is the number
+            # of successful steps.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )

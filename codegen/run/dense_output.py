@@ -1,7 +1,7 @@
 """Emitted functions of a continuous extension (dense output) of a step.
 
-The function EXTEND computes the coefficients of the extension. The function EXTENDED evaluates a polynomial x
-in the Lie algebra and applies exp(x) to the old state.
+The function EXTEND computes the coefficients of the extension. The function EXTENDED applies exp(x) to the
+old state. Here x is a polynomial in theta, the fraction of the step.
 """
 
 from __future__ import annotations
@@ -67,8 +67,8 @@ class DenseOutput:
         pair, i, total = real("pair", self.mover.size), count("i"), real("total")
         # In ``powers``, coordinate i of the coefficient of theta^(p + 1) has the index i + p * m.
         entries = [self.powers[i + p * m] for p in range(self.extension.degree)]
-        # The polynomials in theta have no constant term. Horner's rule computes ``total``, a polynomial
-        # divided by theta. The polynomial is theta times ``total``.
+        # The polynomials in theta have no constant term. For each polynomial, Horner's rule computes the
+        # factor ``total``. The polynomial is theta times ``total``.
         horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
         # The array ``pair`` contains the state and the coordinates at theta.
         body = (

@@ -53,7 +53,7 @@ Action = Callable[[Environment], bool]
 """An action executes a statement and returns True if the statement ended the function."""
 
 RESULT = "result of the function"
-"""The key of a function's result in an ``Environment``. Identifiers contain no spaces."""
+"""The key of a function's result in an ``Environment``. It contains spaces, so it is not an identifier."""
 
 _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -101,7 +101,7 @@ class Machine:
 
     def record(self, name: str) -> Any:
         """Return a record whose fields are all zero."""
-        # The executed code reads a field by ``getattr``, so the fields are attributes.
+        # The fields of a record are attributes, because ``getattr`` reads them.
         record = SimpleNamespace()
         self.clear(record, name)
         return record
@@ -135,7 +135,7 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return the result of ``function`` after an arithmetic error in its execution.
+        """Return the result of ``function`` if its execution raised an arithmetic error.
 
         If the function returns a status, the result is NOT_FINITE. Otherwise the result is NaN, and all
         output arrays are filled with NaNs.

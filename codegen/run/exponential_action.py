@@ -27,8 +27,7 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
     # If the norm is at most ``bounds[k]``, a Taylor polynomial of degree ``sizes[k]`` is accurate enough. The
-    # loop nests conditional expressions from the inside to the outside. The outermost test is for the lowest
-    # degree.
+    # loop starts with the innermost conditional expression. The outermost test is for the lowest degree.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))

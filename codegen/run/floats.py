@@ -16,7 +16,7 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures,
 
 
 class EmittedFloats(FloatDomain):
-    """Doubles with the same roundings as in emitted code.
+    """Arithmetic with doubles. The rounding errors are the same as in emitted code.
 
     ``chain`` is the largest number of nested Stumpff functions in a step (:mod:`codegen.ir.angle_depth`).
     The largest argument of a Stumpff function depends on ``chain`` (:func:`codegen.snippets.stumpff.limit`).

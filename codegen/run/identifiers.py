@@ -19,7 +19,7 @@ from codegen.run.terms import Term, names
 class Identifiers:
     """The identifiers in one emitted function. They replace the names of the kernel.
 
-    An identifier is a variable, or an entry ``array[k]`` of an array.
+    An identifier is a text: the name of a variable, or ``array[k]``.
     """
 
     by_name: Mapping[str, str]

@@ -113,7 +113,7 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
-            # A constant function of time needs a writable array. In C, the caller's array is ``const``.
+            # For ``vary``, the inputs are copied to a writable array. In C, the caller's array is ``const``.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),

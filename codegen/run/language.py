@@ -63,7 +63,7 @@ class For:
     independent: bool = False
     parallel: bool = False
     reductions: tuple[tuple[str, Term], ...] = ()
-    # For a short loop ``when`` may fail, because several processors are then slower than one.
+    # For a short loop ``when`` may be false: several processors would be slower than one.
     when: Term | None = None
 
 

@@ -67,9 +67,9 @@ needs more halvings, it fails with the status TOO_FAR.
 """
 
 EXPONENTIAL = "exponential"
-"""The name of the function that computes state = exp(X) state. The matrix X is a letter.
+"""The name of the function that computes state = exp(X) state.
 
-A linear combination of the matrices h A(t_i), where t_i are times in the step, is called a letter.
+The matrix X is a linear combination of the matrices h A(t_i), where t_i are times in the step.
 """
 
 _PLACE, _PART = count("place"), count("part")
@@ -120,7 +120,7 @@ class _Step:
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
             # All exponents without commutators use the function EXPONENTIAL. The matrix is an argument of
-            # this function, so the emitted code does not depend on the index 0.
+            # this function, so ``Element(0)`` represents all these exponents.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
@@ -132,7 +132,7 @@ class _Step:
         return real(f"letter_{number_of + 1}", self.stored.letter_size)
 
     def letters(self, element: Element) -> tuple[Term, ...]:
-        """Return the arrays of all letters in an element, sorted by number.
+        """Return the array of each letter in ``element``, in the order of ``step.letters``.
 
         Letters in commutators are included.
         """
@@ -187,7 +187,7 @@ class _Step:
         The pair (X, Y) is ``step.commutators[number_of]``.
         """
         left, right = self.step.commutators[number_of]
-        # The method ``letters`` needs an ``Element``: here the commutator with the coefficient 1.
+        # The method ``letters`` needs an ``Element``. This one is the commutator times 1.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
@@ -227,8 +227,8 @@ class _Step:
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
-        # Horner's rule computes the vector p, the sum of (m!/j!) b^(j - 1) y over j = 1, ..., m. Here m is
-        # the degree, y is the state, and b is X times ``scale``. The integers m!/j! are exact. The usual
+        # Horner's rule computes p. This vector is the sum of (m!/j!) b^(j - 1) y over j = 1, ..., m. Here m
+        # is the degree, y is the state, and b is X times ``scale``. The integers m!/j! are exact. The usual
         # coefficients 1/j! have rounding errors that would accumulate over many steps.
         horner = (
             Assign(weight, weight * factor),
@@ -254,8 +254,8 @@ class _Step:
             *norms,
             # Halving X cannot make an infinite norm finite.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
-            # Products with X are multiplied by ``scale``. The arguments are not scaled, because commutators
-            # in X are nonlinear functions of the arguments.
+            # Products with X are multiplied by ``scale``. Scaled letters would multiply a commutator of two
+            # letters by ``scale``^2.
             Assign(scale, number(1.0)),
             Assign(parts, whole(1)),
             While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),

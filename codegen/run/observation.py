@@ -118,7 +118,7 @@ class Observation:
 
     @property
     def buffers(self) -> tuple[Term, ...]:
-        """The arguments for events in calls of the emitted functions. Without events, the tuple is empty."""
+        """The event arguments of the emitted functions. Without events, the tuple is empty."""
         if not self.events:
             return ()
         return (
@@ -170,7 +170,8 @@ class Observation:
         """Return the emitted functions. Each function comes after the functions that it calls."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
-        # The search for events calls INSIDE. Without a continuous extension, output times also need INSIDE.
+        # The search for events calls INSIDE. Without a continuous extension, INSIDE also computes the states
+        # at output times.
         inside = (self.inside(),) if self.events or self.dense is None else ()
         return *inside, self.in_order(), *located, *dense, self.observed()
 
@@ -273,9 +274,10 @@ class Observation:
             Assign(
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
-            # ``width`` times the step size is a bound of the rounding errors of times.
+            # The rounding error of a time, divided by the step size, is at most ``width``.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # ``low`` and ``high`` have rounding errors, too, so ``width`` is at least CLOSE unit roundoffs.
+            # The fractions ``low`` and ``high`` have rounding errors. ``width`` is at least CLOSE unit
+            # roundoffs.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
@@ -302,8 +304,9 @@ class Observation:
     ) -> tuple[Statement, ...]:
         """Return the statements that choose ``middle``, the fraction of the step for the next evaluation."""
         i, estimate = count("i"), real("estimate")
-        # Each event function has a secant through its weighted values at ``low`` and ``high``. The earliest
-        # zero of a secant is chosen. In every third iteration, the midpoint is chosen instead.
+        # For each event function, a secant interpolates the weighted values (:meth:`_moved`) at ``low`` and
+        # ``high``. The earliest zero of a secant is chosen. In every third iteration, the midpoint is chosen
+        # instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         # The weighted values a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1.
         candidate = (
@@ -315,8 +318,7 @@ class Observation:
             Assign(self.middle, high),
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
-            # ``middle`` must be at least ``width`` away from ``low`` and ``high``. An interval of the length
-            # ``width`` ends the search.
+            # ``middle`` must be at least ``width`` away from ``low`` and ``high``.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
         )
@@ -324,7 +326,7 @@ class Observation:
     def _moved(
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
-        """Return the statements that move ``high`` to ``middle``, and those that move ``low``."""
+        """Return two tuples of statements: they move ``high`` or ``low`` to ``middle``."""
         # If one end of the interval moves twice in a row, the Illinois method halves the weight of the values
         # at the other end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
         moved_high: tuple[Statement, ...] = (
@@ -411,7 +413,7 @@ class Observation:
         )
 
     def passed(self) -> tuple[Statement, ...]:
-        """Return the statements that continue the search at the fraction ``high`` of the step."""
+        """Return the statements that move the start of the search for events to ``high``."""
         return (
             Assign(self.low, self.high[0]),
             Assign(self.values, self.measured),

@@ -40,6 +40,6 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
-        # A variation also increases ``start``. This has no effect, because no block comes after it.
+        # A variation is the last block, so ``start`` is not used after a variation.
         start += n
     return tuple(result)

@@ -16,7 +16,7 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""Each name denotes a record type and the argument of this type."""
+"""The names of two record types. The arguments of these types have the same names."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""

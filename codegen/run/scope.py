@@ -37,7 +37,8 @@ class Declarations:
     """The declarations of a function, in two dictionaries with the keys ``id(statement)``.
 
     - ``before`` contains the variables that are declared before a statement, as pairs (identifier, term).
-    - ``by`` contains the variables that a statement itself declares, and True if the variable is constant.
+    - ``by`` contains dictionaries for variables that a statement itself declares. The keys are identifiers,
+      and the value is True for a constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -123,7 +124,7 @@ class _Scopes:
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # If an inner block may read a value from another inner block, ``body`` declares the variable.
+        # If an inner block may read a value from another inner block, ``name`` must be declared in ``body``.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result

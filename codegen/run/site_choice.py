@@ -12,8 +12,8 @@ from codegen.run.solver_choice import Choice
 def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
     """Return the solver of each block of implicit equations of a step on a chain or lattice.
 
-    ``asked`` is the solver that the user requested, and ``name`` is the name of the problem for messages. For
-    implicit methods, ``newton`` is not supported: MethodError is raised if ``asked`` is ``newton``.
+    ``asked`` is the solver that the user requested, and ``name`` is the name of the problem for messages.
+    MethodError is raised if ``asked`` is ``newton`` and a step has implicit equations.
     """
     step = kernel.sites
     assert step is not None

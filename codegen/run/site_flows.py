@@ -99,7 +99,7 @@ class _Kick:
         # In the kernel of a kick, the symbol h denotes the duration of the kick.
         given = {STEP.text: duration, TIME.text: moment}
         scalars = tuple(given.get(x.text, x) for x in self.loop.scalars)
-        # A kick is never the first flow of a step, so it does not read the old state.
+        # A kick is never the first flow of a step. Earlier flows have already written the new state.
         return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 
@@ -121,13 +121,13 @@ class _Part:
     def special(self) -> bool:
         """True if the flow has the function ``whole_K`` in addition to ``flow_K``.
 
-        Then the flow calls sines, cosines or Stumpff functions, and otherwise only ``sqrt``, ``fabs`` or
-        ``choose``.
+        ``whole_K`` exists if the flow calls sines, cosines or Stumpff functions, and no other function with
+        branches.
         """
         _, inside, _ = split(self.own.kernel, set())
         # The functions ``sqrt``, ``fabs`` and ``choose`` never have branches, so they need no fast variant.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
-        # If a function fails this test, its branches prevent vector instructions in the whole loop. Then fast
+        # Other functions have branches, and these prevent vector instructions in the whole loop. Then fast
         # variants of sines save no time.
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
         return bool(called) and able
@@ -163,7 +163,7 @@ class _Part:
     def entry(self, row: Row, neighbour: int) -> Term:
         """Return the entry of a row at one site.
 
-        If ``neighbour`` is OWN, this is a single site or the first site of a pair. Otherwise, it is the
+        If ``neighbour`` is OWN, the site is a single site or the first site of a pair. Otherwise, it is the
         second site of a pair.
         """
         place = PLACE if neighbour == OWN else _NEAR
@@ -185,12 +185,12 @@ class _Part:
             # If the second index is PLACE + 1, compilers can load both sites of a pair with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # The last flow of a step always changes single sites. Only such flows test for infinities and NaNs.
+        # Only flows of single sites test for infinities and NaNs. The last flow of a step is such a flow.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
         loop = For(INDEX, NUMBER, tuple(body), independent=True)
-        # If ``strided`` is True, the sites of a pair are adjacent, so one start index is enough.
+        # For adjacent sites (``strided`` is True), one start index is enough.
         starts = (SITE, _START) if self.paired and not self.strided else (SITE,)
         parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
         about = f"Consecutive sites: {self.own.about}."
@@ -258,7 +258,7 @@ class _Part:
         return [If(WHOLE, (Call(f"whole_{self.index}", given, results),), (call,))]
 
     def all_sites(self) -> Function:
-        """Return the function ``part_K`` for a flow of single sites. K is ``index``."""
+        """Return the function ``part_K`` for K = ``index``. This function applies the flow to each site."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
         # Several processors add to the counter BAD, so the loop declares BAD as a sum (a reduction).
@@ -290,12 +290,12 @@ class _Part:
             else:
                 body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
-                # The number of columns is even, so the first index of this pair is odd (colour 1).
+                # The last column has an odd index, so this pair has the colour 1.
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:
             body = self._rows(outer, shape)
-        # Along the axis of the pairs, each iteration computes two neighbouring rows.
+        # The loop over ``_PAIR`` computes two neighbouring rows in each iteration.
         for e in range(last - 1, -1, -1):
             mine = e == self.own.axis
             loop = For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))

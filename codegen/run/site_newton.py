@@ -113,8 +113,7 @@ class ChainSolver:
 
         The border consists of the columns of the matrix that multiply the unknowns of the last site.
         """
-        # Columns of the border and residuals are right-hand sides for ``substitute``, so they are stored in
-        # the same way.
+        # Columns of the border are stored in the same way as residuals: ``substitute`` solves for both.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
@@ -242,7 +241,7 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # The elimination overwrites the matrix, so blocks for the border are copied first.
+            # The elimination overwrites the matrix, so the border is copied first.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
@@ -257,8 +256,8 @@ class ChainSolver:
 
     def border_columns(self) -> list[Statement]:
         """Return the statements that copy blocks of the matrix to the border (:meth:`border`)."""
-        # The last site is the left neighbour of site 0 and the right neighbour of site ``_LAST``. The blocks
-        # LEFT of site 0 and RIGHT of site ``_LAST`` multiply its unknowns.
+        # Let z be the unknowns of the last site. In the rows of site 0, the block LEFT multiplies z. In the
+        # rows of site ``_LAST`` (the last but one), the block RIGHT multiplies z.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
@@ -300,7 +299,7 @@ class ChainSolver:
         inner: list[Statement] = []
         for k, symbol in enumerate(self.step.sweeps[self.block.last].unknowns):
             unknown = entry_of(self.step, rows[symbol], PLACE)
-            # The residuals are now overwritten with the solution, the changes of the unknowns.
+            # The changes of the unknowns (the solution) have overwritten the residuals.
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
                 Assign(most, greatest([most, size(change)])),

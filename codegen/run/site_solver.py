@@ -61,7 +61,7 @@ class _Stopping(Stopping):
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
-        """Return the test for the case *lost* of the stopping rule.
+        """Return the test *lost* of the stopping rule (:mod:`codegen.run.stopping`).
 
         Let h be the step size. The test is true if h times CHANGE is below the rounding errors of the states.
         """
@@ -71,7 +71,7 @@ class _Stopping(Stopping):
 def loop_of(block: SiteBlock) -> Loop:
     """Return the data that the stopping rule needs about a block of equations."""
     newton = None if block.newton is None else Newton((), (), leading=True)
-    # Without a starting value (third argument), the stopping rule would assume a warm start.
+    # The third argument is not empty. An empty tuple would mean a warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
 
 
@@ -147,7 +147,9 @@ def _measure(step: SiteStep) -> Function:
         Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )
-    about = "Compute the largest change of the unknowns and their largest absolute value. The third result is 0 "
+    about = (
+        "Compute the largest change of the unknowns and their largest absolute value. The third result is 0 "
+    )
     about += "if all changes are finite, and NaN otherwise."
     return Function(
         MEASURE,

@@ -225,7 +225,7 @@ class Loop:
         body: list[Statement] = [
             Assign(c, size(x - u)) for c, x, u in zip(changes, images, unknowns, strict=True)
         ]
-        # A maximum may ignore a NaN. The difference of the two equal sums is NaN if a change is not finite,
+        # A maximum may ignore a NaN. ``sum_of_changes - sum_of_changes`` is NaN if a change is not finite,
         # and 0 otherwise.
         sum_of_changes = real("total")
         body.append(Assign(sum_of_changes, total(changes)))
@@ -251,7 +251,7 @@ class Loop:
         return f"{of}_{self.index}"
 
     def sweep(self) -> Function:
-        """Return the function ``sweep_K``. It computes consecutive sites whose neighbours all exist."""
+        """Return ``sweep_K``, the function for consecutive sites away from open boundaries."""
         before, inside, ends = split(self.own.kernel, self.shared)
         starts = [count(f"start_{k}") for k in self.neighbours]
         nears = {k: start + INDEX for k, start in zip(self.neighbours, starts, strict=True)}

@@ -48,14 +48,14 @@ ASKED = "as asked for"
 """The reason that is reported for a solver that the user has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""The first trial of a solver makes STEPS steps of the usual size, or FEW_STEPS with more than LARGE
-unknowns.
+"""The first trial of a solver makes STEPS steps of the usual size. For more than LARGE unknowns, it makes
+FEW_STEPS steps.
 
 The second trial makes one step. The step size is the usual size, multiplied by LONGER.
 """
 
 SWEEPS = 50
-"""A solver is robust only if it needs at most SWEEPS sweeps in a step of LONGER times the usual size.
+"""A solver is robust only if it needs at most SWEEPS sweeps in the second trial.
 
 SWEEPS is half of ``Loop.limit``, the largest number of sweeps of an iteration.
 """
@@ -246,7 +246,7 @@ class Candidate:
 
 
 def counted(trial: Trial, k: int) -> str:
-    """Return a text: the average numbers of sweeps and new matrices in a step for block number ``k``."""
+    """Return the average numbers of sweeps and of computed matrices per step, as a text for block ``k``."""
     text = amount(trial.sweeps[k], "sweep", "sweeps")
     if trial.matrices[k]:
         text += f" and {amount(trial.matrices[k], 'matrix', 'matrices')}"
@@ -295,8 +295,8 @@ class _Selection:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
-        # If no robust solver exists, every solver that converges is allowed. This rule also applies to
-        # nonlinear equations if every robust solver takes more time than ``PRICE * least``.
+        # Every solver that converges is allowed in two cases. There is no robust solver, or the equations are
+        # nonlinear and each robust solver takes more time than ``PRICE * least``.
         if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
@@ -346,13 +346,13 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return a limit in ns. Another solver is usually tried only if :meth:`least` is below this limit.
+        """Return a limit in ns. Usually, a solver is tried only if its :meth:`least` is below this limit.
 
         ``candidate`` uses ``solver`` and converges in its first trial.
         """
         # If ``candidate`` is not robust, a robust solver may take PRICE times as long. If Newton's method
-        # converges for more than LARGE unknowns, PRICE is omitted. The lower limit avoids slow trials of
-        # simplified Newton.
+        # converges for more than LARGE unknowns, PRICE is omitted. This avoids slow trials of simplified
+        # Newton.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -373,8 +373,8 @@ class _Selection:
             n = len(loop.unknowns)
             # The product of the inverse and a vector takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
-            # Simplified Newton inverts a matrix in each step or substep. Newton's method inverts a matrix at
-            # least once in the steps of its first trial.
+            # Simplified Newton inverts a matrix in each step or substep. Newton's method may use one inverse
+            # for all steps of its first trial.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -389,7 +389,8 @@ class _Selection:
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
         """Return the candidate that solves block number k with the solver ``best[k]``.
 
-        If this candidate fails or is less robust, the fastest candidate of ``robust`` is returned instead.
+        The fastest candidate f in ``robust`` is returned instead in two cases: this combination of solvers
+        fails, or f is robust and the combination is not.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:

@@ -166,8 +166,8 @@ class Controlled:
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         plan = self.plan
-        # The arguments are tested for NaNs and infinities only here. In the loop, ``between`` returns only
-        # finite factors for the step size.
+        # The arguments are tested for NaNs and infinities only here. Later step sizes are finite, because
+        # ``between`` returns only finite factors.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # If a tolerance is a NaN, this test is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
@@ -244,9 +244,9 @@ class Controlled:
         """Return the statements that are executed after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p), and ``previous`` is the ``root`` of the previous accepted step, but at
-        # most ``most``. If the caller gave no step size, ``proposed`` is SAFETY norm^(-1/p) after the first
-        # accepted step.
+        # ``root`` is norm^(-SHARE/p). ``previous`` is the minimum of ``most`` and the ``root`` of the
+        # previous accepted step. If the caller gave no step size, ``proposed`` becomes SAFETY norm^(-1/p)
+        # after the first accepted step.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # If the trial directly before this step was rejected, the step size does not grow after this step
         # (Hairer, Norsett and Wanner).
@@ -259,7 +259,8 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step is often shortened. Therefore ``length`` must not grow after the last step.
+                # The last step is often shortened. If ``factor`` is at least 1 after the last step,
+                # ``length`` is not changed.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -271,8 +272,7 @@ class Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed after a rejected step.
 
-        The next step is shorter. The status is set to OK if this step changes the time in floating-point
-        arithmetic.
+        The next step is shorter. The status is set to OK if the next step changes the time (after rounding).
         """
         # If a step fails and no shorter step is possible, the run ends with the status of the failed step.
         following = real("next")

@@ -5,8 +5,9 @@ A sweep is one iteration of a solver of implicit equations.
 The predicted time is a sum of amounts of work, each multiplied by its weight (:data:`WEIGHTS`). The amounts
 are:
 
-- Operations (:mod:`codegen.kernel.operations`). Operations in a sweep are counted for each sweep, and
-  operations for a matrix for each matrix. All other operations are counted once in each step.
+- Operations (:mod:`codegen.kernel.operations`). Operations in a sweep are multiplied by the number of sweeps.
+  Operations for a matrix are multiplied by the number of matrices. All other operations are counted once in
+  each step.
 - Unknowns. The times of the warm start and of the stopping rule are proportional to the number of unknowns.
 - Corrections. Newton's method for equations u = g(u) multiplies the inverse matrix by g(u) - u. The next
   sweep must wait for this product. The delay is counted as one correction in each sweep.

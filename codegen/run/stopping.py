@@ -112,7 +112,7 @@ class Stopping:
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
             # With the stored rate of convergence, a loop can end after one sweep (Hairer and Wanner). If no
-            # rate is stored, the cautious value is 1.
+            # rate is stored, the rate is 1 (no convergence).
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -135,8 +135,8 @@ class Stopping:
             return []
         first = self.plan.memory.field("first")
         return [
-            # ``first`` is the largest change in the first sweeps of all loops. If ``first`` is too large, the
-            # warm start discards the earlier solutions.
+            # ``first`` is the largest change in the first sweeps of all loops. If ``first`` is large, the
+            # initial guess was bad, and the warm start discards the stored solutions.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
                 # If the changes are as small as rounding errors, their quotient may be tiny by accident, so
@@ -159,7 +159,7 @@ class Stopping:
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
         # Rounding errors can keep the change too large for the test ``close``. In a divergent iteration, the
-        # change does not decrease and is large. Therefore ``converged`` also tests the size of the change.
+        # change does not decrease and is large. After convergence, the change does not decrease but is small.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -171,7 +171,7 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the test whether h times CHANGE, the effect on the state, is below the rounding errors.
+        """Return the test whether h times CHANGE is below the rounding errors of the state.
 
         For equations for a variation (a tangent vector at the state), the rounding errors of the variation
         are used.
@@ -270,8 +270,8 @@ class Stopping:
     def after(self) -> list[Statement]:
         """Return the statements that store the rate of a converged loop for the next step.
 
-        For equations u = g(u), the stored rate of convergence is doubled after a loop with only one sweep.
-        After several doublings, the loop makes a second sweep and measures the rate.
+        One sweep cannot measure a rate. For equations u = g(u), the stored rate is then doubled. After
+        several doublings, the loop makes a second sweep and measures the rate.
         """
         if not self.warm:
             return []

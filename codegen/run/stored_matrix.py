@@ -123,7 +123,7 @@ class StoredMatrix(ABC):
         """Return an entry of a linear combination of constant matrices.
 
         For each constant matrix, ``entries`` contains the index of its coefficient, its entries, and the name
-        of a table. If the entries are numbers, the number at the index ``place`` of the table is used.
+        of a table. Entries are formulas or numbers. A number is read from the table at the index ``place``.
         """
         total: Term | None = None
         for term, given, table in entries:
@@ -266,7 +266,8 @@ class FullMatrix(StoredMatrix):
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
         """Return the statements that store the linear combination ``letter`` in the array ``target``.
 
-        The coefficients of ``letter``, multiplied by h, come first. Copies of the arrays in ``nodes`` follow.
+        ``target`` begins with the coefficients of ``letter``, multiplied by h. Copies of the arrays in
+        ``nodes`` follow.
         """
         weights = dict(letter)
         # If the linear combination does not contain the matrix A(t_i), its coefficient is zero.
@@ -289,8 +290,7 @@ class FullMatrix(StoredMatrix):
         # C has no arrays of length zero, so the array has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
         about = "The subexpressions of the entries of A(t) that contain neither the row i nor the column j."
-        # The subexpressions do not depend on h, so h is not a parameter. The method ``letter`` multiplies the
-        # coefficients of a linear combination by h.
+        # The subexpressions do not depend on h, so h is not a parameter.
         time = tuple(t for t in moment if t.text != STEP.text)
         evaluated = Function(VALUE, about, (*time, *parameters, result), tuple(named))
         return [evaluated, self._row_sum(a), self._product(a, x, y)]

@@ -61,7 +61,7 @@ WIDE = 12
 """The largest number of unknowns for which each entry of a matrix has its own emitted statement."""
 
 WIDEST = 20
-"""For more unknowns, fixed-point iteration computes the changes of the unknowns in a loop over arrays."""
+"""With more than WIDEST unknowns, fixed-point iteration computes their changes in a loop over arrays."""
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
@@ -106,7 +106,8 @@ class _Loop:
     def images(self) -> list[Term]:
         """The variables for the images of the unknowns (the components of g(u) or r(u)).
 
-        If the image of the unknown u has no variable of its own, its variable is called "next u".
+        Some images are variables of the kernel. For every other image, a new variable "next u" is used, where
+        u is the unknown.
         """
         loop = self.iteration.loop
         return [
@@ -130,7 +131,7 @@ class _Loop:
         return [*sequence, *self.rule.before()]
 
     def computed(self) -> list[Statement]:
-        """Return the statements that compute the components of g(u) or r(u) in one sweep."""
+        """Return the statements of one sweep: they compute g(u), or r(u) for equations r(u) = 0."""
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
@@ -176,8 +177,8 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # After convergence the unknowns keep their values. Later statements read results computed from
-        # these values. A single ``If`` is cheaper than a ``select`` for each unknown.
+        # After convergence the unknowns keep their values. Later statements use the results of the last
+        # sweep, computed with these values. A single ``If`` is cheaper than a ``select`` for each unknown.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
@@ -278,7 +279,7 @@ class _Newton(_Loop):
         # singular matrix the changes are meaningless, so even small changes do not mean convergence.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
-            # If a new matrix does not reduce the change of the unknowns, the loop fails.
+            # If the changes of the unknowns do not decrease with a new matrix, the loop fails.
             stalled = both(flag("still"), self.making)
             if not self.newton.inverted:
                 stalled = either(stalled, negated(self.age > 0))
@@ -300,7 +301,7 @@ class _Newton(_Loop):
         return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
     def by_residuals(self) -> list[Statement]:
-        """Return the loop for equations r(u) = 0. The images are the residuals r(u)."""
+        """Return the loop for equations r(u) = 0. The attribute ``images`` contains the residuals r(u)."""
         rule, changes = self.rule, [own(c) for c in self.newton.changes]
         sequence, body = self.begin(), self.computed()
         inverted = not self.newton.inverted

@@ -78,14 +78,14 @@ ORDER_TERM = own(ORDER)
 def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the function of the run with step control, and the functions that it calls.
 
-    If the kernel has no outputs, :func:`polynomial_step` returns the functions of the polynomial, and this
-    function omits them. If the kernel has no Taylor expansion with step control, the tuple is empty.
+    If the kernel has no outputs, the functions of the polynomial are omitted (see :func:`polynomial_step`).
+    If the kernel has no Taylor expansion with step control, the tuple is empty.
     """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
-    # If the kernel has no outputs, the tuple of ``polynomial_step`` contains these functions.
+    # Without outputs, :func:`polynomial_step` returns the functions of the polynomial.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 
@@ -104,7 +104,8 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     number of products is ``width``. Product c uses column c of ``left``, column c of ``right``, and entry c
     of ``sums``. Row j - 1 of ``left`` contains a_j, and row j - 1 of ``right`` contains b_j.
     """
-    # The factors a_j and b_{n-j} are in the rows j - 1 and n - j - 1. The sum of these indices is k - 1.
+    # The factors a_j and b_{n-j} are in the rows j - 1 and n - j - 1. These row indices add up to n - 2,
+    # which is k - 1.
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
@@ -156,7 +157,7 @@ class _Controlled:
     def __init__(self, plan: Plan, expansion: Expansion) -> None:
         self.plan, self.expansion = plan, expansion
         self.degree = expansion.degree
-        # The state of the plan ``own`` consists of the coordinates of the Taylor polynomial.
+        # The state of the plan ``own`` consists of the coordinates that are expanded in Taylor series.
         self.own = Plan(expansion.coefficients, plan.format)
         self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
