@@ -149,8 +149,8 @@ def _measure(step: SiteStep) -> Function:
     )
     about = (
         "Compute the largest change of the unknowns and their largest absolute value. The third result is 0 "
+        "if all changes are finite, and NaN otherwise."
     )
-    about += "if all changes are finite, and NaN otherwise."
     return Function(
         MEASURE,
         about,
