@@ -37,9 +37,9 @@ left-hand sides of the conditions of the trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a polynomial for each tree with n vertices outside ``independent``. Here n is the length of
-    ``independent``. The polynomial expresses the condition of the tree by the conditions of trees in
-    ``independent``.
+    """Return a polynomial for each tree that has n vertices and is not in ``independent``. Here n is the
+    length of ``independent``. The polynomial expresses the condition of the tree by the conditions of trees
+    in ``independent``.
 
     ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
     ..., n. The polynomials are wrong with a probability of about 10^-8.
@@ -95,9 +95,8 @@ def hold_over_rationals(
     coefficients.
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
-    ``ring``. Let a relation be false for some method of the family, and let d be its degree in the
-    coefficients of the method. The random method satisfies the false relation with a probability below
-    d/2^60.
+    ``ring``. Let d be the degree of a relation in the coefficients of the method. If the relation is false
+    for some method of the family, the random method satisfies it with a probability below d/2^60.
 
     >>> from functools import partial
     >>> from orderconds.families import get

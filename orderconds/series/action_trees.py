@@ -179,7 +179,7 @@ def mixing(word: Word) -> int:
 
 def force_cost(before: Word, after: Word) -> int:
     """Return the cost of the :class:`Force` with the words ``before`` and ``after`` and an empty multiset.
-    The cost measures the difficulty of reading an order condition with this tree.
+    The cost measures the difficulty of reading an order condition with this ``Force``.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)
@@ -189,8 +189,8 @@ def force_cost(before: Word, after: Word) -> int:
 
 
 def transport_cost(word: Word) -> int:
-    """Return the cost of the tree L(w) with the word w = ``word``. The cost measures the difficulty of
-    reading an order condition with this tree.
+    """Return the cost of the :class:`Transport` with the word ``word``. The cost measures the difficulty of
+    reading an order condition with this ``Transport``.
 
     >>> transport_cost((velocity(), velocity()))
     10
@@ -272,8 +272,8 @@ def hamiltonian(tree: Velocity) -> str:
     [x, y].
 
     The letters after ``H_`` are the variables in which H is differentiated. In the parentheses, a semicolon
-    separates the directions in q from the directions in mu. A covector is a linear function of a vector, and
-    a dot represents this vector.
+    separates the directions in q from the directions in mu. A dot represents the argument of a linear
+    function (covector).
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

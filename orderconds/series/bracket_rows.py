@@ -3,7 +3,7 @@ brackets does not change.
 
 Let t be a number, and let B = [x, y] and C = [x, z] be two brackets with a common left factor x. The sum C +
 t B = [x, z + t y] is a single bracket D. The program can compute D in place of C, because C = D - t B. The
-number t is chosen to cancel a term of a linear combination.
+number t is chosen to reduce the number of terms.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def _terms(program: BracketProgram) -> int:
 
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
     """Yield programs in which a multiple of one bracket is added to a later bracket with the same left
-    factor. In each program, one term of a linear combination cancels."""
+    factor."""
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]
         same = x.keys() == other.keys() and all(ring.is_zero(x[n] - other[n]) is True for n in x)

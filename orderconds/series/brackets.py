@@ -44,7 +44,7 @@ class BracketProgram:
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program that computes the arguments.
-    - ``grades``: the grades of the combinations q_1, q_2, ... of stage values (module docstring).
+    - ``grades``: the grades of the linear combinations q_1, q_2, ... in the module docstring.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -163,8 +163,9 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return a map from stages i to lists of combinations u_j - c u_i of two stage arguments, where j > i.
 
-    The number c is chosen such that the combination may need fewer brackets than u_i, and fewer than u_j.
-    Single letters q_n with n >= i are omitted from u_j.
+    The number c is chosen such that the combination may need fewer brackets than u_i, and fewer than u_j. The
+    combination is a polynomial in the elements q_n (module docstring). Its linear terms with n >= i are
+    omitted.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -182,8 +183,7 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
 
 @dataclass(frozen=True)
 class _Shape:
-    """The number and the form of the brackets that the search adds to a program in order to express one
-    element.
+    """The number and the form of the brackets that the search adds to express one element of the Lie algebra.
 
     The pool is the list of elements that are known before the brackets are added. The first element of the
     pool is q_1. The symbols x, y, z_n and w_n denote unknown linear combinations of elements of the pool.
@@ -191,8 +191,8 @@ class _Shape:
     - ``inner``: the number k of nested brackets C_1, ..., C_k. The bracket C_n is [q_1, z_n + C_(n+1)], where
       C_(k+1) is zero.
     - ``outer``: True if there is a bracket [q_1 + x, y + C_1].
-    - ``leading``: if False, x is zero. If True, y is the sum of the second pool element and a linear
-      combination of later pool elements.
+    - ``leading``: if False, x is zero. If True, x is unknown, and the second pool element has the coefficient
+      1 in y.
     - ``extra``: indices of pool elements, counted from 0. For each index n in ``extra``, there is a bracket
       [e_n, w_n], where e_n is the pool element with the index n.
     """
@@ -264,8 +264,9 @@ class _Search:
         return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
-        """Express ``argument`` up to grade ``limit`` by elements of ``self.pool`` and new brackets of
-        ``shape``. Return the row of the argument, or None if no suitable brackets are found.
+        """Write ``argument`` up to grade ``limit`` as a linear combination of pool elements and new brackets.
+        ``shape`` describes the new brackets. Return the row of the argument, or None if no suitable brackets
+        are found.
 
         The equations contain products of the unknowns x and y of :class:`_Shape`, and are solved by
         iteration."""
@@ -295,8 +296,7 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Consider the pool elements with indices n > 1. Return the indices of those with least grade. The
-        pool elements with the indices 0 and 1 do not occur in the combination x of :class:`_Shape`."""
+        """Consider the pool elements with indices n > 1. Return the indices of those with least grade."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 

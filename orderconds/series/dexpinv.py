@@ -66,7 +66,7 @@ class DexpinvSeries:
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
         """Return the coefficient of ``word`` in exp(u_i) for each stage i if ``step`` is 0. If ``step`` is 1,
-        return a list with the coefficient in exp(u), where exp(u) is the step."""
+        return a list with the coefficient in exp(u), where y1 = exp(u) y0."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -80,7 +80,7 @@ class DexpinvSeries:
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
         """Return the coefficient of ``word`` in u_i^n for each stage i if ``step`` is 0. If ``step`` is 1,
-        return a list with the coefficient in u^n, where exp(u) is the step."""
+        return a list with the coefficient in u^n, where y1 = exp(u) y0."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -109,9 +109,9 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficient of the word v k_j w in the truncated series dexpinv_{u_j} k_j for each stage
-        j. Here v = ``start`` has ``before`` letters, and w = ``end`` has ``behind`` letters. If no term of
-        the series can contain a word v k_j w, return None."""
+        """Let v = ``start`` be a word with ``before`` letters, and w = ``end`` a word with ``behind``
+        letters. Return the coefficient of the word v x w in the truncated series dexpinv_{u_j} x for each
+        stage j, where x is a letter. If no term of the series can contain v x w, return None."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:
@@ -126,8 +126,8 @@ class DexpinvSeries:
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
         """Return the terms q u^n x u^m of dexpinv_u x that may contribute to a word v x w, as triples (q, m,
-        n). The right factor u^m acts first. Hence u^m contains the letters of v, and u^n the letters of w.
-        The word v has ``before`` letters, and w has ``behind`` letters."""
+        n). The factor u^m contributes v, and the factor u^n contributes w. The word v has ``before`` letters,
+        and w has ``behind`` letters."""
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
             longest = before + behind

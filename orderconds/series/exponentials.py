@@ -53,7 +53,7 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # In summand r, the last r letters come from exp(X_J), the others from earlier factors.
+                # Sum over r: the last r letters come from exp(X_J), the others from earlier factors.
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

@@ -55,9 +55,8 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """Triples (product, shorter, last) of indices, one for each non-empty partial product of
-        exponentials. Partial product number ``product`` is number ``shorter``, followed by the exponential
-        of ``_rows[last]``. Number 0 is the empty product."""
+        """Triples (p, q, r) of indices, one for each non-empty partial product of exponentials. Product p is
+        product q, followed by the exponential of ``_rows[r]``. Product 0 is empty."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -113,16 +112,16 @@ class ExponentialsSeries:
         return way[::-1]
 
     def _word(self, word: Forest) -> list[Element]:
-        """Return a list. Entry k is the coefficient of ``word`` in the partial product of exponentials with
-        the number k (``self._places``)."""
+        """Return the coefficient of ``word`` in each partial product of exponentials. Entry p of the list
+        belongs to product p in ``self._places``."""
         values = self._words.get(word)
         if values is None:
             values = self._words[word] = self._along(word, self._places)
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the list of :meth:`_word` for a non-empty word, but compute only the coefficients in the
-        partial products of ``places``. All other entries are zero."""
+        """Return the coefficients of a non-empty word in partial products, as a list like :meth:`_word`. The
+        entries of products that are not in ``places`` are zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # The coefficient of the word is a sum over r, where the last r letters come from the last
@@ -164,9 +163,10 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the coefficient of a forest in the Lie-Butcher series of the exact flow.
 
-    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. Remove the root of the tree t_l, and let c_l(s)
-    be the coefficient of the remaining forest in the series of g(s). Then the coefficient of the forest t_1
-    ... t_n in g(1) is the integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
+    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. Let t_1, ..., t_n be the trees of the forest.
+    If the root of t_l is removed, a forest remains. Let c_l(s) be the coefficient of this forest in the
+    series of g(s). Then the coefficient of t_1 ... t_n in g(1) is the integral of c_1(s_1) ... c_n(s_n) over
+    0 < s_1 < ... < s_n < 1.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')

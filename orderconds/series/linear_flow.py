@@ -28,7 +28,7 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""A pair of functions for the exponential (``exp``) and for the Cayley transform (``cay``). The first
+"""Two functions for each transform: the exponential (``exp``) and the Cayley transform (``cay``). The first
 function returns the power series coefficients of the transform, without the constant term 1. The second
 function returns the coefficients of the inverse."""
 

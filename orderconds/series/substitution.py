@@ -1,15 +1,15 @@
-"""Substitution: another vector field, given as a series in f, replaces the vector field f in the series of a
-step.
+"""Substitution: a vector field g replaces the vector field f in the series of a step. The field g is given as
+a series in f.
 
 For B-series, the coefficient of a tree is a sum over all partitions of the tree into connected components.
 Each partition has a quotient tree, in which each component becomes one vertex. The summand is the coefficient
-of the quotient tree in the step, multiplied by the coefficients of the components in the field (Chartier,
-Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
+of the quotient tree in the series of the step, multiplied by the coefficients of the components in g
+(Chartier, Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
 
 For Lie-Butcher series, a forest becomes a linear combination of forests, called its image. For a tree, the
 root is removed, and the image of the remaining forest is computed. This image is grafted onto the series of
-the other field. The image of a forest is the concatenation of the images of its trees (Lundervold and
-Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+g. The image of a forest is the concatenation of the images of its trees (Lundervold and Munthe-Kaas, Contemp.
+Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def modifying_field(step: Character) -> VectorField:
 
     def value(tree: Tree) -> Element:
         # The sum over all partitions is ``flow(tree)``. The partition into one component has the summand
-        # ``field(tree)``: a consistent step has step(vertex) = 1.
+        # step(vertex) field(tree), where step(vertex) = 1.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -121,7 +121,7 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
     """Remove edge k of a tree if ``cut[k]`` is true. The edges are numbered in preorder. Return the component
-    of the root, the other components, the quotient tree, and the unused flags of ``cut``."""
+    of the root, the other components, the quotient tree, and the flags of ``cut`` after the last edge."""
     attached: list[Tree] = []
     components: list[Tree] = []
     skeletons: list[Tree] = []

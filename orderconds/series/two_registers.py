@@ -30,9 +30,9 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives along vector fields, from left to right. The entry None denotes the vector field k
-y of the registers. Each other entry is again a product P. It denotes the vector field P f: the product P,
-applied to the right-hand side f."""
+"""A product of derivatives along vector fields, from left to right. The entry None denotes the vector field
+of the equation y' = k y. Each other entry is again a product P. It denotes the vector field P f: the product
+P, applied to the right-hand side f."""
 
 Combination = dict[Operator, int]
 
@@ -68,8 +68,8 @@ def on_group(word: str) -> dict[Forest, int]:
 
 
 def on_vector_space(word: str) -> dict[Forest, int]:
-    """Return a word in the letters K (kick) and D (drift) as an operator on a vector space: a map from
-    forests to coefficients.
+    """Return the coefficients of forests in an operator on a vector space. The operator is a word in the
+    letters K (kick) and D (drift).
 
     The branches and trees of each forest are sorted by :func:`unordered`.
 
@@ -207,7 +207,7 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
     """Apply ``act`` to one factor of a product of derivatives at a time, and return the sum of the results.
-    Factors None are skipped."""
+    Factors that are None are skipped."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

@@ -14,12 +14,12 @@ A method of order three satisfies sum_i b_i x_i z_i = 1/3, where each of x and z
 Hence the sum of b_i (c_i - m_i)^2 over i is 1/3 - 2/3 + 1/3 = 0, and likewise for chat. If the weights are
 positive, the three abscissae are equal.
 
-Let A be the matrix of the coefficients a_ij of stage j in stage i. If the three abscissae are equal, A
-satisfies the equations of a transportation problem: sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j
-(1 - m_j) for each column j.
+Let a_ij be the coefficient with which stage j enters stage i, and let A be the matrix of these coefficients.
+If the three abscissae are equal, A satisfies the equations of a transportation problem: sum_j a_ij = m_i for
+each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j.
 
-The rows and columns of A are the nodes of a graph with the edges a_ij. The equations determine the entries
-a_ij of a spanning tree. All other entries can be chosen freely.
+The rows and columns of A are the nodes of a graph with the edges a_ij. All edges outside a spanning tree can
+be chosen freely. Then the equations determine the edges of the tree.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
 
 
 def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> dict[str, str]:
-    """Return formulas for the weights b_i, the sums y_J of the rows of ``update``, and the abscissae m_i.
+    """Return formulas for the weights b_i, the sums y_J of the rows of ``update``, and the abscissae m_i
+    (module docstring).
 
     Row J of ``update`` contains the coefficients of the J-th exponential of the update. ``b`` contains the
     names of the weights.
@@ -73,10 +74,10 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
     With these formulas, sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column
     j. Here m_i are the abscissae and b_i are the weights.
 
-    ``b`` contains the texts of the weights. ``fixed`` maps the names of known entries to their values. Each
-    entry a_ij without a known value is an edge between row i and column j of a graph. There is one formula
-    for each edge of a spanning tree of this graph. Raises :class:`~orderconds.errors.InputError` if the graph
-    is not connected.
+    ``b`` contains the texts of the weights. ``fixed`` maps the names of known entries to their values. The
+    nodes of a graph are the rows and columns of A. Each unknown entry a_ij is an edge between row i and
+    column j. There is one formula for each edge of a spanning tree of this graph. Raises
+    :class:`~orderconds.errors.InputError` if the graph is not connected.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
@@ -145,11 +146,11 @@ def symmetric_transport(
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
     The abscissa m_i determines the sum of row i of ``own``. For each column j in the first half, let k = s +
-    1 - j. The sum of b_i (x_ij - x_ik) over the rows i of ``own`` must be C_j. Here b_i are the weights, and
-    C_j is a formula without entries of ``own``.
+    1 - j. The equation for column j is sum_i b_i (x_ij - x_ik) = C_j. The sum is over the rows i of ``own``,
+    and b_i are the weights. The right-hand side C_j does not depend on ``own``.
 
-    The result contains formulas for each C_j, for the last entry of each row of ``own``, and for the first
-    half of the last row of ``own``. In the formulas, y_J is the sum of row J of ``update``.
+    The result contains formulas for each C_j and for two sets of entries of ``own``: the last entry of each
+    row, and the first half of the last row. In the formulas, y_J is the sum of row J of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

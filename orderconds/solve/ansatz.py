@@ -28,8 +28,8 @@ class Ansatz:
     - ``body``, ``tail``: the lines of the file before and after the table [numbers]
     - ``cells``: the names of all coefficients that are not constants
     - ``family``: the label of the method family whose order conditions are solved
-    - ``reduction``: the name of the theorem that makes some order conditions unnecessary in the proof of the
-      order (:mod:`orderconds.proof.equations`)
+    - ``reduction``: the name of a theorem that reduces the number of order conditions in a proof
+      (:mod:`orderconds.proof.equations`)
     - ``abelian``: if True, the order conditions are evaluated on abelian groups; there, a commutator-free
       method is a Runge-Kutta method
     - ``measured``: the label of the family in which the principal error is computed; None means ``family``

@@ -60,8 +60,8 @@ class Cells:
         return spell(form) if set(form) <= {""} else name
 
     def numbers(self, names: Sequence[str]) -> dict[str, str]:
-        """Return a map from names to formulas. The map contains all formulas in ``extra``, and a formula for
-        each coefficient in ``names`` that depends on other coefficients."""
+        """Return a map from names to formulas. The map contains all formulas in ``extra``. If a coefficient
+        in ``names`` depends on other coefficients, the map contains its formula, too."""
         texts = {}
         for name in names:
             form = self.elimination.cell(name)

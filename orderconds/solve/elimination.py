@@ -1,12 +1,13 @@
 """Proofs that no method exists, by exact elimination from the order conditions.
 
-A Groebner basis is computed for a subset of the conditions with at most :data:`MAX_VARIABLES` coefficients.
-If the basis contains 1, no real or complex method satisfies the conditions. If the basis contains a
-polynomial in one coefficient without real roots (Sturm's theorem), no real method satisfies the conditions.
-Some families require nonzero weights b_i. For such a weight, zero does not count as a root.
+A Groebner basis is computed for a subset of the conditions. The subset contains at most :data:`MAX_VARIABLES`
+coefficients of the method. If the basis contains 1, no real or complex method satisfies the conditions. If
+the basis contains a polynomial in one coefficient, and the polynomial has no real root (Sturm's theorem), no
+real method satisfies the conditions. Some families require nonzero weights b_i. For such a weight, zero does
+not count as a root.
 
-The element of the basis, 1 or the polynomial, is a sum of the conditions, multiplied by polynomials. This
-identity is verified exactly.
+Let the conditions be e_k = 0. The element 1 or the polynomial is a sum of products p_k e_k with polynomials
+p_k. This identity is verified exactly.
 """
 
 from __future__ import annotations
@@ -51,8 +52,8 @@ class Infeasible:
 
     - If ``real`` is false, the equation ``consequence`` = 0 has no real or complex solution.
     - If ``real`` is true and ``weight`` is empty, the equation has no real solution.
-    - If ``weight`` is the name of a weight, this weight is zero in each real solution of the equation.
-      But the formulas of the family divide by the weight.
+    - If ``weight`` is the name of a weight, this weight is zero in each real solution of the equation. This
+      is impossible: the formulas of the family divide by the weight.
 
     Entry k of ``equations`` is the numerator of the residual of condition k: left-hand side minus right-hand
     side.
@@ -103,8 +104,9 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # The formulas of symplectic methods divide by the weights. The proof also covers a stage with weight
-    # zero: a copy of a stage j with nonzero b_j can replace it. Stage j and its copy get the weight b_j/2.
+    # The formulas of symplectic methods divide by the weights. The proof also covers zero weights: a stage
+    # with weight zero has no effect on the step. A copy of a stage j with nonzero b_j can replace this stage.
+    # Stage j and its copy get the weight b_j/2.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -172,8 +174,8 @@ def _consequence(
     nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
     """Return a polynomial in the ideal of ``members``, and a name. The polynomial has at most one variable.
-    If the name is empty, the polynomial has no real root. Otherwise, the name is the variable, a weight in
-    ``nonzero``, and zero is the only real root."""
+    If the name is empty, the polynomial has no real root. Otherwise, the name is a weight in ``nonzero``.
+    Then this weight is the variable, and zero is the only real root."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]

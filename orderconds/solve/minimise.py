@@ -66,8 +66,9 @@ def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[F
 
 
 def _step(values: Floats, slopes: Floats, error: Floats, sloped: Floats, damping: float) -> Floats:
-    """Return one step of sequential quadratic programming. The norm of ``error`` is minimised. ``slopes``
-    is the Jacobian of the residuals ``values``. ``sloped`` is the Jacobian of ``error``."""
+    """Return one step of sequential quadratic programming. The norm of ``error`` is minimised subject to
+    ``values`` = 0. ``slopes`` is the Jacobian of the residuals ``values``. ``sloped`` is the Jacobian of
+    ``error``."""
     if len(values):
         _, sizes, right = np.linalg.svd(slopes, full_matrices=True)
         rank = int((sizes > 1e-10 * max(sizes[0], 1e-300)).sum())

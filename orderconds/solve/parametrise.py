@@ -297,7 +297,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # The constraint ``total`` determines the last free entry of ``order``. The middle step sizes come last.
+    # ``order`` ends with the middle step sizes. The constraint ``total`` determines its last free entry.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -395,7 +395,7 @@ def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Layout:
-    """The parametrisations of one tableau format. The name of a parametrisation is called a structure.
+    """The parametrisations of one tableau format. A structure is the name of a parametrisation.
 
     ``ansatz`` returns the ansatz for a family, a specification, a structure and a tableau name.
     ``structures`` returns the structures that a search tries, in order of trial.

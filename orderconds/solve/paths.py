@@ -57,8 +57,8 @@ def full_paths(spec: Spec) -> Paths:
 
 
 def symmetric_paths(spec: Spec) -> Paths:
-    """Return the parametrisation of symmetric methods. Stage i begins with the first k_i exponentials of the
-    update. The number k_i may be zero.
+    """Return the parametrisation of symmetric methods. Each stage begins with the first k exponentials of the
+    update. The number k depends on the stage, and may be zero.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
@@ -78,8 +78,8 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with the first ``whole`` exponentials of the update. For two different stages i and
-        # s + 1 - i, the values of ``whole`` add up to m.
+        # ``whole`` is the number of exponentials of the update at the beginning of stage i. For two different
+        # stages i and s + 1 - i, the values of ``whole`` add up to m.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

@@ -21,8 +21,7 @@ def butcher_text(tableau: Tableau) -> list[str]:
     For a commutator-free method, the result is the Runge-Kutta tableau to which the method reduces on vector
     spaces. For a composition of a symmetric method of order 2, the result is the tableau of the composition
     of implicit midpoint steps. For a composition of a method and its adjoint, the result is the tableau of a
-    composition of Euler steps. The method is the explicit Euler method, and the adjoint is the implicit Euler
-    method.
+    composition of explicit Euler steps (method) and implicit Euler steps (adjoint).
 
     Raises :class:`orderconds.errors.TableauError` for splitting methods and Magnus methods.
 

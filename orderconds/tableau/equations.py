@@ -52,8 +52,8 @@ part."""
 def equations(tableau: Tableau) -> str:
     r"""Return the equations that define the method, aligned at the equality signs.
 
-    If the equations do not fit on a page, the result contains only the number of stages, nodes or
-    coefficients, as in ``8 stages``.
+    If the equations do not fit on a page, the result contains only the size of the method, as in
+    ``8 stages``.
 
     >>> from orderconds.tableau import Tableau
     >>> print(equations(Tableau.cf([[], [["1/2"]]], [[0, 1]])))

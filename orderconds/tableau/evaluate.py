@@ -57,8 +57,8 @@ class Scalars(Protocol):
         ValueError if there is no such root or more than one."""
 
     def size(self, x: Element) -> int:
-        """Return the number of bits of the largest numerator or denominator in x. For a ball, return the
-        larger absolute value of two binary exponents: of the midpoint and of the radius."""
+        """Return the number of bits of the largest numerator or denominator in x. For a ball, take the binary
+        exponents of the midpoint and the radius, and return the larger absolute value."""
 
 
 def evaluate(

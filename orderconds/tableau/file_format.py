@@ -69,8 +69,8 @@ value is a list of :class:`CutoffClaim`."""
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     """The base class of all formats.
 
-    ``family`` is the name of the format, for example ``rk``. A family of methods has the same name. ``order``
-    is the claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
+    ``family`` is the name of the format and of a family of methods, for example ``rk``. ``order`` is the
+    claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
     ``claims`` contains the claimed properties, and the claimed orders in other families (:data:`Claim`).
     """
 

@@ -216,8 +216,8 @@ class StageEntry(Struct, forbid_unknown_fields=True):
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """The embedded update, for an error estimate. Let s be the number of stages. If the key ``from`` is
-    s + 1, the embedded update starts from the result of the main update."""
+    """The embedded update, for an error estimate. Let s be the number of stages. The key ``from`` can also be
+    s + 1. Then the embedded update starts from the result of the main update."""
 
     order: Annotated[int, Meta(ge=1)]
 
@@ -314,8 +314,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
-    """Check that each row of ``entry.exp`` has at most s entries. If the key ``from`` is given, its value
-    must be between 1 and ``before``."""
+    """Check that each row of ``entry.exp`` has at most s entries. The optional key ``from`` must be at least
+    1 and at most ``before``."""
     for r, row in enumerate(entry.exp):
         verify_length(row, s, f"{where}.exp[{r + 1}]")
     if entry.start is not None and not 1 <= entry.start <= before:

@@ -7,8 +7,8 @@ stage. The method is symmetric if two conditions hold:
 
 - The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
   original sequence.
-- For every stage i, replace each exponential in the sequence of stage i by the inverse of its conjugate. From
-  y1, the new sequence leads to the value of stage s + 1 - i.
+- For every stage i, the inverses of the conjugates, in the original order, lead from y1 to the value of stage
+  s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """

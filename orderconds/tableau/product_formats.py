@@ -217,8 +217,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the Magnus method, and None instead of an embedded update.
 
-        Raises TableauError if an exponent with products lies outside the Lie algebra of some quadratic Lie
-        group, such as SO(n) or Sp(2n).
+        Every exponent must lie in the Lie algebra of every quadratic Lie group, for example SO(n) or Sp(2n).
+        Otherwise, TableauError is raised.
         """
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)

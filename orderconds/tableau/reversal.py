@@ -45,12 +45,12 @@ def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
 
 
 def sign(method: Magnus, ring: Ring) -> int | None:
-    """Return -1 if the first exponent of the method is odd, and 1 if it is even. Return None if the terms of
-    the exponent are not all odd or all even.
+    """Return -1 if all terms of the first exponent of the method are odd, and 1 if all are even. Otherwise,
+    return None.
 
     Let A_i = h A(c_i h) for the nodes c_1, ..., c_s. The replacement of every A_i by -A_{s+1-i} changes the
-    sign of an odd exponent, and does not change an even exponent. All multiples of A_1, ..., A_s in the
-    exponent are added, and their sum counts as one term.
+    sign of an odd term, and does not change an even term. The linear combination of A_1, ..., A_s in the
+    exponent counts as one term.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

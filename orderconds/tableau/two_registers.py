@@ -81,7 +81,8 @@ class Rewriting:
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     """Rewrite a method as a low-storage (2N) scheme. If no such scheme exists, return the reason.
 
-    The scheme and ``method`` compute the same step. For a Runge-Kutta method, this is true on vector spaces.
+    The scheme and ``method`` compute the same step. For a Runge-Kutta method, the steps agree only on vector
+    spaces.
 
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
@@ -112,8 +113,8 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
 
 
 def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | None:
-    """Compare ``second``, a second update for an error estimate, with the update of ``method``. If ``second``
-    is the update of ``method``, followed by one exponential exp(x), return x. Otherwise, return None.
+    """Compare the embedded update ``second`` with the update of ``method``. If ``second`` is the update of
+    ``method``, followed by one exponential exp(x), return x. Otherwise, return None.
 
     >>> from orderconds.tableau import Tableau, find
     >>> pair = Tableau.load(find("cf43"))

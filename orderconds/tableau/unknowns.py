@@ -1,4 +1,4 @@
-"""Rounded decimals of a tableau file as unknowns of equations, and the table ``[proof]``.
+"""The table ``[proof]`` of a tableau file, and the unknowns of the equations.
 
 The table ``[proof]`` names order conditions in which the decimals with ``~`` are the unknowns.
 
@@ -121,7 +121,8 @@ class SymbolicCoefficients(Struct, frozen=True):
 
 
 class _Substituted:
-    """The ring ``ring`` for the evaluation of a file. ``known`` contains the values of rounded decimals."""
+    """Operations in ``ring`` for the evaluation of a file. ``known`` contains the values of rounded
+    decimals."""
 
     def __init__(self, ring: RootedRing, known: Mapping[Constant, Element]) -> None:
         self.ring, self.known = ring, known

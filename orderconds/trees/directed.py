@@ -4,9 +4,9 @@ A partitioned method has weights b_i and two tableaux, a_ij and ahat_ij. Let an 
 child j. An edge that points away from the root has kind 0 and gives the factor a_ij in the elementary weight.
 An edge that points to the root has kind 1 and gives the factor ahat_ij.
 
-Symplectic methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j. Let t and t' be the same free tree. Their roots
-are the two ends of one edge. The sum of their elementary weights is the product of the elementary weights of
-two smaller trees. Hence the order conditions are indexed by free trees with directed edges.
+Symplectic methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j. Take an edge of a free tree, and take each end of
+the edge as the root. The sum of the elementary weights of the two rooted trees is the product of the
+elementary weights of two smaller trees. Hence each free tree with directed edges gives one order condition.
 
 A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder. ``level`` is the level of the
 vertex, and ``kind`` is the kind of the edge to its parent. The branches of a vertex are sorted by their
@@ -132,8 +132,8 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 def representative(tree: DirectedTree) -> DirectedTree:
     """Move the root of the tree to the vertex that gives the simplest order condition.
 
-    Let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1 after the move. The root minimizes, in
-    this order, min(n_0, n_1), the height, n_1 and the byte string.
+    Let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1 after the move. The root minimizes the
+    tuple (min(n_0, n_1), height, n_1, byte string) in lexicographic order.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'

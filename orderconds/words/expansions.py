@@ -4,7 +4,7 @@ The expansions solve Y' = A(t) Y with A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter
 k. The first letter of a word acts first. Hence the word k_1 ... k_n denotes the product X_{k_n} ... X_{k_1}.
 The functions return coefficients at t = 1.
 
-In the series of dexp, inverse dexp and inverse dcay, a word denotes the product of its letters U and X in the
+In the series of dexp_U(X), dexp_U^-1(X) and dcay_U^-1(X), a word denotes the product of its letters in the
 written order.
 
 Sources: Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas,
@@ -189,8 +189,8 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
 
 
 def _after_first(word: Word) -> Fraction:
-    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. A word
-    denotes the product of its letters in reverse order. Hence the first letters belong to Y."""
+    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. The first
+    letters come from Y, and the last letters come from exp(-F_1)."""
     result = iterated_integral(word)
     for cut in range(len(word)):
         scale = exponential_scales(len(word) - cut)[-1]

@@ -68,7 +68,7 @@ def expand(bracket: Bracket) -> Series:
 def backwards(series: Mapping[Word, Fraction]) -> Series:
     """Reverse every word of a series.
 
-    Words for products in the written order become words for products in reverse order, and vice versa.
+    This converts between products in the written order and products in reverse order.
 
     >>> backwards({("A", "B"): Fraction(1)})
     {('B', 'A'): Fraction(1, 1)}

@@ -28,8 +28,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """Return a basis of the functionals on words of length ``length`` that vanish on the two-sided ideal with
     the given generators.
 
-    The first word of a functional does not occur in the other functionals. As many of these words
-    as possible are Lyndon words.
+    The first word of a functional does not occur in the other functionals. As many first words as possible
+    are Lyndon words.
 
     >>> commuting = {(0, 1): Fraction(1), (1, 0): Fraction(-1)}
     >>> orthogonal([commuting], (0, 1), 2)
@@ -38,7 +38,7 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
         # Each column without a pivot gives one functional. The functional begins with the word of this
-        # column. Lyndon words are at the right, where pivots are rare.
+        # column. Lyndon words are at the right, because most columns without a pivot are there.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
@@ -49,7 +49,7 @@ def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[
     """Return a largest subset of the given functionals on words of ``length`` letters that is linearly
     independent on Lie elements.
 
-    Functionals that begin with a Lyndon word are chosen before the others.
+    Functionals whose first word is a Lyndon word are chosen first.
 
     >>> independent_on_lie([(((0, 1), 1),), (((1, 0), 1),)], 2)
     ((((0, 1), 1),),)
