@@ -29,8 +29,8 @@ def in_processes(
 ) -> Iterator[Result]:
     """Yield ``work(job)`` for each job, in the order of the jobs.
 
-    ``processes`` is the maximal number of workers. The default is the number of processors. If there is only
-    one job, if ``processes`` is 1, or in a worker, the calling process runs the jobs itself.
+    ``processes`` is the maximal number of workers. The default is the number of processors. The calling
+    process runs the jobs itself if it is a worker, if ``processes`` is 1, or if there is only one job.
 
     If a job raises an error, this function raises the error. Raises InputError if a worker was killed.
 

@@ -88,8 +88,8 @@ class Family(ABC):
     bounds_others: ClassVar[bool] = False
     """True if ``check`` uses the order in this family to find bounds of the orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of families. If a low-storage scheme has order p in this family, the scheme has order p or
-    higher in the named families."""
+    """The names of families. For a low-storage scheme, the order in the named families is at least the order
+    in this family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
@@ -106,8 +106,8 @@ class Family(ABC):
     takes_cutoff: ClassVar[bool] = False
     """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order at which the compiler can minimise the number of brackets. The series of dexpinv must
-    not be truncated."""
+    """The highest order at which the compiler can minimise the number of brackets. This requires the series
+    of dexpinv without truncation."""
     cutoff: int | None = None
     """The power of ad after which the series of dexpinv or dexp is truncated. None means no truncation."""
 
@@ -220,7 +220,7 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of conditions of the given order, by default of all :meth:`conditions`.
+        """Return the residuals of ``conditions(order)``. A subclass may use other conditions of this order.
 
         For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error.
         """
@@ -249,8 +249,7 @@ class Family(ABC):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if a complete file of ``tableau`` states the order in this family. Otherwise
-        return None."""
+        """Return this family if the file of ``tableau`` should state the order in this family, else None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
@@ -344,9 +343,9 @@ class Family(ABC):
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return a description of the conditions that the truncation of dexpinv does not change.
+        """Return a test whether the truncation of dexpinv changes a condition.
 
-        Return None if no description is known.
+        Return None if no test is known.
         """
         return None
 
@@ -384,7 +383,7 @@ class Family(ABC):
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family whose conditions ``orderconds solve`` solves.
+        """Return the label of the family whose conditions ``orderconds solve`` uses.
 
         By default, return the label of this family. ``nystroem`` is the option ``--rkn`` of the command.
         """

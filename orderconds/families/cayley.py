@@ -72,8 +72,7 @@ class CayleyFamily(MagnusFamily):
     def polynomial(self, word: Word) -> Polynomial:
         """Express the coefficient of ``word`` in Omega by the coefficients of independent words.
 
-        The result is zero, or plus or minus the coefficient of one independent word (see
-        :meth:`independent`).
+        The result is the coefficient of one independent word (see :meth:`independent`), times 1, -1 or 0.
         """
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}

@@ -3,8 +3,8 @@
 Each exponent is a linear combination of the values k_j of the vector field at the stages. The update with m
 exponentials is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the rightmost exponential acts
 first. In stage i, the coefficients alpha_iIj replace beta_Ij, where I is the index of the exponential
-(Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). If stage i starts from the value of an earlier stage,
-the product of stage i includes the exponentials of the earlier stage.
+(Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A method may compute stage i from the value of an
+earlier stage. Then the product of stage i includes the exponentials of the earlier stage.
 
 Printed conditions contain alpha, beta and three sums: b_j = sum_I beta_Ij, a_ij = sum_I alpha_iIj and the
 abscissae c_i = sum_j a_ij.
@@ -152,7 +152,8 @@ def _word(
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
     The function ``row(J, j)`` returns the coefficient of the stage value k_j in the exponent with index J.
-    The sum of ``row(J, j)`` over J is ``row_total(j)``. The symbol ``row_sum`` denotes the sum over J and j.
+    The sum of ``row(J, j)`` over J is ``row_total(j)``. The symbol ``row_sum`` denotes the sum of
+    ``row(J, j)`` over J and j.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:

@@ -130,7 +130,8 @@ class CompositionFamily(WordFamily):
         return get("symmetric_composition") if isinstance(method, Composition) else None
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return ``symmetric_composition``: ``orderconds solve`` solves the conditions of that family."""
+        """Return ``symmetric_composition``. The command ``orderconds solve`` uses the conditions of that
+        family."""
         return "symmetric_composition"
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:

@@ -97,7 +97,8 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return the largest n such that truncating dexpinv changes no coefficient of words up to length n.
+    """Return the largest n such that truncating dexpinv after ad^``cutoff`` changes no coefficient of
+    words up to length n.
 
     If ``cutoff`` is None, the result is 2^30.
 

@@ -118,8 +118,8 @@ def _summed(
 ) -> Formula:
     """Return an index sum for ``tree``.
 
-    The list ``factors`` contains the first factors of the summands. The branches of the root give the
-    other factors. The last of the summation indices ``indices`` is the index of the root.
+    The summand is a product. Its first factors are ``factors``. The branches of the root give the other
+    factors. The last of the summation indices ``indices`` is the index of the root.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

@@ -20,8 +20,8 @@ from orderconds.tableau.products import Method
 
 
 class MinimalBrackets(MuntheKaasFamily):
-    """The family ``rkmk`` for one method, given as a program with few brackets. The argument ``program``
-    contains the exponents of all stages as linear combinations of stage values and brackets.
+    """The family ``rkmk`` for one method with few brackets. The argument ``program`` contains the exponents
+    of all stages as linear combinations of stage values and brackets.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -60,6 +60,5 @@ class MinimalBrackets(MuntheKaasFamily):
         )
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None, so that all conditions are evaluated. The theorem on the truncation of dexpinv does
-        not apply to :attr:`program`."""
+        """Return None. The theorem on the truncation of dexpinv does not apply to :attr:`program`."""
         return None

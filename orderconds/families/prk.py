@@ -81,7 +81,7 @@ class PartitionedFamily(Family):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a pair of tableaux that is not proved to be symplectic, else None.
 
-        The tableau file of a symplectic pair should state the order in the family ``sprk_separable``.
+        For a symplectic pair, the file should state the order in the family ``sprk_separable`` instead.
         """
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):

@@ -52,7 +52,8 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. The tableau file states the order in the family ``prk``. The two orders are equal."""
+        """Return None. The tableau file states the order in the family ``prk``. The order in this family is
+        the same."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -41,7 +41,7 @@ class Substitute(Struct, frozen=True):
 
 
 class UnseenCut(Struct, frozen=True):
-    """A criterion for conditions that the truncation of dexpinv does not change.
+    """A test whether the truncation of dexpinv changes a condition.
 
     ``order`` is the order of the method without truncation. The function ``length`` returns the length of the
     longest word in the formula for the coefficient of a tree or forest. If this length is at most

@@ -112,7 +112,7 @@ def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
 
 
 def has_weights(tableau: Tableau, *, nonzero: bool = False) -> bool:
-    """Return True for a Runge-Kutta tableau or a composition. If ``nonzero`` is true, all numbers in
+    """Return True if ``weights_of(tableau)`` is not None. If ``nonzero`` is true, all numbers in
     :func:`weights_of` must also be proved to be non-zero.
 
     >>> from orderconds.tableau import find

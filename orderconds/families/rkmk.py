@@ -112,9 +112,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return independent conditions of the given order. If all conditions of lower order hold, the
         returned conditions imply all other conditions of the given order.
 
-        Without truncation of dexpinv, there is one independent condition for each rooted tree. A truncation
-        of dexpinv adds one condition of order R + 3, which contradicts the other conditions
-        (:meth:`first_unmet`). The module docstring defines R.
+        Without truncation of dexpinv, there is one independent condition for each rooted tree. With
+        truncation, there is one more condition of order R + 3 (:meth:`first_unmet`). No method has this
+        order. The module docstring defines R.
 
         The computation requires NumPy. If ``order`` is above :data:`RANKED`, return all :meth:`conditions`.
 

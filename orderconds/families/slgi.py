@@ -56,7 +56,7 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order of a method in this family.
+        """For a method, return a lower bound of the order in this family.
 
         ``orders`` maps the labels of other families to the orders of the method in these families. The order
         in the family ``vrkmk(0)`` is a lower bound.

@@ -190,8 +190,9 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # Two consecutive blocks have the letter ``one`` in stage i and ``two`` in stage j. In each stage
-            # the parts act in alphabetical order, so i = j is possible only if ``one`` < ``two``.
+            # First, the part with index ``one`` acts in stage i. Then the part with index ``two`` acts in
+            # stage j. In each stage the parts act in alphabetical order, so i = j is possible only if
+            # ``one`` < ``two``.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -252,8 +253,9 @@ def two_part_formula(word: Word) -> Formula:
 def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
     """Yield all ways to divide runs of equal letters into blocks, as pairs (factor, blocks).
 
-    ``lengths`` contains the lengths of the runs, and ``blocks`` contains the block lengths of each run. Let
-    n_1 + n_2 + ... = n be the division of a run. The product of all n!/(n_1! n_2! ...) is ``factor``.
+    ``lengths`` contains the lengths of the runs, and ``blocks`` contains the block lengths of each run. Let n
+    be the length of a run, and let n_1, n_2, ... be its block lengths. The product of all n!/(n_1! n_2! ...)
+    is ``factor``.
     """
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split

@@ -41,7 +41,7 @@ from orderconds.trees.directed import (
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. Each free tree with one chosen root is an independent tree."""
+of independent trees. For each free tree, one choice of the root gives an independent tree."""
 
 
 @register
@@ -122,8 +122,8 @@ class SymplecticPartitionedFamily(Family):
         bound is p.
 
         For all other tableaux, let m <= p/2 be the largest integer for which Butcher's simplifying
-        assumptions C(m) and D(m) hold. The bound is min(p, 2m + 1). The tableau (ahat, bhat) also satisfies
-        C(m) and D(m) (Jay 1996, for Lobatto pairs).
+        assumptions C(m) and D(m) hold. The bound is min(p, 2m + 1). The tableau (ahat, bhat) for the momenta
+        also satisfies C(m) and D(m) (Jay 1996, for Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

@@ -53,7 +53,7 @@ def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> 
 def refuse_explicit(label: str, explicit: bool) -> None:
     """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true.
 
-    The coefficients of the family ``label`` are not a tableau (A, b).
+    The message states that the family ``label`` has no explicit methods.
 
     >>> refuse_explicit("splitting", False)
     """

@@ -25,8 +25,8 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. A free tree is independent unless it consists of two equal rooted trees with joined
-roots."""
+of independent trees. Each free tree is independent, except two copies of a rooted tree with an edge between
+their roots."""
 
 
 @register

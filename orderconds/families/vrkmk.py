@@ -69,8 +69,8 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
     def first_unmet(self, order: int) -> OrderCondition | None:
         """Return one condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
 
-        For ``order`` = R + 3, no method satisfies this condition and all other conditions up to this order.
-        The module docstring defines R.
+        For ``order`` = R + 3, this condition contradicts the other conditions of orders 1, ..., R + 3. The
+        module docstring defines R.
         """
         if self.cutoff is None or order < 3:
             return None

@@ -126,7 +126,7 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # The slow function ``_shape`` is not needed for coefficients, nor for a single factor of another kind.
+    # A coefficient is its own key. A single other factor gets the key None, because ``_shape`` is slow.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:

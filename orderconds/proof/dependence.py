@@ -53,7 +53,7 @@ class Dependences:
 
     - ``pivots``: the independent conditions.
     - ``primes``: the primes of the computation.
-    - ``residues``: for each prime, a map from each dependent condition to its polynomial.
+    - ``residues``: one map :data:`Residues` for each prime.
     """
 
     pivots: tuple[OrderCondition, ...]
@@ -186,7 +186,7 @@ class _Value:
     """The products of the left-hand sides and of the right-hand sides of conditions, modulo a prime.
 
     - ``factors``: the conditions.
-    - ``members``: the product of the left-hand sides, with one residue for each random method.
+    - ``members``: the product of the left-hand sides for each random method.
     - ``flow``: the product of the right-hand sides.
     """
 
@@ -218,7 +218,7 @@ class _Sampling:
         methods.
 
         If ``root`` is not None, this residue replaces the square root in the formulas. If ``root`` is None,
-        the values of all radicals are random residues.
+        random residues replace all roots in the formulas.
         """
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
@@ -236,8 +236,8 @@ class _Members(Samples):
     """A ring for the coefficients of ``count`` random methods. An element contains one residue modulo
     ``prime`` for each method.
 
-    Random residues replace the values of roots: a polynomial identity that holds for all values of the roots
-    also holds for the true values. If ``square_root`` is an integer, this integer replaces every square root.
+    Random residues replace the roots in the formulas. A polynomial identity for all values of the roots also
+    holds for the true values. If ``square_root`` is an integer, it replaces the square root in the formulas.
     """
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
@@ -246,7 +246,8 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return residues in place of the root x^(1/index). Equal arguments give equal residues."""
+        """Return the element that replaces x^(1/index), as the class docstring explains. Equal arguments give
+        equal residues."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))

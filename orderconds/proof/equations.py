@@ -1,4 +1,4 @@
-"""The equations for the decimals in a tableau file, and the orders of the method.
+"""The equations for the decimals in a tableau file.
 
 Without a reduction, the system contains one equation for every independent condition of one family. A
 reduction is a theorem that makes some equations unnecessary. The assumptions of a reduction are verified
@@ -58,8 +58,8 @@ class Equations:
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """The number s of nodes of a Magnus method on Gauss nodes, if ``proof.order`` is at most 2s. Otherwise
-    None. If the value is s, only conditions for words in the letters 1, ..., s are used."""
+    """If the value is an integer s, only conditions for words in the letters 1, ..., s are used. This
+    reduction is for Magnus methods on s Gauss nodes. It requires ``proof.order`` <= 2s."""
     kept: tuple[OrderCondition, ...] | None = None
     """The conditions that remain after the reduction ``spelling`` or ``low-storage``, or None without these
     reductions."""
@@ -67,7 +67,8 @@ class Equations:
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
     conditions follow the conditions of the scheme."""
     lower_facts: tuple[tuple[str, int], ...] = ()
-    """The orders of the embedded method, as pairs (family, order). The conditions in ``lower`` imply them."""
+    """The orders of the embedded method, as pairs (family, order). The conditions in ``lower`` imply these
+    orders."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
@@ -120,7 +121,7 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
     orders = range(1, order + 1, step)
-    # ``family.conditions`` omits conditions that depend on others in arithmetic modulo primes. The proof
+    # ``family.conditions`` omits dependent conditions. The dependence was computed modulo primes. The proof
     # requires that these conditions are also dependent over the rationals Q.
     for n in orders:
         if not family.dependence_holds(n):
@@ -203,8 +204,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return conditions that imply all conditions up to the order in ``proof``. The coefficients satisfy the
-    formulas in the tableau file."""
+    """Return conditions that imply all conditions up to the order in ``proof``. The implication holds if the
+    coefficients satisfy the formulas in the tableau file."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -266,8 +267,8 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Omit the equations that hold for all values of the unknowns. Return the indices of the other equations.
 
     ``values`` contains one jet for each equation. The jet consists of balls that enclose the function
-    "left-hand side minus right-hand side" and its partial derivatives for all unknowns in a box. Equations
-    whose balls all contain zero are evaluated exactly, with random numbers for the unknowns.
+    "left-hand side minus right-hand side" and its partial derivatives for all unknowns in a box. If all balls
+    of an equation contain zero, the equation is tested in exact arithmetic at a random point.
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

@@ -93,16 +93,16 @@ class ExactMember:
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Return True if a condition holds at this random member. If the condition does not hold in the whole
-        sub-family, the result is True only with negligible probability
+        """Return True if a condition holds at this random member. If some other member violates the
+        condition, the result is True only with negligible probability
         (:mod:`orderconds.tableau.random_member`)."""
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
         """Return True if the polynomial ``combination`` expresses ``condition`` through other conditions.
 
-        For one random method, the polynomial in the other left-hand sides must be equal to the left-hand side
-        of ``condition``. The right-hand sides must satisfy the same equation. If the result is True, the
+        At the random member, the left-hand side of ``condition`` must be equal to the value of the
+        polynomial. The right-hand sides must satisfy the same equation. If the result is True, the
         probability of an error is negligible. Return False if ``combination`` is None.
         """
         if combination is None:
@@ -161,8 +161,8 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """Converts the numbers in formulas to elements of Q(sqrt(d)). Random numbers replace the rounded decimals
-    and the roots of polynomials."""
+    """Converts the numbers in formulas to elements of Q(sqrt(d)). As in :class:`RandomMember`, random numbers
+    replace the rounded decimals and the roots of polynomials."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd

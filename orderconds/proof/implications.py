@@ -57,9 +57,9 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
     """Return the exact order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. Order n in
-    ``family`` can imply order n in a second family. The order in ``family`` is then at most the order in the
-    second one.
+    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. A theorem may
+    state that order n in ``family`` implies order n in a second family. The order in ``family`` is then at
+    most the order in the second one.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

@@ -42,7 +42,8 @@ class Balls:
         return self.bits
 
     def rational(self, p: int, q: int = 1) -> Ball:
-        """Return a ball around p/q. The radius of a binary fraction of at most ``bits`` bits is zero."""
+        """Return a ball around p/q. The radius is zero if p/q is a binary fraction of at most ``bits``
+        bits."""
         with precision(self.bits):
             return Ball(arb(fmpq(p, q)), self.bits)
 

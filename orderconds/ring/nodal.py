@@ -41,9 +41,9 @@ class NodalAlgebra:
 
     A polynomial p represents the vector with the entries p(c_i).
 
-    For a collocation method, multiplication by the matrix gives the integral of p from 0 to z, modulo M. The
-    scalar product with the weights is the integral of p from 0 to 1. For other methods, two attributes store
-    corrections to the integrals:
+    For a collocation method, multiplication by the matrix (a_ij) gives the integral of p from 0 to z, modulo
+    M. The scalar product with the weights is the integral of p from 0 to 1. For other methods, two attributes
+    store corrections to the integrals:
 
     - ``corrections[kind]``: a list of pairs (k, d) for the matrix with index ``kind``. Multiplication by the
       matrix maps z^k to the polynomial z^(k+1)/(k+1) + d, modulo M.
@@ -100,7 +100,7 @@ class NodalAlgebra:
         return total
 
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
-        """Return the matrices of two linear maps of polynomials, in the basis 1, z, z^2, ...
+        """Return the matrices of two linear maps of this algebra, in the basis 1, z, z^2, ...
 
         The maps represent the multiplication of vectors by A - e b^T and by A. Here A is the first matrix of
         the method, b is the vector of the weights, and e is the vector of ones.
@@ -126,8 +126,8 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
     - ``ring`` is not a :class:`NumberField`, or its degree is 1.
     - Two nodes are equal.
     - The polynomial M with the roots c_i has an irrational coefficient.
-    - The polynomial of a vector A c^k has an irrational coefficient. Here A is one of ``matrices``, and k is
-      below the number of stages.
+    - The polynomial with the values (A v)_i at the nodes c_i has an irrational coefficient. Here A is one of
+      ``matrices``, v has the entries c_i^k, and k is below the number of stages.
     - A number sum_i b_i c_i^k is irrational.
 
     >>> from orderconds.tableau import Tableau, find
@@ -228,8 +228,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return the polynomial with the coefficients ``guess(values)``. Return None if its values at the nodes
-    are not ``values``."""
+    """Return the polynomial with the coefficients ``guess(values)``. Return None if this polynomial does not
+    have the given ``values`` at the nodes."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

@@ -193,9 +193,9 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Find an element c that generates the algebra K[x]/(p) over Q. Here K = Q(a) is ``field``, and p is the
-    polynomial x^k - sum_j powers[j] x^j with k = len(powers). Return m and the :class:`_Relation` of c. If m
-    is an integer, c is x + m a. If m is None, c is a x."""
+    """Find a generator c of the algebra K[x]/(p) over Q. Here K = Q(a) is ``field``, and p is the polynomial
+    x^k - sum_j powers[j] x^j with k = len(powers). Return m and the :class:`_Relation` of c. If m is an
+    integer, c is x + m a. If m is None, c is a x."""
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)

@@ -85,7 +85,7 @@ class Traces:
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:
-        """Return ``text(x)``. A recorded operation has no decimal value."""
+        """Return ``text(x)``, which is not a decimal number."""
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:

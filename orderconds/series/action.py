@@ -5,9 +5,10 @@ stage are expanded about (q0, mu1). The expansions are sums over trees
 (:mod:`orderconds.series.action_trees`). A tree of a velocity is a pair t = (w, M). A tree of a momentum has
 the form H(u*v|M) or L(w). Here u, v and w are words of smaller trees, and M is a multiset of smaller trees.
 Let b_i be the weight of stage i, and let Phi_w(i) be the coefficient of the word w in the group element of
-stage i. For psi_p(i), a new letter x is added to the expansion of the velocity of stage i. Square brackets
-denote the coefficient of a word in the group element of stage j or of the update, after this addition. The
-coefficients of the trees in the expansions of stage i are
+stage i. For psi_p(i), let x be a perturbation of the velocity of stage i. Then x is an additional letter of
+words. Let [w at stage j] be the coefficient of the word w in the group element of stage j. Let [w at the
+update] be its coefficient in the group element of the update. The coefficients of the trees in the expansions
+of stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [(u, x, v) at stage j]``,
@@ -41,8 +42,8 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """The action series of one method, with coefficients in ``ring``.
 
-    The weights b_i must be invertible in ``ring``. The argument ``row`` is the index of a group element: 0,
-    ..., s - 1 for the s stages, and s for the update.
+    The weights b_i must be invertible in ``ring``. An index ``row`` denotes a group element: 0, ..., s - 1
+    for the s stages, and s for the update.
 
     The example computes coefficients of the implicit midpoint rule.
 
@@ -202,7 +203,7 @@ class CommutatorFreeSeries(ActionSeries):
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
         """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
-        ``row``. The expansion of the velocity of stage ``stage`` has the additional term x."""
+        ``row``. The letter x is a perturbation of the velocity of stage ``stage``."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:

@@ -28,8 +28,8 @@ def tree_counts(order: int) -> tuple[int, ...]:
 
 
 def velocity_count(vertices: int) -> int:
-    """Return the number of trees :class:`~orderconds.series.action_trees.Velocity` with ``vertices``
-    vertices.
+    """Return the number of g-valued trees (:class:`~orderconds.series.action_trees.Velocity`) with
+    ``vertices`` vertices.
 
     >>> [velocity_count(n) for n in range(1, 7)]
     [1, 3, 17, 111, 813, 6331]
@@ -41,11 +41,11 @@ def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in one class
     if they differ only in the choice of the root.
 
-    Vertices in a subtree of the form ``L(w)`` cannot be the root. In each class, the number of possible roots
-    is one more than the number of edges between possible roots. Here vertices or edges count once if a
-    symmetry of the tree exchanges them. Therefore the number of classes is R - E. R is the number of g-valued
-    trees, one for each possible root. E is the number of edges between possible roots. Each edge gives one
-    pair (:class:`~orderconds.series.action_trees.Force`, g-valued tree) with ``vertices`` vertices in total.
+    Vertices in a subtree of the form ``L(w)`` cannot be the root. Vertices or edges count once if a symmetry
+    of the tree exchanges them. In each class, the number of possible roots is one more than the number of
+    edges between possible roots. Therefore the number of classes is R - E. R is the number of g-valued trees,
+    one for each possible root. E is the number of edges between possible roots. E is also the number of pairs
+    (:class:`~orderconds.series.action_trees.Force`, g-valued tree) with ``vertices`` vertices in total.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]

@@ -161,8 +161,8 @@ def _chosen(
 ) -> Iterator[tuple[int, Momenta]]:
     """Yield pairs (cost, multiset) for the multisets of g*-valued trees with ``vertices`` vertices in total
     and a cost of at most ``rest``. The trees are entries of the lists ``_momenta(n, limit)`` with
-    n <= ``largest``. If ``bound`` is an integer, the trees after the index ``bound`` in the list for
-    n = ``largest`` are not used. This prevents repeated multisets."""
+    n <= ``largest``. If ``bound`` is an integer, the entries of ``_momenta(largest, limit)`` after the index
+    ``bound`` are not used. This prevents repeated multisets."""
     if vertices == 0:
         yield 0, ()
         return

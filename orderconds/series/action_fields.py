@@ -203,9 +203,9 @@ class ActionFields:
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of the covector that maps x to a mixed derivative of H(q, mu). The
-        directions in q are x and the velocities of ``tree.word``. The directions in mu are the covectors of
-        ``tree.momenta``."""
+        """Return the coordinates of a covector: one mixed derivative of H(q, mu) for each basis vector x of
+        g. The directions in q are x and the velocities of ``tree.word``. The directions in mu are the
+        covectors of ``tree.momenta``."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

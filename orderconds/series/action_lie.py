@@ -6,8 +6,8 @@ b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
 The coefficient of a g*-valued tree (:mod:`orderconds.series.action`) depends on coefficients of words (u, x,
-v). Here x is a new letter. It is added to the expansion of the velocity xi_j of one stage j. In the methods,
-u is the argument ``before``, and v is ``after``.
+v). Here x is a new letter. It is a perturbation of the velocity xi_j of one stage j. The function
+``insertion`` has the arguments ``before`` = u and ``after`` = v.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ from orderconds.series.b_series import Sums, sparse
 from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
-"""The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m. Here X^m acts before xi,
-and X^n acts after xi."""
+"""The terms of dexpinv_X xi. The term q X^n xi X^m is stored as the triple (q, m, n). Here X^m acts before
+xi, and X^n acts after xi."""
 
 Varied = dict[int, Element]
-"""A map from stages j to coefficients of one word (u, x, v), where x is added to the expansion of xi_j. If a
-key is missing, the coefficient is zero."""
+"""A map from stages j to coefficients of one word (u, x, v). Here x is a perturbation of the velocity xi_j.
+If a key is missing, the coefficient is zero."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -72,9 +72,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word (``before``, x, ``after``) in the group element of stage
-        ``row``, or of the update if ``row`` is the number of stages. The expansion of the velocity of stage
-        ``stage`` has the additional term x."""
+        """Return the coefficient of the word (``before``, x, ``after``) in a group element. The letter x is a
+        perturbation of the velocity of stage ``stage``. The group element belongs to stage ``row``, or to the
+        update if ``row`` is the number of stages."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -94,8 +94,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word (``before``, x, ``after``) in the group elements of the stages
-        if ``update`` is 0, or in the group element of the update if ``update`` is 1."""
+        """Return the coefficients of the word (``before``, x, ``after``) in group elements: of all stages if
+        ``update`` is 0, of the update if ``update`` is 1. The module docstring defines x."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -108,8 +108,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficients of ``word`` in X_i^n for all stages i if ``update`` is 0, or in Y^n if
-        ``update`` is 1. The module docstring defines the exponents X_i and Y."""
+        """If ``update`` is 0, return the coefficient of ``word`` in X_i^n for each stage i. If ``update`` is
+        1, return the coefficient in Y^n. The module docstring defines the exponents X_i and Y."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -170,8 +170,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word (``before``, x, ``after``) in dexpinv_{(r),X_j} xi_j for each
-        stage j. The module docstring defines this series and the letter x."""
+        """For each stage j, return the coefficients of the word (``before``, x, ``after``) in the series
+        dexpinv_{(r),X_j} xi_j. The module docstring defines this series and the letter x."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -191,8 +191,9 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the coefficient of the word (``before``, xi_j, ``behind``) in dexpinv_{(r),X_j} xi_j for
-        each stage j. Return None if no term contains such words."""
+        """For each stage j, return the coefficient of a word in the series dexpinv_{(r),X_j} xi_j (see the
+        module docstring). The word is (``before``, xi_j, ``behind``), and xi_j is one letter. Return None if
+        no term contains such words."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -207,8 +208,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the coefficients (:data:`Varied`) of the word (``before``, x, ``after``, xi_j, ``behind``)
-        in dexpinv_{(r),X_j} xi_j for each stage j. Here xi_j is one letter, and x comes from X_j."""
+        """For each stage j, return a map (:data:`Varied`) of coefficients of one word in the series
+        dexpinv_{(r),X_j} xi_j (see the module docstring). The word is
+        (``before``, x, ``after``, xi_j, ``behind``). Here xi_j is one letter, and x comes from X_j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -218,8 +220,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients (:data:`Varied`) of the word (``first``, xi_j, ``before``, x, ``after``) in
-        dexpinv_{(r),X_j} xi_j for each stage j. Here xi_j is one letter, and x comes from X_j."""
+        """For each stage j, return a map (:data:`Varied`) of coefficients of one word in the series
+        dexpinv_{(r),X_j} xi_j (see the module docstring). The word is
+        (``first``, xi_j, ``before``, x, ``after``). Here xi_j is one letter, and x comes from X_j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -228,9 +231,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms (q, m, n) of dexpinv_X xi that contain words with ``before`` letters before xi and
-        ``behind`` letters behind xi. The first letter of a word acts first. In q X^n xi X^m, the power X^m
-        acts first. Hence X^m gives the letters before xi."""
+        """Return terms of dexpinv_X xi: those with ``before`` letters before xi and ``behind`` letters behind
+        xi. The first letter of a word acts first. A triple (q, m, n) represents q X^n xi X^m, where X^m acts
+        first. Hence X^m gives the letters before xi."""
         known = self._in_sight.get((before, behind))
         if known is None:
             known = self._in_sight[before, behind] = [
