@@ -1,9 +1,9 @@
 """The cache: a folder of computed files, called entries.
 
-For each entry, a second file contains the SHA-256 digest of the entry. If an entry is not a regular file,
-belongs to another user or has a wrong digest, the entry is computed again.
+For each entry, a second file contains the SHA-256 digest of the entry. An entry is computed
+again if its digest is wrong, if it belongs to another user, or if it is not a regular file.
 
-Other users have no access to the folder, because the compiled code in the cache is executed.
+Other users have no access to the folder. Thus they cannot replace the compiled code in it.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Names of scenes and methods in the command that regenerates a module.
 
-The path of a folder is removed from a name. Names with characters that a shell would interpret are quoted.
+Folders are removed from the paths in names. Names with characters that a shell would interpret are quoted.
 """
 
 from __future__ import annotations

@@ -207,7 +207,7 @@ class _Buffers:
 
     @property
     def arguments(self) -> list[Any]:
-        """The arguments for events, in the order of the C function ``integrate``."""
+        """The event arguments of the C function ``integrate``, in the order of its parameters."""
         buffers = [self.times, self.rows, self.numbers, self.count]
         return [self.function, self.ffi.NULL, self.stops, self.ROOM, *buffers]
 

@@ -119,7 +119,7 @@ def compile_method(
     """Compile a method on a scene. Invalid arguments raise a subclass of InputError.
 
     - ``scene``: a problem or its name. ``method``: a method, its name, or a tableau.
-    - ``family``: the family of the tableau. ``form``: the key of a classical form of the scene.
+    - ``family``: the family of the tableau. ``form``: ``printed`` or another form, such as ``quaternion``.
     - ``parameters``: ``alpha`` for a run-time argument, or ``alpha=1/2`` for a constant. Parameters that are
       not listed are constants.
     - ``inputs``: the names of the signals that become run-time inputs.

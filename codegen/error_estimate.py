@@ -76,8 +76,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
 def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
     """Return True if the error estimate of a method is blind.
 
-    The estimate is blind if it is zero, or if it has a higher order than the local error. If a step fails, or
-    if the local error is zero, the result is False. ``order`` is the order of ``method``.
+    A blind estimate is zero, or of higher order in the step size than the local error. If a step fails, or if
+    the local error is zero, the result is False. ``order`` is the order of ``method``.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))

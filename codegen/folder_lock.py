@@ -16,9 +16,9 @@ from pathlib import Path
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
     """Lock an existing folder during a ``with`` block. Yield True if the folder was locked, otherwise False.
 
-    The lock is exclusive. With ``shared=True``, the folder can have other shared locks at the same time. The
-    function waits for the end of another lock. With ``wait=False``, it yields False instead. It also yields
-    False if the file system has no locks.
+    The lock is exclusive. With ``shared=True``, the folder can have other shared locks at the same time. If
+    the folder has a conflicting lock, the function waits. With ``wait=False``, it yields False instead. It
+    also yields False if the file system has no locks.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as name, locked(Path(name)) as held:

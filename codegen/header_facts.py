@@ -156,7 +156,7 @@ def substeps_of(kernel: Kernel) -> str:
 def left_out(compiled: Compiled) -> tuple[str, ...]:
     """Return the entries of the header line ``left out``.
 
-    An entry names an operation or argument that the module does not need, and the reason.
+    An entry says which operation or argument the module does not need, and why.
     """
     kernel, scene = compiled.kernel, compiled.scene
     lines = [*summaries(compiled.trace)]

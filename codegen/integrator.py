@@ -366,7 +366,9 @@ class Integrator(RunToEnd):
         if bool(names) != (inputs is not None):
             raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
         if inputs is not None and not callable(inputs):
-            raise TypeError(f"expected a function of time for the argument inputs, found {described(inputs)}")
+            raise TypeError(
+                f"expected a function of time as the argument 'inputs', found {described(inputs)}"
+            )
         if statistics is not None and not isinstance(statistics, Statistics):
             raise TypeError(
                 f"expected a Statistics object for the argument statistics, found {described(statistics)}"

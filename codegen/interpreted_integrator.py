@@ -1,4 +1,4 @@
-"""Emitted Python modules as integrators."""
+"""Integrators that execute emitted Python modules."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ def scene_names() -> tuple[str, ...]:
 
 
 def method_names() -> list[str]:
-    """Return the names that the shell proposes after ``--method``: every TABLEAU and FAMILY:TABLEAU."""
+    """Return the names that the shell proposes after ``--method``: tableaux, with and without a family."""
     from codegen import lower
 
     tableaux = tableau_names()

@@ -112,7 +112,7 @@ def command(
 
 
 def show(result: Result) -> None:
-    """Print tables of runs, fastest methods and compilation times, and the paths of the written files."""
+    """Print the result as tables, and print the paths of the written files."""
     from codegen.lab.efficiency.ranking import in_form
     from codegen.lab.page.formatting import duration
 

@@ -131,7 +131,8 @@ def command(
     For an implicit method, --solver auto tests solvers of the implicit equations. If no solver converges, the
     command prints a warning.
 
-    Without -o, the command only prints a description of the module, and --explain or --json is required.
+    At least one of -o, --explain and --json is required. Without -o, the command only prints a description
+    of the module.
 
     \b
     Examples:

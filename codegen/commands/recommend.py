@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 NOTICED = 0.1
-"""A reference solution that takes at least this fraction of the budget is mentioned in the output."""
+"""The output mentions a reference solution that takes at least this fraction of the time budget."""
 
 
 @click.command("recommend", short_help="Find the fastest method with a required accuracy on a scene.")
@@ -129,7 +129,7 @@ def control(asked: Request, place: Result) -> str:
 
 
 def searched(result: Recommendation) -> str:
-    """Return a text with the time of the search, the numbers of compared methods, and warnings."""
+    """Describe the search: its duration, how many methods were compared, and warnings."""
     text = (
         f"in {result.seconds:.0f} s, the CPU time was predicted for {result.predicted} methods and measured "
         f"for {result.raced} methods"

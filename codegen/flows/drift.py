@@ -26,7 +26,7 @@ class Drift(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (exp(tau xi) q, mu), where xi is the velocity."""
+        """Return (exp(tau xi) q, mu), where xi is the velocity dT/dmu."""
         xi: list[S] = evaluate(self.velocity, d, dict(values))
         return group.mul(d, group.exp(d, tuple(tau * x for x in xi)), q), mu
 

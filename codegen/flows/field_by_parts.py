@@ -1,7 +1,6 @@
 """The field of a Hamiltonian as the sum of the fields of its parts.
 
-If the exact flow of a part is known, there is often a formula for the field of this part that is shorter
-than the derivative of the part.
+A known exact flow of a part often gives a shorter formula for its field than differentiation.
 """
 
 from __future__ import annotations

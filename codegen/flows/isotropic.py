@@ -1,4 +1,4 @@
-"""Isotropic flows: exact flows of H = r mu.mu/2. The group element q rotates about the momentum mu."""
+"""Isotropic flows: exact flows of H = r mu.mu/2. The flow rotates q about the momentum mu."""
 
 from __future__ import annotations
 

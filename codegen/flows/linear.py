@@ -74,8 +74,8 @@ def recognise(formula: Formula) -> Part | None:
     The flow solves z' = L z + c, where z = (q, mu). The matrix L is J times the Hessian matrix of the
     formula. J is the block matrix with the rows (0, I) and (-I, 0).
 
-    If the group is not abelian, the result is None. In three cases, the result is a :class:`Part` without
-    summands: the formula is not quadratic in z, L^2 is not diagonal, or L^2 has a positive entry.
+    If the group is not abelian, the result is None. Otherwise the formula must be quadratic in z, and L^2
+    must be diagonal without positive entries. If not, ``reason`` in the result names the violation.
     """
     if not formula.problem.group.abelian:
         return None

@@ -1,4 +1,4 @@
-"""Exact flows of the parts of the field or of the Hamiltonian of a lattice.
+"""Exact flows of the parts of a lattice scene.
 
 The flow of a part acts on the whole lattice.
 """
@@ -62,8 +62,8 @@ class SiteFlow(Flow):
 def site_flows(scene: Problem) -> list[Part]:
     """Return the parts of a lattice scene and their exact flows.
 
-    For a Hamiltonian lattice, all potentials are added to one part. For another lattice, the list contains
-    the parts of the field:
+    For a Hamiltonian lattice, the last part is the total potential energy. For another lattice, the list
+    contains the parts of the field:
 
     - The parts that couple no sites are first in the list.
     - Each part that couples neighbours along an axis is split into two parts, one for the even pairs and one

@@ -1,4 +1,4 @@
-"""Tops: quadratic functions of the momentum, split into terms whose flows are rotations.
+"""Quadratic functions of the momentum, split into terms whose flows are rotations.
 
 P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. Let B be a constant symmetric
 matrix. The function P.(B P)/2 is written as the sum of c P.P/2 and terms d_k (e_k.P)^2/2 with numbers c and

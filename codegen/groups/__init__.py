@@ -132,7 +132,7 @@ def register(cls: Registered) -> Registered:
 
 
 def unregister(cls: type[LieGroup] | type[Action]) -> None:
-    """Remove a class that :func:`register` has added to the list of groups or to the list of actions."""
+    """Undo :func:`register` for the class ``cls``."""
     from codegen.groups.actions import ACTIONS
     from codegen.groups.base import LieGroup
 

@@ -75,7 +75,7 @@ def _exponentials(
 
 
 def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
-    """Return b and c with phi(s t) = 1 + b t + c t^2, where t^3 = -z t.
+    """Return b and c with phi(s t) = 1 + b t + c t^2 for a matrix t with t^3 = -z t.
 
     The argument ``factor`` contains the function phi (dexp or dexpinv) and the number s. The exponent of
     ``factor`` is ignored.
@@ -83,8 +83,7 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
-    # Horner's rule: because t^3 = -z t, odd powers of t are numbers times t, and even powers are numbers
-    # times t^2.
+    # Horner's rule: t^3 = -z t reduces odd powers to multiples of t, and even powers to multiples of t^2.
     sums: list[S] = [d.rational(0), d.rational(0)]
     for k in range(factor.order, 0, -1):
         weight = bernoulli_over_factorial(k) * s**k

@@ -136,7 +136,7 @@ class LieGroup(ABC):
         return [Symbol(f"{name}{i}", real=True) for i in range(self.size)]
 
     def point(self, name: str) -> sympy.Matrix:
-        """Return an element as a sympy column. The entries of the column are given by :meth:`symbols`."""
+        """Return the symbols of an element (:meth:`symbols`) as a sympy column."""
         from sympy import Matrix
 
         return Matrix(self.symbols(name))

@@ -95,7 +95,7 @@ class Coadjoint(LieGroup):
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        The result is the momentum of the product of exp(x, n) and (q, mu) in the group T*G.
+        In T*G, the product exp(x, n) (q, mu) has this momentum for every q.
         """
         turned = self.Adtinv(d, self.exp(d, x), mu)
         pushed = self.dexpt(d, tuple(-a for a in x), n)
@@ -211,7 +211,7 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix of x in the algebra: the derivative of matrix(exp(eps x)) at eps = 0."""
+        """Return the matrix of the algebra element x: the derivative of matrix(exp(eps x)) at eps = 0."""
 
     @abstractmethod
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
@@ -305,7 +305,7 @@ class MatrixElements(MatrixRepresentation, Inverse):
         return [Symbol(f"{name}{i}{mark}{j}", real=True) for i in rows for j in rows]
 
     def point(self, name: str) -> sympy.Matrix:
-        """Return an element as a square matrix of sympy symbols, given by :meth:`symbols`."""
+        """Return the symbols of an element (:meth:`symbols`) as a square sympy matrix."""
         from sympy import Matrix
 
         return Matrix(self.order, self.order, self.symbols(name))
@@ -378,7 +378,7 @@ class PointMotions(LieGroup):
 
     provides: ClassVar[str] = "motion of points"
     point_size: int
-    """The dimension of the vector space."""
+    """The number of coordinates of a point."""
 
     @abstractmethod
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -437,19 +437,19 @@ class Projection(LieGroup):
 
 
 class DependentCoordinates(LieGroup):
-    """Some coordinates of an element are functions of its remaining coordinates."""
+    """A group in which some coordinates of an element determine the other coordinates."""
 
     provides: ClassVar[str] = "dependent coordinates"
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return tuples of indices. The coordinates with the indices in one tuple are functions of all other
-        coordinates.
+        """Return tuples of indices. :meth:`complete` computes the coordinates of one tuple from all
+        coordinates outside this tuple.
         """
 
     @abstractmethod
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Return g with new values of the coordinates that have the indices ``missing``.
+        """Compute the coordinates with the indices ``missing`` from the other coordinates, and return g.
 
         The tuple ``missing`` is an element of :meth:`determined`.
         """

@@ -24,7 +24,7 @@ def check_size(name: str, n: object, least: int) -> None:
 def check_factor(name: str, group: object) -> None:
     """Raise :class:`SceneError` if ``group`` is not a group.
 
-    The text ``name`` describes the larger group in the error message, for example "a product".
+    The error message contains the text ``name``, for example "a product".
     """
     if not isinstance(group, LieGroup):
         shown = group.__name__ if isinstance(group, type) else repr(group)

@@ -62,7 +62,7 @@ class LargeRotations(LargeGroup):
 
 
 class LargeLinearGroup(LargeGroup):
-    """GL(n) for large n. Emitted steps compute exp(A) y for a vector y without the matrix exp(A). The steps
+    """GL(n) for large n. Emitted steps compute the vector exp(A) y, but not the matrix exp(A). The steps
     multiply vectors by matrices (:mod:`codegen.ir.linear_array_step`).
     """
 

@@ -203,7 +203,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        The product of exp(x, n) and (q, mu) in T*G has this momentum for all q.
+        In T*G, the product exp(x, n) (q, mu) has this momentum for every q.
         """
         if self.algebra.nilpotency:
             return super().transport(d, x, n, mu)

@@ -34,7 +34,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         Only one element x is tested. For random integer coordinates below 2^61, the probability of a
         wrong result is less than 3/2^60.
         """
-        # Powers of 37 modulo a prime look random, but they are equal in every run.
+        # Powers of 37 modulo a prime look random, but do not vary between runs.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
         matrix = self._exact(x)
         cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)
@@ -59,7 +59,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         return self.vee(d, matmul(matmul(left, self.hat(d, y), n), right, n))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the coordinates of A B A for the matrices A of x and B of y."""
+        """Return the coordinates of A B A. A is the matrix of x, and B is the matrix of y."""
         left, middle = self.hat(d, x), self.hat(d, y)
         return self.vee(d, matmul(matmul(left, middle, self.order), left, self.order))
 

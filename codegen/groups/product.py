@@ -55,7 +55,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return tuple(tuple(x[end - n : end]) for end, n in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product if its class and all factors have the operations of the class ``capability``.
+        """Return this product if the product and all factors have the operations of ``capability``.
         Otherwise return None.
         """
         own = super().offers(capability)

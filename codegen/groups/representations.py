@@ -138,9 +138,9 @@ class Representation(ABC):
 class AlgebraVectors(Representation):
     """One or more copies of the Lie algebra. The group acts on each copy by Ad.
 
-    For this representation, x.v is the bracket [x, v]. A vector of dual numbers, x + u e with e^2 = 0,
-    represents the element (x, u) of the semidirect product's algebra. The bracket of (x, u) and (y, v) is
-    [x + u e, y + v e].
+    For this representation, x.v is the bracket [x, v]. A pair (x, u) (see ``Pair``) is
+    represented by the vector x + u e of dual numbers, where e^2 = 0. The bracket of the pairs (x, u) and
+    (y, w) is [x + u e, y + w e].
     """
 
     of_algebra = True
@@ -184,7 +184,7 @@ class AlgebraVectors(Representation):
         return group.require(ClosedFormSeries).series(d, DEXP, False, x, u)
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True. The group's capability :class:`ClosedFormSeries` provides the closed forms."""
+        """Return True: :meth:`series` has a closed form (see :class:`ClosedFormSeries`)."""
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:

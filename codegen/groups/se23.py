@@ -11,8 +11,8 @@ from codegen.groups.so3 import SO3
 class SE23(Semidirect):
     """Extended poses (R, v, p): attitude R (row by row), velocity v and position p.
 
-    An element of the algebra is (w, a, u): the angular velocity w, the derivative a of v, and the
-    derivative u of p, all at the identity.
+    An element of the algebra is (w, a, u), where w is the angular velocity. The vectors a = dv/dt and
+    u = dp/dt are derivatives at the identity.
 
     - The product is (R, v, p)(R', v', p') = (R R', v + R v', p + R p').
     - The exponential is exp(w, a, u) = (exp w, dexp_w a, dexp_w u).

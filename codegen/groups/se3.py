@@ -17,8 +17,7 @@ class SE3(Semidirect):
 
     - The bracket is [(w, u), (w', u')] = (w cross w', w cross u' - w' cross u).
     - The exponential is exp(w, u) = (exp w, dexp_w u).
-    - A function F(ad_(w, u)) is computed by the formula for F(ad_w), evaluated at the dual number w + u e in
-      place of w, where e^2 = 0.
+    - The formula for a function F(ad_w) also gives F(ad_(w, u)): replace w by w + u e with e^2 = 0.
 
     An element of ``SE3(SU2())`` has a unit quaternion in place of R.
     """
@@ -32,5 +31,5 @@ class SE3(Semidirect):
         self.layout = f": the attitude in {attitude.name}{attitude.layout}, then the position"
 
     def with_linear(self, linear: LieGroup) -> SE3:
-        """Return SE(3) with the attitude in the group ``linear``."""
+        """Return SE(3) with elements of the group ``linear`` as attitudes."""
         return SE3(linear)

@@ -121,7 +121,7 @@ class Semidirect(
         return own if self.linear.offers(capability) is not None else None
 
     def variants(self) -> Sequence[Semidirect]:
-        """Return one product for each implementation of the linear factor (see :meth:`LieGroup.variants`)."""
+        """Return one semidirect product for each group in ``self.linear.variants()``."""
         return tuple(self.with_linear(variant) for variant in self.linear.variants())
 
     def with_linear(self, linear: LieGroup) -> Semidirect:
@@ -359,7 +359,7 @@ class Semidirect(
         return x + _difference(w, self.point_velocity(d, x, a, translated=False))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the replacement rules of the linear factor (see :meth:`LeftTranslation.relations`)."""
+        """Return ``self.linear.relations(r)`` for q = (r, a) (see :meth:`LeftTranslation.relations`)."""
         return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -447,7 +447,7 @@ class Semidirect(
         return self._covered().covering(d, g) + a
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """For q = (r, a), project r onto its group, then return the image under :meth:`covering`."""
+        """Replace r in q = (r, a) by its projection, then return the image of q under :meth:`covering`."""
         g, a = self._over(q)
         return self._covered().projected_covering(d, g) + a
 

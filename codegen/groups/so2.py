@@ -38,7 +38,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (d.rational(1), d.rational(0))
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the product of g and k: the product of the complex numbers c + i s of the two rotations."""
+        """Return the product of g and k as complex numbers. The element (c, s) is the number c + i s."""
         return (g[0] * k[0] - g[1] * k[1], g[1] * k[0] + g[0] * k[1])
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:

@@ -250,7 +250,7 @@ class SO3(
         c1, c2 = d.call("stumpff1", z), d.call("stumpff2", z)
         v = cross(x, y)
         w = cross(x, v)
-        # For short steps, these parentheses leave only one addition with a rounding error proportional to y.
+        # These parentheses reduce the rounding error: for short steps, the small terms are added first.
         return tuple(a + (c1 * b + c2 * c) for a, b, c in zip(y, v, w, strict=True))
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:

@@ -34,7 +34,7 @@ class Unitriangular(MatrixGroup):
 
 class Heisenberg(Unitriangular):
     """The Heisenberg group of dimension 2 n + 1: unitriangular (n + 2) x (n + 2) matrices. Above the
-    diagonal, all entries outside the first row and the last column are zero.
+    diagonal, only the first row and the last column have nonzero entries.
 
     The basis of the algebra begins with the elementary matrices E_1j with 1 < j < n + 2. The matrices
     E_i(n+2) with 1 < i < n + 2 follow. The last matrix is E_1(n+2).

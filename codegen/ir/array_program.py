@@ -108,7 +108,7 @@ class ConstantMatrix:
 
     @property
     def filled(self) -> int:
-        """The number of entries on ``diagonals``. Without ``diagonals``, the number of all entries."""
+        """The number of entries on ``diagonals``, or of all entries if ``diagonals`` is empty."""
         if self.diagonals:
             return sum(map(self.length, self.diagonals))
         return self.rows * self.columns
@@ -151,7 +151,7 @@ class Multiplication:
     """The statement target = L R, or target = target + L R if ``added`` is true.
 
     L is the matrix ``left``, or its transpose if ``left_transposed`` is true. R is the matrix ``right``, or
-    its transpose if ``right_transposed`` is true. The array of the target must not contain L or R.
+    its transpose if ``right_transposed`` is true. The target must not share its array with L or R.
     """
 
     target: Matrix
@@ -169,7 +169,7 @@ class Multiplication:
 
 @dataclass(frozen=True)
 class Apply:
-    """The statement target = C M, or target = M C if ``from_right`` is true.
+    """The assignment ``target = C M``, or ``target = M C`` if ``from_right`` is true.
 
     C is the matrix ``constant``, or its transpose if ``transposed`` is true. M is ``matrix``.
     """
@@ -201,7 +201,7 @@ class Term:
 
 @dataclass(frozen=True)
 class Combination:
-    """The statement target = sum of the terms. Without terms the target becomes zero.
+    """Assign the sum of ``terms`` to ``target``. Without terms the target becomes zero.
 
     If a term contains the old value of the target, it must be the first term, and it must not be transposed.
     """
@@ -225,7 +225,7 @@ class ArrayProgram:
     result: Matrix
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the coefficients of linear combinations and the formulas for entries of constant matrices."""
+        """Yield the expressions in ``body``: coefficients of terms, and formulas of constant matrices."""
         for statement in self.body:
             if isinstance(statement, Combination):
                 yield from (term.coefficient for term in statement.terms)
@@ -259,8 +259,7 @@ class ArrayProgram:
 
         # Without the prefix, an array of this program might have the name of an array of the other program.
         def now(matrix: Matrix) -> Matrix:
-            # The matrices ``argument`` and ``result`` belong to the other program, so their names get no
-            # prefix.
+            # The matrices ``argument`` and ``result`` keep their names. All other names get the prefix.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")
@@ -307,7 +306,7 @@ def evaluated(
                 for i in range(rows):
                     for j in range(columns):
                         at = term.matrix.place(j, i) if term.transposed else term.matrix.place(i, j)
-                        # A smaller term is added to the upper left corner of the target.
+                        # A term with fewer rows or columns is added to the upper left corner of the target.
                         place = i * target.columns + j
                         values[place] = values[place] + c * other[at]
     for i in range(target.rows):

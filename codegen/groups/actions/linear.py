@@ -33,13 +33,13 @@ class Linear(Action):
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
         """If the group consists of rotations, scale y approximately to the length of ``start``.
 
-        For other groups, return y. Let e = 1 - (y.y)/(start.start) with the dot product. The factor is
-        1 + e/2 + 3 e^2/8, and the relative error of the length is O(e^3).
+        For other groups, return y. Let e = 1 - (y.y)/(start.start) with the dot product. The scale
+        factor is 1 + e/2 + 3 e^2/8. The relative error of the length is O(e^3).
         """
         if group.offers(Rotations) is None:
             return y
         squared = dot(start, start)
-        # If ``start`` is zero, ``quotient`` returns 0, and y is not scaled.
+        # If ``start`` is zero, ``quotient`` returns 0, and the scale factor is 1.
         defect = d.call("quotient", squared - dot(y, y), squared)
         return rescaled(d, y, defect)
 

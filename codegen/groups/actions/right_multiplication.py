@@ -46,7 +46,7 @@ class RightMultiplication(Action):
         return y if projection is None else projection.project(d, y)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x.y = -y x, the derivative of y exp(-eps x) at eps = 0."""
+        """Return -y x, the derivative of y exp(-eps x) at eps = 0."""
         translation = group.offers(LeftTranslation)
         if translation is not None:
             return tuple(-a for a in translation.left_velocity(d, y, x))

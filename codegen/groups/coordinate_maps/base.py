@@ -1,6 +1,6 @@
 """The base class of coordinate maps.
 
-A coordinate map describes elements of the group near the neutral element by elements of the Lie algebra.
+A coordinate map is a map from the Lie algebra to the group, for example the exponential map.
 """
 
 from __future__ import annotations

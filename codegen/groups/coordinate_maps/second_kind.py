@@ -46,7 +46,8 @@ class SecondKind(CoordinateMap):
         """Return the solution v of the linear system dtau_x v = y."""
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # Let E_k = exp(x_k e_k). The columns of Ad_{E_1}^-1 dtau_x are e_1, e_2, Ad_{E_2} e_3, and so on.
+        # Let E_k = exp(x_k e_k). The columns of Ad_{E_1}^-1 dtau_x are e_1, e_2, Ad_{E_2} e_3,
+        # Ad_{E_2} Ad_{E_3} e_4, and so on.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]
