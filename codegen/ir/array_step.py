@@ -113,7 +113,7 @@ class ArrayStep:
     def operations(self) -> dict[str, int]:
         """Return the numbers of additions and multiplications of the step.
 
-        Each series of phi is assumed to have :data:`TERMS` terms.
+        The series of phi(z) = (exp(z) - 1)/z is assumed to have :data:`TERMS` terms.
         """
         total = {"add": 0, "mul": 0}
         for statement in (*self.body, *self.estimate):

@@ -141,13 +141,13 @@ class BallDomain:
             y = numbers[-called.n :]
             lines = (rows[called.n * i : called.n * i + called.n] for i in range(called.n))
             with precision(2 * self.bits):
-                # Each entry of exp(A) y is a sum whose terms may cancel.
+                # The sums need more bits than ``self.bits``, because their terms may cancel.
                 sums = [sum((a * x for a, x in zip(line, y, strict=True)), arb(0)) for line in lines]
             return tuple(x.mid() for x in sums)
         if isinstance(called, MatrixInverse):
             with precision(2 * self.bits):
-                # With 2 b bits (b = ``self.bits``), the inverse is accurate for condition numbers up to about
-                # 2^b.
+                # For condition numbers up to 2^b (b = ``self.bits``), 2 b bits give an inverse with about b
+                # correct bits.
                 inverse = arb_mat(block_matrix(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
         if isinstance(called, SpecialUnitaryExponential):
@@ -225,7 +225,7 @@ class BallDomain:
 
         - The change is at most 2^12 eps max(1, m). Here m is the largest absolute value in ``old``, and eps
           is about 10^-``digits``.
-        - The change is not smaller than ``previous``.
+        - Only rounding errors remain: the change is at least ``previous``.
         """
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
         # Without this test, a NaN would cause iterations up to the largest permitted number.
@@ -238,6 +238,6 @@ class BallDomain:
 
     def increment(self, x: arb) -> arb:
         """Return an increment d for which the difference quotient (f(x + d) - f(x))/d is accurate."""
-        # For abs(x) <= 1 and d = sqrt(eps), the rounding error eps/d and the truncation error d are about
-        # equal.
+        # For abs(x) <= 1, d = sqrt(eps) balances the rounding error eps/d and the truncation error d of the
+        # difference quotient.
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()

@@ -65,7 +65,7 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Return the powers y^n of inverse roots y = 1/sqrt x that are to be rewritten as quotients.
+    """Find the powers of y = 1/sqrt x to rewrite as quotients, for example y^3 as 1/(x sqrt x).
 
     The result maps the node number of a power to the pair (node number of y, n).
     """
@@ -119,7 +119,7 @@ class _Gathering:
         # ``walk`` yields the arguments of a node before the node.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
-                # A node may occur in several roots.
+                # Each node is converted once, even if several roots contain it.
                 self.sums[node.id] = self._sum(node)
         return self._spell(root)
 
@@ -177,7 +177,7 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # An atom must not be a linear combination, so ``Space._make`` creates it without simplification.
+        # ``Space._make`` does not simplify. A simplified expression could be a linear combination.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 

@@ -79,7 +79,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
             return above
         case sympy.StrictLessThan():
             return below
-        # The comparison a >= b becomes not (b > a), because ``choose`` tests only for positive values.
+        # ``choose`` has no test x >= 0, so a >= b becomes not (b > a).
         case sympy.GreaterThan():
             return negation(below)
         case sympy.LessThan():

@@ -25,7 +25,7 @@ def decimal(value: sympy.Float) -> Fraction:
     from mpmath.libmp import from_str, to_str
 
     bits = int(value._prec)
-    # The loop ends with ``break``, because 0.30103 b + 2 decimal digits determine a number with b bits.
+    # The loop ends with ``break``: the last pass has enough digits to determine ``value``.
     for digits in range(1, int(bits * DIGITS_OF_BITS) + 3):
         text = to_str(value._mpf_, digits)
         if from_str(text, bits, "n") == value._mpf_:

@@ -19,7 +19,7 @@ class NotDifferentiable(ValueError):
 
 
 def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
-    """Return the partial derivatives of ``root`` with respect to the symbols with the names ``symbols``.
+    """Return the partial derivatives of ``root`` with respect to the variables named in ``symbols``.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x = s.sym("x")

@@ -37,7 +37,7 @@ Values: TypeAlias = tuple[Value, ...]
 
 
 class Domain(Protocol):
-    """The methods of a domain create scalars and evaluate functions. The scalar ``h`` is the step size."""
+    """An arithmetic for scalars, for example doubles. The scalar ``h`` is the step size."""
 
     h: Scalar
 
@@ -55,9 +55,9 @@ class Domain(Protocol):
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the pair (converged, change) after a sweep of an iteration from ``old`` to ``new``. The
-        change is the largest absolute difference of ``old`` and ``new``. ``previous`` is the change in the
-        preceding sweep, or None in the first sweep.
+        """Return the pair (converged, change) after a sweep. The sweep replaces the values ``old`` by
+        ``new``. The change is the largest absolute difference of ``old`` and ``new``. ``previous`` is the
+        change in the preceding sweep, or None in the first sweep.
         """
 
 
@@ -188,8 +188,7 @@ class FloatDomain:
         # Without this test, a NaN would not end the iteration.
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
-        # A small unknown can have the rounding errors of large terms that cancel, so ``change`` is compared
-        # with the largest unknown.
+        # ``scale`` is the largest absolute value of an unknown.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
         # ``before`` is the previous change. The next change is about ``change``^2/``before``. The iteration
@@ -207,7 +206,7 @@ class FloatDomain:
 
 
 LARGEST_BITS = 16384
-"""In :class:`PreciseDomain`, arguments of functions have absolute values below 2^LARGEST_BITS."""
+"""In :class:`PreciseDomain`, arguments of functions must have absolute values below 2^LARGEST_BITS."""
 
 
 class PreciseDomain:
@@ -408,7 +407,7 @@ class SeriesDomain:
         return self._arc("atan", y / x)
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exact results of a vector function of power series."""
+        """Return the results of a vector function. ``args`` and the results are power series."""
         return named(function).over_series(self.ring, args)
 
     def _arc(self, function: str, z: Scalar) -> Scalar:
@@ -442,10 +441,10 @@ class SeriesDomain:
         total, term, j = first, first, 0
         while True:
             j += 1
-            # Term j is term j - 1, multiplied by -z and divided by (step j + k)!/(step (j - 1) + k)!.
+            # Term j is term j - 1 times -z, divided by ``divisor``.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # The series z has no constant term, so truncation makes some term zero, and the loop ends.
+            # The truncated power z^j is zero for large j, because z has no constant term.
             if self.ring.is_zero(term):
                 return total
             total = total + term
@@ -496,5 +495,5 @@ class ExprDomain:
         return self.samples[t.id][1]
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Raise :class:`NotConverged`, because expressions have no values to compare."""
+        """Raise :class:`NotConverged` in every call."""
         raise NotConverged("the values of an iteration are expressions, so they cannot be compared")

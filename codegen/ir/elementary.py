@@ -43,7 +43,7 @@ def _of_sine(x: Expr, f: Expr) -> Expr:
 
 
 def _value(x: Expr, f: Expr) -> Expr:
-    # sinh and cosh are equal to their second derivatives, so the known value f is returned.
+    # This is the second derivative of f, where f is sinh or cosh.
     return f
 
 

@@ -5,8 +5,8 @@ In doubles, the number s is chosen such that the matrix B = A/2^s has a small no
 488). Let m be the degree of the Taylor polynomial. A multiplication by the polynomial replaces y by
 y + B (p/m!). The vector p is the sum of (m!/j!) B^(j-1) y over j = 1, ..., m.
 
-The integers m!/j! need no rounding. With rounded coefficients 1/j!, the length of y would drift for a skew
-matrix A.
+The integers m!/j! need no rounding. For a skew matrix A, rounded coefficients 1/j! would cause a systematic
+error of the length of y.
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ def degrees(bits: int) -> tuple[int, ...]:
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
-    # An integer needs no rounding if its largest odd divisor has at most ``bits`` bits. For m!/j!, this
-    # divisor is largest for j = 0.
+    # An integer needs no rounding if its largest odd divisor has at most ``bits`` bits. Among the
+    # integers m!/j!, m! has the largest odd divisor.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
-    # Every fourth degree is enough, because a slightly larger degree than necessary costs little time.
+    # Only every fourth degree is used, because more degrees would save little time.
     return tuple(range(m, 3, -4))[::-1]
 
 
@@ -109,8 +109,8 @@ class ExponentialAction(VectorFunction):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the argument arrays. The first array contains the entries of A that are
-        arguments, and the second array is the vector y.
+        """The lengths of the two argument arrays. The first array contains the entries of A at the
+        indices :attr:`places`. The second array is the vector y.
         """
         return (len(self.places), self.n)
 
@@ -125,8 +125,7 @@ class ExponentialAction(VectorFunction):
     def matrix(self, args: Sequence[Scalar], zero: Scalar) -> list[Scalar]:
         """Return all entries of A, row by row.
 
-        ``args`` begins with the entries of A that are arguments of the function. All other entries are
-        ``zero``.
+        ``args`` begins with the entries of A at the indices :attr:`places`. All other entries are ``zero``.
         """
         result = [zero] * self.n**2
         for place, x in zip(self.places, args, strict=False):
@@ -159,8 +158,8 @@ class ExponentialAction(VectorFunction):
 
         - If ``pattern`` is not 0, the result is None.
         - If A is zero, the result is y.
-        - If A has at most :data:`SPARSE` rows, the results are calls of a function of y and the
-          non-zero entries of A.
+        - If A has at most :data:`SPARSE` rows, the results are calls of a function. Its arguments
+          are the non-zero entries of A, and y.
         - If A has more rows, the result is None.
         """
         # If ``pattern`` is not 0, the arguments already omit the zero entries of A.
@@ -215,7 +214,7 @@ class ExponentialAction(VectorFunction):
         return tuple(y)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return exp(A) y for mpmath numbers.
+        """Return exp(A) y. ``args`` contains mpmath numbers: entries of A, then y.
 
         OverflowError is raised if an entry of the n x n matrix A has an absolute value of 2^40/n or more.
         """

@@ -120,9 +120,7 @@ class Space:
         # The number of a new node is the length of the table, so nodes are never removed.
         self._table: dict[tuple[object, ...], Expr] = {}
         self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
-        """A cache: the derivatives of calls of vector functions (see
-        :func:`codegen.ir.vector_calls.partial`).
-        """
+        """A cache for the derivatives of vector functions (see :func:`codegen.ir.vector_calls.partial`)."""
         self.zero = self.const(Number.rational(0))
         self.one = self.const(Number.rational(1))
 
@@ -306,7 +304,7 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
         test, *values = args[0].args
-        # ``choose(x, 1, -1)`` is positive if and only if x is positive.
+        # ``choose(choose(x, 1, -1), a, b)`` equals ``choose(x, a, b)``.
         if [v.payload.text() if v.op == "const" else "" for v in values] == ["1", "-1"]:
             return test.space.call(CHOOSE, test, *args[1:])
     if function not in SELECTING or args[0].op != "const" or not args[0].payload.is_rational:

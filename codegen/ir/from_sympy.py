@@ -42,7 +42,8 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     """Convert a sympy expression to a node of ``space``.
 
     A float becomes the shortest decimal that rounds to this float, so 0.1 becomes 1/10. :class:`SceneError`
-    is raised if a subexpression is not supported. The message names the place ``where`` of the formula.
+    is raised if a subexpression is not supported. The argument ``where`` is the place of the
+    formula in the message.
     """
     import sympy
 
@@ -140,7 +141,7 @@ class _Reader:
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
 
     def _selection(self, name: str, e: sympy.Basic) -> Expr:
-        """Convert the call ``e`` of one of the functions (for example Max) in :data:`SELECTIONS`."""
+        """Convert the call ``e`` of a function in :data:`SELECTIONS`, for example Max."""
         space = self.space
         match name:
             case "Abs":
@@ -187,7 +188,7 @@ class _Reader:
         return total
 
     def _product(self, e: sympy.Mul) -> Expr:
-        """Convert a product, with one divisor for all factors with negative exponents."""
+        """Convert the product ``e``, for example x y^-1 z^-1 to x/(y z)."""
         import sympy
 
         # ``above`` contains the factors of the numerator, and ``below`` the factors of the divisor.
@@ -199,7 +200,7 @@ class _Reader:
                 below.append(self._power(self.guarded(self.node(a.base), 1), -a.exp, a))
             else:
                 above.append(self.node(a))
-        # The formula x/(y z) contains one division instead of two.
+        # The result x/(y z) contains one division, and (x/y)/z contains two.
         product = _fold(self.space.mul, above) if above else self.space.one
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
 

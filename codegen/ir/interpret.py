@@ -62,7 +62,7 @@ def interpret(
     :class:`NotConverged` is raised if the iteration of a block does not converge.
     """
     if program.frame == BODY:
-        # The statements of the step are the same in both frames.
+        # ``core`` has the same statements as ``program``, but no conversions of mu.
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
         options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
         end = interpret(core, problem, domain, start, **options)
@@ -178,7 +178,8 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The test comes before the update, so all values in ``env`` are computed from the final unknowns.
+        # The last sweep does not update the unknowns. In ``env``, the results of ``block.body`` belong to
+        # these unknowns.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -188,7 +189,7 @@ def _iterate(
 
 
 def _differenced(domain: Domain) -> Differenced:
-    # The class of the domain is not tested, because some domains forward their attributes to another domain.
+    # Newton's method needs the method ``domain.increment``. The class of ``domain`` does not matter.
     assert hasattr(domain, "increment")
     return cast("Differenced", domain)
 
@@ -222,7 +223,7 @@ def _correct(
 
     rounded = getattr(domain, "rounded", list)
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
-    # ``sharp`` becomes true when the iteration has converged.
+    # After convergence, ``sharp`` is true, and one more Newton step is computed.
     size, sharp = None, False
     for _ in range(limit):
         values = images(now)

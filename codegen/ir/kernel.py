@@ -30,7 +30,7 @@ distinguishes the name from all names that a user can choose.
 """
 
 ELAPSED = "elapsed.h"
-"""In a splitting method, the name of the symbol for the total duration of a run of several steps."""
+"""The name of a symbol in splitting methods: the total duration of a run of several steps."""
 
 LONGEST = 256
 """The largest number of steps that share one deferred flow (:class:`Deferred`).
@@ -42,7 +42,7 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 """The names of the methods that solve implicit equations."""
 
 SLOWEST = 2.0**-12
-"""The smallest contraction factor that the stopping rule uses.
+"""A lower bound for the contraction factor in the stopping rule.
 
 The contraction factor is the quotient of two successive changes of the unknowns. This quotient may be tiny by
 accident if the changes are rounding errors.
@@ -52,19 +52,15 @@ UNIT = 2.0**-53
 """The unit roundoff of doubles, that is, the largest relative rounding error."""
 
 LOST = 2.0**-47
-"""A relative bound for rounding errors of the state (:mod:`codegen.run.stopping`).
-
-The stopping rule compares h times the change of the unknowns with ``LOST`` times the largest number in each
-part of the state.
-"""
+"""A relative bound for rounding errors of the state (:mod:`codegen.run.stopping`)."""
 
 VARIATION = "variation"
-"""The name of the :class:`Field` that contains a variation, that is, a derivative of the state with respect
-to the initial state in one direction.
+"""The name of the :class:`Field` that contains a variation: a directional derivative of the state with
+respect to the initial state.
 """
 
 VARIED = "the variation of "
-"""The beginning of the label of a loop that solves equations for a variation."""
+"""If a loop computes a variation, its label begins with this text."""
 
 
 @dataclass(frozen=True)
@@ -105,8 +101,8 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """The number of steps that use the same inverse matrix, or 0 if ``residuals`` is false."""
-        # An inverse for n unknowns costs O(n^3) operations, or O(n^2) per step if n/2 steps share it.
+        """The number of steps between two inversions of the matrix, or 0 if ``residuals`` is false."""
+        # An inversion for n unknowns costs O(n^3) operations, that is, O(n^2) for each of n/2 steps.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
@@ -215,7 +211,7 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """The deferred flows of a splitting method. They are applied only once in a run of several steps.
+    """The deferred flows of a splitting method.
 
     A run has at most :data:`LONGEST` steps. The run calls ``begin``, then the kernel of the step once for
     each step, and then ``finish``.
@@ -455,7 +451,7 @@ class Kernel:
         """Return the names in ``scalars`` that the step uses, in the order of ``scalars``."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.deferred is not None:
-            # The kernels of the deferred flows may use other scalars.
+            # The kernels ``begin`` and ``finish`` may use additional scalars.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
             # The kernel of the Taylor coefficients may use additional scalars.

@@ -1,4 +1,4 @@
-"""A step of a large linear problem y' = A(t) y, computed only with products of matrices and vectors.
+"""A step of a large linear problem y' = A(t) y, computed with matrix-vector products.
 
 The step evaluates the matrices a_i = h A(t_i) at the nodes t_i, and applies exponentials to the state. Each
 exponent is a letter plus multiples of commutators. A letter is a linear combination of the a_i. A commutator
@@ -113,7 +113,7 @@ class LinearArrayStep:
 
     def products(self, element: Element) -> int:
         """Return the number of matrix-vector products that are needed to multiply ``element`` by a vector."""
-        # The product of a letter and a vector is one matrix-vector product.
+        # A letter is one matrix, so it needs one product.
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
             # The commutator needs the products Y v, X (Y v), X v and Y (X v).
@@ -132,6 +132,7 @@ class LinearArrayStep:
         products = TERMS * sum(map(self.products, self.exponents))
         sums = sum(map(len, self.letters)) * self.matrix.filled if self.matrix.is_banded else 0
         each = products * self.matrix.filled * k + sums
-        # After the product with X, each term of a Taylor polynomial is scaled and added to the sum.
+        # ``vectors`` is the number of entries in all terms of the Taylor polynomials. Each entry needs one
+        # addition and two multiplications.
         vectors = TERMS * len(self.exponents) * size
         return {"add": each + vectors, "mul": each + 2 * vectors}

@@ -63,7 +63,7 @@ class FirstOrder:
     def jacobian(self, roots: Sequence[Expr]) -> list[list[Expr]]:
         """Return the derivatives of the expressions ``roots`` with respect to the unknowns.
 
-        The result has one row for each root. All roots must be expressions of the same :class:`Space`.
+        Row i of the result belongs to ``roots[i]``. All roots must be expressions of the same :class:`Space`.
 
         :class:`NotLinearised` is raised if a root cannot be expanded at h = 0.
         """
@@ -185,7 +185,8 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
 def _called(space: Space, function: str, a: _Dual) -> _Dual:
     """Return the expansion of f(a), where f is the function with the name ``function``.
 
-    In the code, ``at``, ``first`` and ``second`` are the values of f, f' and f'' at a for h = 0.
+    In the code, ``low`` is the value of ``a`` at h = 0. The variables ``at``, ``first`` and ``second`` are
+    the values of f, f' and f'' at ``low``.
     """
     low, high = a.value
     if function.startswith("stumpff"):

@@ -127,10 +127,10 @@ def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Return the entries of the jet that is represented by a block matrix (:func:`block_matrix`)."""
+    """Convert a block matrix to the entries of a jet: the inverse of :func:`block_matrix`."""
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2
-    # The first block row (A, E) contains all entries of the jet.
+    # The block matrix is [[A, E], [0, A]]. The jet consists of A and E.
     a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
     return [*_first_row(a, level - 1), *_first_row(e, level - 1)]

@@ -30,7 +30,7 @@ DEGREES = (4, 8, 12, 16)
 """The degrees of the Taylor polynomials."""
 
 LEAST_DIGITS = 10
-"""If the bound of the relative error of the exponential exceeds 2^-``LEAST_DIGITS``, all results are NaN."""
+"""The least number of correct bits in the exponential. If the error bound is larger, all results are NaN."""
 
 Pairs = tuple[tuple[tuple[int, int], ...], ...]
 
@@ -69,7 +69,7 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
     """Return the exponential of the jet ``a``, an n x n matrix with its derivatives.
 
-    All results are NaN if at least three correct digits cannot be guaranteed.
+    All results are NaN if fewer than three decimal digits are reliable.
     """
     size = n * n
     scale, squarings, norm = _halvings(_norm(a[:size]))
@@ -86,7 +86,7 @@ def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
 def _halvings(norm: float) -> tuple[float, int, float]:
     """Return the scale 2^-s, the number s of halvings, and the norm of the scaled matrix."""
     scale, squarings = 1.0, 0
-    # The relative error is at least 2^-53, and each squaring about doubles it.
+    # Each squaring approximately doubles the relative error. After 53 squarings, no digit is correct.
     while norm * scale > largest_norms(53)[-1] and squarings < 53:
         # A power of two scales a double without rounding, apart from underflow.
         scale *= 0.5
@@ -103,7 +103,7 @@ def _norm(a: Sequence[float]) -> float:
 
 
 def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> list[Scalar]:
-    """Return the product of two jets. A jet is a matrix with its derivatives."""
+    """Return the product of two jets. A jet consists of an n x n matrix and 2^``level`` - 1 derivatives."""
     size, rows = n * n, range(n)
     result: list[Scalar] = []
     for parts in pairs(level):
@@ -162,7 +162,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     The bound is exp(``scale`` b). Gershgorin's circles give an upper bound b of the eigenvalues of the
     symmetric part of ``a``.
     """
-    # The largest eigenvalue can be negative, so no absolute values of the diagonal entries are taken.
+    # The diagonal entries keep their signs, because the bound b may be negative.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]

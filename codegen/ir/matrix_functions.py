@@ -64,12 +64,12 @@ class MatrixExponential(VectorFunction):
 
         A is the jet ``args`` (a matrix with its derivatives).
         """
-        # A zero entry of the k-th power of ``pattern`` is always a zero entry of A^k.
+        # Where the k-th power of ``pattern`` has a zero, A^k has a zero, too.
         pattern = power = [int(not x.is_zero) for x in args]
         # A jet is nilpotent if its matrix (without the derivatives) is nilpotent.
         if not is_nilpotent(self.n, pattern):
             return None
-        # ``count`` is the number of terms 1, A, A^2/2, ... before the first term that is always zero.
+        # The loop counts the terms 1, A, A^2/2, ... until ``power`` is zero.
         count = 1
         while any(power):
             count += 1
@@ -92,14 +92,14 @@ class MatrixExponential(VectorFunction):
         return matrix_exponential.in_doubles(self.n, self.level, args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential of ``args`` in mpmath numbers with about ``digits`` correct digits."""
+        """Return the exponential of the jet ``args`` in mpmath numbers, with about ``digits`` digits."""
         return matrix_exponential.in_digits(context, self.n, self.level, args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential of a matrix A of truncated power series, and the derivatives of exp(A).
+        """Return the exponential of the jet ``args``. The entries of the jet are truncated power series.
 
-        ``args`` contains A, followed by its derivatives. The matrix of the constant terms of A must be
-        nilpotent.
+        ``args`` contains a matrix A, followed by its derivatives. The matrix of the constant terms of A must
+        be nilpotent.
         """
         # The matrix C of the constant terms of A satisfies C^n = 0. A power of the jet is a sum of products.
         # A non-zero product has fewer than n successive factors C. It has at most ``ring.order`` + ``level``

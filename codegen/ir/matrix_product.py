@@ -24,7 +24,7 @@ class BilinearFunction(VectorFunction):
 
     @property
     def size(self) -> int:
-        """The number of entries of f(a, b)."""
+        """The number of entries of the result."""
         return self.n**2
 
     @property
@@ -60,7 +60,8 @@ class BilinearFunction(VectorFunction):
         ``args`` are the entries of a and b, and ``argument`` is the index of this one entry in ``args``.
         """
         space = args[0].space
-        # The derivative is f(E, b) or f(a, E), where E has a 1 at this entry and zeros elsewhere.
+        # Let E be the matrix with E_ij = 1 and zeros elsewhere. The derivative is f(E, b) for the entry a_ij,
+        # and f(a, E) for the entry b_ij.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
         # ``half`` is the slice of the replaced entries in ``args``.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)

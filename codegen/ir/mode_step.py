@@ -110,7 +110,7 @@ class Multiplier:
 
     @property
     def key(self) -> tuple[tuple[Monomial, Number], ...]:
-        """The terms in a fixed order. Equal multipliers have equal keys."""
+        """The items of ``terms`` as a sorted tuple. Two equal polynomials have equal keys."""
         return tuple(sorted(self.terms.items(), key=lambda term: [(f.order, n) for f, n in term[0]]))
 
     @property
@@ -120,7 +120,7 @@ class Multiplier:
         return tuple(dict.fromkeys(f for monomial, _ in self.key for f, _ in monomial))
 
     def text(self) -> str:
-        """Return the polynomial as text.
+        """Return the multiplier as text.
 
         >>> half = Number.rational(1, 2)
         >>> m = Multiplier.of(PHI, half) * (Multiplier.of(EXP, half) + Multiplier.constant(-ONE))
@@ -147,7 +147,7 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
     exponent = Number.rational(0)
     for factor, n in (*a, *b):
         if factor.function == EXP:
-            # exp(a z)^n = exp(n a z), so ``factor.scale`` is added n times.
+            # With a = ``factor.scale``, exp(a z)^n = exp(n a z). The loop adds n a to ``exponent``.
             for _ in range(n):
                 exponent = exponent + factor.scale
         else:
@@ -161,7 +161,7 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
 
 @dataclass(frozen=True)
 class Table:
-    """A coefficient of a step: h^``power`` times the function ``multiplier`` of z.
+    """A coefficient of a step: h^``power`` times ``multiplier``, a function of z = h lambda.
 
     The coefficient has one value for each Fourier mode. Emitted code computes these values once for each step
     size, and stores them.
@@ -212,8 +212,8 @@ class Nonlinearity:
 
     - ``inner`` lists the x-derivatives of u in the functions f_j as pairs (order, name). Order 0 is u itself.
     - ``outer`` lists the orders of the x-derivatives of f_1, f_2, ... in the sum.
-    - ``formulas`` computes the values of all f_j at one point x. The kernel inputs are the derivatives in
-      ``inner``, x, t and the parameters.
+    - ``formulas`` computes the values of all f_j at one point x. The kernel inputs are: the derivatives in
+      ``inner``; x; t; the parameters.
     - ``kept`` is the fraction of the Fourier modes of N that the step uses. The modes with the highest wave
       numbers are set to zero to avoid aliasing.
     """
@@ -229,7 +229,7 @@ class ModeStep:
     """One step on Fourier modes.
 
     - ``tables`` contains the coefficients.
-    - ``evaluations`` contains the evaluations of N, in the order of execution.
+    - ``evaluations`` contains the evaluations of the nonlinear part N, in the order of execution.
     - ``result`` contains the terms whose sum is the new state.
     - ``nonlinearity`` is the nonlinear part N.
     - ``wave`` and ``space`` are the names of two variables: the wave number and x.
@@ -297,7 +297,7 @@ class ModeStep:
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression that emitted code evaluates during a run."""
-        # The initial state is computed before a run, so the kernel ``initial`` is omitted.
+        # The kernel ``initial`` is not evaluated during a run.
         for kernel in (self.symbol, self.length, self.nonlinearity.formulas):
             yield from kernel.expressions()
 
@@ -308,13 +308,13 @@ class ModeStep:
         """
         lines = []
         for number, evaluation in enumerate(self.evaluations, 1):
-            # For an evaluation at the time t, no time is printed.
+            # The text "at t + c h" is omitted for c = 0.
             time = "" if evaluation.time.is_zero else f", at t + {evaluation.time.text()} h"
             lines += self._sum(f"U{number}", evaluation.point, time)
         lines += self._sum("new u", self.result, "")
         lines.append("z is h times an eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
         if any(f.function == BERNOULLI for f in self.factors):
-            # The poles are not real and do not concern real eigenvalues.
+            # The poles are imaginary numbers. They do not matter for real eigenvalues.
             poles = ", unbounded near the poles z = 2 pi i m for integers m != 0" if self.complex else ""
             lines.append(f"bernoulli(z) = z/(exp(z) - 1){poles}")
         lines.append(f"coefficients for z < 0: {self.bound()}")

@@ -16,8 +16,8 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""A product of powers of variables, as sorted pairs (node number, exponent). The node number is the ``id``
-of the expression that is the variable.
+"""A product of powers of variables, as sorted pairs (node number, exponent). A variable is an expression.
+Its node number is its ``id``.
 """
 
 Polynomial = dict[Monomial, Number]
@@ -42,9 +42,8 @@ class TooLong(ArithmeticError):
 class NormalForms:
     """Simplifies the expressions of ``space``.
 
-    Each relation in ``relations`` replaces a product of two symbols by a sum (:data:`Relation`). The caller
-    must choose relations for which repeated replacement ends. Each expression in ``whole`` is treated as one
-    variable.
+    Each relation in ``relations`` replaces a product of two symbols by a sum (:data:`Relation`). Repeated
+    replacement must terminate. Each expression in ``whole`` is treated as one variable.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:

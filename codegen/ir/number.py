@@ -48,7 +48,7 @@ class Number:
 
     @cached_property
     def key(self) -> tuple[object, ...]:
-        """A value that represents this number in the comparison ``==``."""
+        """Two numbers are equal (``==``) if their keys are equal."""
         # The key of a ball consists of its exact end points, so balls with equal end points compare equal.
         return tuple(self.ring.key(self.element))
 
@@ -123,7 +123,7 @@ class Number:
         raise TypeError(f"numbers of two different rings cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
-        # The test ``self == -other`` below is slower, because it computes the keys of both numbers.
+        # This separate case for rational numbers saves time.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
         # This case is treated separately, because the sum of two balls would not be exactly 0.

@@ -98,7 +98,7 @@ class Operation(ABC):
         """Return the results of the operation for ``args``. The scalars in ``args`` belong to ``domain``."""
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if the arguments may have the kinds ``arguments``, and the results the kinds
+        """Return True if the operation can have arguments of the kinds ``arguments`` and results of the kinds
         ``results``.
         """
         return (arguments, results) == self.signature()
@@ -211,7 +211,7 @@ class OfGroup(Operation):
         return self.name
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results of the function called :attr:`function` for the arguments ``args``."""
+        """Return the results of the operation for the arguments ``args``."""
         # None means that the function is not a truncated series.
         return problem.apply(domain, self.function, None, args)
 
@@ -236,8 +236,8 @@ class Exp(OfGroup):
 
 @dataclass(frozen=True)
 class ElementAt(OfGroup):
-    """The group element tau(x) for an element x of the Lie algebra. The coordinate map tau is defined in the
-    scene, for example the Cayley map (:mod:`codegen.groups.coordinate_maps`).
+    """The group element tau(x) for an element x of the Lie algebra. The scene defines the coordinate map
+    tau, for example the Cayley map (:mod:`codegen.groups.coordinate_maps`).
     """
 
     name = "element_at"
@@ -324,7 +324,7 @@ class Adjoint(OfGroup):
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of the arguments and of the results."""
         own = D if self.dual else A
-        # The result belongs to the same space as the last argument.
+        # The last argument and the result have the same kind.
         return G + own, own
 
     def opposite(self) -> Adjoint:
@@ -350,7 +350,7 @@ class Bracket(OfGroup):
 
     @property
     def function(self) -> str:
-        """The name of the method of the group that evaluates this operation."""
+        """The name of the method of the group for this operation."""
         return "adt" if self.dual else "ad"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -385,7 +385,7 @@ class InverseDexp(Operation):
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the order of the truncation."""
+        """Return the name and the order, for example ``dexpinv(2)``."""
         return f"{self.name}({self.order})"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -434,7 +434,7 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """The operation as a product of functions of ad*_x. The only factor is dexp."""
+        """A tuple with one function of ad*_x: the function dexp."""
         return (Factor("dexp", UNIT),)
 
 
@@ -456,7 +456,7 @@ class AdSeries(Operation):
         return "series*" if self.dual else "series"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the functions in ``word`` in square brackets."""
+        """Return the text ``name[f g ...]`` with the functions f, g, ... in ``word``."""
         return f"{self.name}[{' '.join(factor.text() for factor in self.word)}]"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -470,6 +470,6 @@ class AdSeries(Operation):
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the product of the functions in ``word``, applied to the last argument."""
+        """Apply all functions in ``word`` to the last argument, and return the result."""
         # The factors are functions of the same operator ad_x and commute.
         return (problem.series(domain, self.word, self.dual, *args),)
