@@ -58,7 +58,7 @@ class Precision:
     def round(self, value: Number | Fraction | float) -> float:
         """Return the nearest number of the format. InputError is raised if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # With ``not <=`` in place of ``>``, a NaN is an error, too.
+        # This condition is also true if ``rounded`` is NaN.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -103,7 +103,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     # Rounding to a double first could give a wrong result: the double may lie exactly between two numbers of
     # the format.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The bit lengths give an exponent that is correct or too small by one.
+    # Here ``exponent`` is correct or too small by one.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Every number of the format is a multiple of the smallest positive number.
     exponent = max(exponent, SUBNORMAL[bits])

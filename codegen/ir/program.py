@@ -69,8 +69,8 @@ class Solve:
     - ``starts`` are the variables with the initial values of the unknowns.
     - ``body`` contains the statements that compute g(u).
     - ``images`` are the variables with the values g(u), one for each unknown.
-    - ``residuals`` is empty, or contains one residual for each unknown. Each residual is about as large as
-      the error of its unknown.
+    - ``residuals`` is empty, or contains one residual for each unknown. Each residual is an estimate of the
+      error of its unknown.
 
     After the block, the variables of the body have their values at the solution.
     """
@@ -126,8 +126,8 @@ class Program:
     statements are executed once for each substep.
 
     If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. With the
-    new values q' and m', the new value of mu is mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m. This sum has smaller
-    rounding errors than Ad*_{q'^-1} m'.
+    new values q' and m', the new value of mu is mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m. This formula reduces
+    rounding errors: in exact arithmetic, mu equals Ad*_{q^-1} m.
     """
 
     name: str
@@ -159,7 +159,7 @@ class Program:
         """Return the program as text, with one statement on each line."""
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
-        # In the body frame, the name mu denotes the body momentum in all statements.
+        # In the body frame, the variable ``mu`` of the statements is the body momentum.
         lines += ["  with the body momentum Ad*(q, mu) in place of mu:"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):

@@ -232,7 +232,7 @@ class FlowOf(Operation):
     part: str
     duration: Coefficient
     timed: bool = False
-    # A flow takes about the same time as an exponential, and counts as one in the cost of a method.
+    # In the cost of a method, each flow is counted as one exponential.
     exponentials = 1
     name = "flow"
     noun = "flow{s}"

@@ -22,7 +22,7 @@ class Total(Operation):
     noun = "sum{s} over all sites"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return ``args``, because the sum over a single site has only one term."""
+        """Return ``args``, the sum for a lattice with a single site."""
         return args
 
 
@@ -69,7 +69,10 @@ class Excess(Operation):
 
 @dataclass(frozen=True)
 class Corrected(Operation):
-    """The covector g + (r/s) x for a covector g, a vector x and numbers r, s. For s = 0 the result is g."""
+    """The covector with the components g_i + (r/s) x_i for a covector g, a vector x and numbers r, s.
+
+    For s = 0 the result is g.
+    """
 
     name = "corrected"
     takes, gives = D + A + R + R, D
@@ -94,7 +97,7 @@ class Wedge(Operation):
     takes, gives = D + A + R + R + R, A
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return (p f - q gamma)/s, where ``args`` is (gamma, f, p, q, s). For s = 0, return zero."""
+        """Return the vector defined by the class. ``args`` is (gamma, f, p, q, s)."""
         gamma, f, p, q, s = args
         # The quotients p/s and q/s are the same for all components of the result.
         along, across = (domain.call("quotient", x, s) for x in (p, q))

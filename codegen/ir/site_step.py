@@ -50,8 +50,8 @@ class Row:
 class Load:
     """A number that a sweep reads at each site. ``symbol`` denotes the number in the formulas.
 
-    If ``neighbour`` is :data:`OWN`, the sweep reads the number of the site itself from ``row``. Otherwise,
-    ``neighbour`` is the index of a neighbour in :attr:`SiteStep.offsets`.
+    If ``neighbour`` is :data:`OWN`, the sweep reads the entry of the site itself in ``row``. Otherwise, it
+    reads the entry of neighbour number ``neighbour`` (:attr:`SiteStep.offsets`).
     """
 
     symbol: str
@@ -167,12 +167,12 @@ class SiteNewton:
         return (read + n * n + n, written + n) if periodic else (read, written)
 
     def _substituted(self) -> tuple[int, int]:
-        """Return the memory traffic of a forward and a back substitution with one right-hand side.
+        """Return the total memory traffic of a forward and a back substitution with one right-hand side.
 
         The result is the pair (numbers read, numbers written) for each site.
         """
         n = self.size
-        # Each of the two substitutions reads and writes the n numbers of the right-hand side.
+        # The forward and the back substitution each read and write the n numbers of the right-hand side.
         return 3 * n * n + 2 * n, 2 * n
 
 
@@ -235,7 +235,7 @@ class SiteStep:
 
     @property
     def workspace(self) -> int:
-        """The number of rows of the workspace, including ``size`` rows for a second state."""
+        """The number of rows of the workspace: ``rows`` for intermediate results, ``size`` for one state."""
         # A step must not overwrite the old state, so the emitted code uses two states.
         return self.rows + self.size
 
@@ -282,7 +282,7 @@ class SiteStep:
         return _added([traffic(self.unrepeated), *matrices])
 
     def moved_in_a_sweep(self, block: SiteBlock) -> tuple[int, int]:
-        """Return the memory traffic of one iteration for the equations of ``block``.
+        """Return the memory traffic of one iteration of ``block``.
 
         The result is the pair (numbers read, numbers written) for each site.
         """

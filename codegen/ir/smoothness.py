@@ -1,8 +1,8 @@
 """Selections in the formulas of a vector field.
 
 A selection is a call of ``choose``, ``fabs`` or a piecewise polynomial (:mod:`codegen.ir.selection`). The
-*side* of a selection is the index of the selected formula. For ``choose`` and ``fabs`` the side is 1 if the
-first argument is positive, and 0 otherwise.
+*side* of a selection is the index of the selected formula. For ``fabs(x)`` and ``choose(x, a, b)``, the side
+is 1 if x > 0, and 0 otherwise.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from codegen.ir.selection import ABSOLUTE, CHOOSE, selects
 from codegen.ir.table import PiecewisePolynomial
 
 Sides = tuple[int, ...]
-"""The indices of the selected formulas, in the order of :func:`selections`."""
+"""The side of each selection, in the order of the list from :func:`selections`."""
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
-    """Return all selections in the expressions ``roots``.
+    """Return all selections (calls of ``choose``, ``fabs`` or a piecewise polynomial) in ``roots``.
 
     If an argument of a selection contains another selection, the inner selection comes first.
     """
@@ -118,7 +118,7 @@ def _argument(node: Expr) -> str:
     if x.op == "neg":
         (x,) = x.args
     if x.op == "sub":
-        # The differences a - b and b - a have the same zeros, so they get the same text.
+        # The result is the same for the differences a - b and b - a.
         first, second = sorted(x.args, key=lambda e: (e.op == "const", e.id))
         return f"{first} - {second}"
     # ``str`` encloses sums, products and quotients in parentheses.

@@ -49,7 +49,7 @@ class PiecewisePolynomial(str):
         """Return the piecewise polynomial. Zeros are appended to the rows of coefficients until all rows
         have the same length and at least two entries.
         """
-        # A polynomial with one coefficient would have a finite value at x = NaN.
+        # With at least two coefficients, Horner's rule returns NaN for x = NaN.
         width = max(2, *map(len, rows))
         rows = tuple((*row, *(Fraction(0),) * (width - len(row))) for row in rows)
         content = ";".join(",".join(map(str, row)) for row in (knots, bases, *rows))

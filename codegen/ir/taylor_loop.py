@@ -51,8 +51,7 @@ class OrderLoop:
     - ``names`` are the names of the symbols that represent the values of ``first`` in the loop.
     - ``coordinates`` are the names of the symbols for coefficient n of each coordinate.
     - ``sums`` are the names of the symbols for the inner sums, the sums of a_j b_{n-j} over 0 < j < n.
-    - ``left[k]`` and ``right[k]`` are the expressions for a_n and b_n, where a and b are the series in inner
-      sum k.
+    - ``left[k]`` and ``right[k]`` are the expressions for coefficient n of the series a and b in inner sum k.
     - ``start`` are the expressions for coefficient 1 of each coordinate.
     - ``following`` are the expressions for coefficient n + 1 of each coordinate.
     """
@@ -72,7 +71,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
     The scalars of ``recurrence`` must be expressions of ``space``, and ``recurrence.scale`` must be 1.
     """
-    # The coefficients of the coordinates are computed here, because the method ``constant`` reads them.
+    # Coefficient 1 would suffice for ``start``. The method ``_Loop.constant`` needs more coefficients.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
     # Coefficient n + 1 of a coordinate is 1/(n + 1) times coefficient n of the derivative of the coordinate.
@@ -80,7 +79,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
     following = []
     for number, slope in recurrence.slopes:
         x = work.of(slope)
-        # ``x`` is None if the derivative is constant in time.
+        # If ``x`` is None, coefficient n of the derivative is zero.
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
     # ``work.of`` may append pairs to ``work.pairs`` during this loop.
@@ -106,7 +105,7 @@ def coordinate_names(count: int) -> tuple[str, ...]:
 
 
 def _known(x: Expr | None) -> Expr:
-    assert x is not None, "the series is constant in time, so no expression for its coefficient n exists"
+    assert x is not None, "the series is constant in time: its coefficient n is zero"
     return x
 
 
@@ -114,9 +113,9 @@ def _known(x: Expr | None) -> Expr:
 class _Loop:
     """Builds the expression for coefficient n of each series.
 
-    - ``pairs`` contains the two series of each inner sum.
+    - ``pairs`` contains the series a and b of each sum of a_j b_{n-j} over 0 < j < n.
     - ``first`` are expressions that are computed before the loop over n.
-    - ``known`` maps the id of a series to its coefficient n, or to None for a series constant in time.
+    - ``known`` maps the id of a series to its coefficient n, or to None if the series is constant.
     - ``places`` maps the ids of a pair of series to the index of the pair in ``pairs``.
     - ``positions`` maps the id of an expression to the index of the expression in ``first``.
     """
@@ -134,11 +133,11 @@ class _Loop:
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
-        # The symbol ``LINEAR`` is coefficient n of the time.
+        # The symbol ``LINEAR`` is coefficient n of the Taylor series of the time.
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
-        """Return coefficient n of a series, or None if the series is constant in time."""
+        """Return coefficient n >= 1 of ``root`` as an expression. For a constant series, return None."""
         # An explicit stack is used in place of recursion, because series may be nested deeply.
         waiting = [root]
         while waiting:
@@ -197,7 +196,7 @@ class _Loop:
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
     def built(self, series: Series) -> Expr:
-        """Return coefficient n of a series, computed from the coefficients of its operands."""
+        """Return the expression for coefficient n of ``series``."""
         space = self.space
         match series:
             case Sum(a=a, b=b, minus=minus):
@@ -282,7 +281,7 @@ def _operands(series: Series) -> Sequence[Series]:
         case Power(a=a, slope=slope):
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
-            # Coefficient n of the sine depends only on lower coefficients of the cosine.
+            # Coefficient n of the cosine does not occur in the formula for the sine.
             return (slope,)
         case Chosen(a=a, b=b):
             return a, b

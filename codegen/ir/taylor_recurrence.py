@@ -82,7 +82,7 @@ class _Builder:
         if base is not node:
             return (base,)
         if node.op == "div":
-            # If the divisor is c x^e, the quotient is built from the series of the numerator and of x.
+            # If the divisor is c x^e, the series of x is used in place of the series of the divisor.
             _, divisor, _ = self.monomial(node.args[1])
             return node.args[0], divisor
         return node.args
@@ -182,7 +182,7 @@ class _Builder:
         return Given(self.domain, self.domain.rational(1))
 
     def multiple(self, number: Number, a: Series) -> Series:
-        """Return the series ``number`` times a."""
+        """Return the product of ``number`` and the series ``a``."""
         return a if number.is_one else Multiple(self.domain, number, a)
 
     def power(self, a: Series, base: Expr, exponent: Fraction) -> Series:
@@ -300,7 +300,7 @@ class Recurrence:
         self.time = Given(domain, values[TIME], scale)
         series: dict[str, Series] = dict(zip(symbols, self.coordinates, strict=True))
         self.builder = _Builder(domain, series | {TIME: self.time}, values)
-        # ``slopes`` contains each derivative as a number times a series.
+        # Each entry (c, a) of ``slopes`` represents the derivative c a of a coordinate.
         self.slopes = [_apart(self.builder.of(root)) for root in roots]
 
     def extend(self, degree: int) -> list[list[Coefficient]]:
@@ -342,5 +342,5 @@ class Recurrence:
 
 
 def _apart(series: Series) -> tuple[Number, Series]:
-    """Return a number c and a series a such that ``series`` is c times a."""
+    """Return c and a if ``series`` is a :class:`Multiple` c a, otherwise 1 and ``series``."""
     return (series.number, series.a) if isinstance(series, Multiple) else (Number.rational(1), series)

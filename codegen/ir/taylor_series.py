@@ -50,7 +50,7 @@ class Series(ABC):
 
 
 class Given(Series):
-    """The series of a constant, of the time, or of a coordinate, given by its coefficients."""
+    """A series with given coefficients: a constant, the time, or a coordinate."""
 
     def __init__(self, domain: Domain, *terms: Scalar, closed: bool = True) -> None:
         super().__init__(domain)
@@ -86,7 +86,7 @@ class Multiple(Series):
         self.a, self.number = a, number
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n: the product of c and a_n."""
+        """Return coefficient n: ``number`` times coefficient n of ``a``."""
         return _scaled(self.domain, self.number, self.a.term(n))
 
 
@@ -171,7 +171,7 @@ class Power(Series):
     def _first(self, a: Scalar) -> Scalar:
         """Return the power a^e of a scalar a, where e is ``self.exponent``."""
         size = abs(self.exponent)
-        # The denominator is 1 or 2, so |e| = ``whole`` + ``half``/2, where ``half`` is 0 or 1.
+        # Since 2 e is an integer, |e| is ``whole`` + ``half``/2, and ``half`` is 0 or 1.
         whole, half = divmod(size.numerator, size.denominator)
         factors = [power(a, whole)] if whole else []
         factors += [self.domain.call("sqrt", a)] if half else []
@@ -286,8 +286,8 @@ class Circular(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of the sine or the cosine.
 
-        Let z be the sum of j a_j o_{n-j}/n over 0 < j <= n, where o is ``other``. For n > 0, the result is z
-        for the sine, and -z for the cosine.
+        Let a_j and o_j be the coefficients of ``self.a`` and ``self.other``. For n > 0, let z be the sum of
+        j a_j o_{n-j}/n over 0 < j <= n. The result is z for the sine, and -z for the cosine.
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
@@ -329,7 +329,7 @@ class Chosen(Series):
     def following(self, n: int) -> Coefficient:
         """Return a_n if ``test`` is positive at the beginning of the step, otherwise b_n.
 
-        If both a_n and b_n are None, the result is None.
+        The result is None only if a_n and b_n are both None.
         """
         a, b = self.a.term(n), self.b.term(n)
         if a is None and b is None:
@@ -349,7 +349,7 @@ class Start(Series):
         self.a, self.function = a, function
 
     def following(self, n: int) -> Coefficient:
-        """Return f(a_0) for n = 0. Return None for all other n, because the series is constant."""
+        """Return f(a_0) for n = 0, and None (zero) for n > 0."""
         return self.function(self.a.term(0)) if n == 0 else None
 
 

@@ -25,7 +25,8 @@ class TimeMomentum(Operation):
     Let Q and P be the positions and the momenta in Y. The new value of u is u + (Q.P' - P.Q')/2. The prime
     denotes the derivative with respect to t for fixed y and fixed step size h.
 
-    The arguments are (y, u), (Y, u) and t. The program ``step`` computes (Y, u) from (y, u) and t.
+    The arguments are (y, u), (Y, u) and t. The program ``step`` computes Y from y and t, and does not change
+    u.
     """
 
     step: Program
@@ -36,7 +37,7 @@ class TimeMomentum(Operation):
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
         """Return the point (Y, u) with the new value of the momentum u."""
         start, end, t = args
-        # Only expressions can be differentiated.
+        # ``_increment`` differentiates symbolically, so it accepts only expressions.
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
         increment = self._evaluated(cast("Problem", problem), domain, start, t)
@@ -44,7 +45,7 @@ class TimeMomentum(Operation):
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
-        """Return the increase of the momentum u as a scalar of ``domain``."""
+        """Return (Q.P' - P.Q')/2, the change of u in the step, as a scalar of ``domain``."""
         # The point after the step is differentiated with respect to t. Hence y and t are symbols.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)

@@ -8,9 +8,10 @@ the three coefficients from the Taylor polynomial of exp X. No step divides by d
 All eigenvalues of H are bounded by 2 (p/3)^(1/2) in absolute value. If this bound is large, the Taylor
 polynomial is evaluated for X/2^s instead of X. The matrix exp(X/2^s) is then squared s times.
 
-Let E_jk be the matrix with the entry 1 at (j, k) and zeros elsewhere. The first six coordinates of X are the
-coefficients of E_jk - E_kj and of i (E_jk + E_kj) for each pair j < k, row by row. The last two coordinates
-are the coefficients of i (E_11 - E_22) and i (E_22 - E_33).
+Let E_jk be the matrix with the entry 1 at (j, k) and zeros elsewhere. The first six coordinates of X belong
+to the pairs (j, k) = (1, 2), (1, 3), (2, 3). The two coordinates of a pair are the coefficients of
+E_jk - E_kj and i (E_jk + E_kj). The last two coordinates are the coefficients of i (E_11 - E_22) and
+i (E_22 - E_33).
 """
 
 from __future__ import annotations
@@ -80,9 +81,7 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The numbers of additions and multiplications in a typical call: a Taylor polynomial of degree 12,
-        and no squarings.
-        """
+        """The numbers of additions and multiplications for Taylor degree 12, without squarings."""
         return {"add": 110, "mul": 120}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
@@ -130,8 +129,7 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
     result = [zero] * width**2
 
     def put(i: int, j: int, real: T, imaginary: T) -> None:
-        # Both blocks A contain ``real``, the block B contains ``imaginary``, and the block -B contains
-        # ``-imaginary``.
+        # The matrix has the block rows (A, -B) and (B, A). Set A_ij = ``real`` and B_ij = ``imaginary``.
         result[width * i + j] = result[width * (ROWS + i) + ROWS + j] = real
         result[width * (ROWS + i) + j] = imaginary
         result[width * i + ROWS + j] = -imaginary  # type: ignore[operator]
@@ -149,14 +147,14 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
 def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
     """Return the entries of A, then the entries of B, for a matrix with the block rows (A, -B) and (B, A)."""
     width = 2 * ROWS
-    # In the first three columns, the upper three rows are A, and the lower three rows are B.
+    # The first three columns of ``matrix`` contain A above B.
     return tuple(matrix[width * i + j] for i in range(width) for j in range(ROWS))
 
 
 def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
     """Return the exponential of the matrix with the coordinates ``x``.
 
-    If the norm of the matrix is too large for three correct digits, all results are NaN.
+    If the norm of the matrix is too large (:func:`most_squarings`), all results are NaN.
     """
     scale, squarings, norm = _halvings(_bound(x))
     total = _polynomial([a * scale for a in x], norm)
@@ -201,7 +199,7 @@ def half_trace(x: Sequence[Any]) -> Any:
 
 
 def determinant(x: Sequence[Any]) -> Any:
-    """Return q = det H for the matrix i H with the coordinates ``x``."""
+    """Return q = det H, where ``x`` are the coordinates of X = i H."""
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
@@ -244,7 +242,7 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         imaginary[(ROWS + 1) * j] = (v[2] * square[j] + v[1] * h) + v[0]
     for m, (j, k) in enumerate(PLACES):
         a, b, re, im = x[2 * m], x[2 * m + 1], square[ROWS + 2 * m], square[ROWS + 2 * m + 1]
-        # The entries (j, k) of the two linear combinations are p + i q and r + i s.
+        # The entry (j, k) of u_0 I + u_1 H + u_2 H^2 is p + i q. For v in place of u, the entry is r + i s.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
         # The two linear combinations are Hermitian. Their entries (k, j) are p - i q and r - i s.

@@ -52,7 +52,7 @@ def vector_function(name: str) -> VectorFunction | None:
     if match is None:
         return None
     kind, n, level = match.groups(default="0")
-    # Only the matrix exponential has a level.
+    # For the name ``expm3_d1``, ``n`` is 3 and ``level`` is 1.
     return _OF_MATRICES[kind](int(n)) if kind in _OF_MATRICES else MatrixExponential(int(n), int(level))
 
 

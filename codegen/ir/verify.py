@@ -46,10 +46,10 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
-            # The coefficients of a continuous extension (dense output) correspond to no input.
+            # No input is required for the coefficients of a continuous extension (dense output).
             if name.startswith(POWERS) and var.kind is Kind.ALG:
                 continue
-            # The embedded solution is another approximation of the new value of the input ``y``.
+            # The embedded solution must have the same kind as the input ``y``.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(
                     f"{self.program.name}: the output {name} has the kind {var.kind}, but the corresponding "
@@ -85,7 +85,7 @@ class _Verifier:
 
     def block(self, block: Solve) -> None:
         """Check the block u = g(u). The statements that compute g(u) may read the unknowns u."""
-        # Each unknown needs an initial value (start) and a component of g(u) (image).
+        # Each unknown needs an initial value and a new value of the same kind.
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")

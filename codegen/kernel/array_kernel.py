@@ -114,7 +114,7 @@ def _model(timed: bool) -> Problem:
 
 
 def array_kernel(program: Program, scene: Problem) -> Kernel:
-    """Return the kernel of a step program on a scene whose field is given by formulas with matrices.
+    """Return the kernel of ``program`` on ``scene``. The field of the scene must be given by matrix formulas.
 
     MethodError is raised if the program has implicit stages, or if one of its operations is not available for
     large matrices.
@@ -236,7 +236,7 @@ class _Builder:
         return target
 
     def displaced(self, target: Matrix, displacement: Matrix | None) -> None:
-        """Append the assignment of X_0 + B D to ``target``.
+        """Append the assignment ``target`` = X_0 + B D with the basis B and D = ``displacement``.
 
         If D is zero, ``displacement`` is None.
         """
@@ -286,8 +286,7 @@ class _Builder:
         k = self.k
         # A sum without terms is zero, and later statements fill only the nonzero blocks.
         core = self.sum(Matrix(name, first + k, first + k))
-        # The matrix E J^T - J E^T has two nonzero blocks: the unit matrix at ``below``, and its negative at
-        # ``right``.
+        # For D = 0, S has two nonzero blocks: a unit matrix in ``below``, and its negative in ``right``.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
@@ -353,9 +352,10 @@ class _Builder:
         return core
 
     def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
-        """Append the computation of dexp^{-1}_x y by its series, and return the core of the result.
+        """Append statements that compute dexp^{-1}_x y by its series, and return the result.
 
-        The series is truncated after the term with ``order`` nested brackets.
+        The series is truncated after the term with ``order`` nested brackets. An element B S B^T of the
+        algebra is represented by S.
         """
         terms, power = [(self.one, y)], y
         # With the Bernoulli numbers B_k, dexp^{-1}_x y is y + B_1/1! [x, y] + B_2/2! [x, [x, y]] + ....

@@ -17,8 +17,8 @@ from codegen.kernel.equations import WEIGHT, Block
 INLINE = 10
 """An expression with at least this number of operations gets a name.
 
-For the method vcg:triple_jump on the scene heavy_top, the values 5, 10 and 20 give 265, 199 and 187
-assignments.
+The method vcg:triple_jump on the scene heavy_top has 265 assignments for ``INLINE`` = 5, 199 for 10, and 187
+for 20.
 """
 
 
@@ -54,8 +54,8 @@ class Assignments:
     count: int = 0
 
     def run(self) -> tuple[Let | Start | Loop, ...]:
-        """Return the body of the kernel. The output expressions are stored in ``outputs``."""
-        # ``_prepare`` counts how often each value occurs in all loops.
+        """Return the body of the kernel, and store the output expressions in ``self.outputs``."""
+        # ``_prepare`` counts how often each value is used in the whole step.
         self._prepare()
         if self.blocks and self.remembers:
             self.body.append(self._start())
@@ -69,13 +69,13 @@ class Assignments:
             # If ``block.leading`` is true, Newton's matrix is computed before the first sweep.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
-            # Values in ``block.kept`` that no later expression reads are skipped.
+            # A value of ``block.kept`` is assigned only if a later expression reads it.
             read = {n.payload for n in walk([*self.roots, *self._later(k)]) if n.op == "sym"}
             for name, x in block.kept:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # If ``block.leading`` is false, Newton's matrix can use names from the loop body.
+            # If ``block.leading`` is false, Newton's matrix is computed after the values of the loop body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
             # At the end of a sweep, the values of the body belong to the old unknowns. If ``recomputed``
             # is true, the values of the body are computed again after the loop.
@@ -99,11 +99,12 @@ class Assignments:
     def _prepare(self) -> None:
         """Count the uses of each node (subexpression), and compute the level of the node.
 
-        The level is the index of the last loop whose unknowns occur in the node, or -1 if no unknowns occur.
+        The level is the largest k for which the node contains unknowns of ``blocks[k]``. Without unknowns,
+        the level is -1.
         """
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         entries = [x for b in self.blocks for row in b.matrix for x in row]
-        # Each operation that reads a node is one use, and each entry of ``roots`` is one use.
+        # The uses of a node are its occurrences as an argument and its occurrences in ``roots``.
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
         self.level: dict[int, int] = {}
@@ -126,7 +127,7 @@ class Assignments:
         # ``later`` contains the subexpressions that the loops and the outputs use.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
-        # All first values are set before the first loop, so no first value may depend on an unknown.
+        # This statement precedes all loops, so ``values`` must not depend on unknowns.
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a first value depends on the unknowns of a loop")
         for node in walk(values):
@@ -152,9 +153,7 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if the values of loop k can be computed again at less than half of the cost of one
-        sweep.
-        """
+        """Return True if computing the values of loop k again costs less than half of one iteration."""
         rest = [*self._later(k), *self.roots]
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
@@ -173,7 +172,7 @@ class Assignments:
                 self.done.pop(node.id, None)
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
-        """Return ``root`` with names in place of its shared and long subexpressions.
+        """Return ``root`` with names in place of long subexpressions and of repeated subexpressions.
 
         New assignments that depend on the unknowns of loop ``loop`` are appended to ``inner``, all others to
         ``outer``.
@@ -205,7 +204,7 @@ class Assignments:
 
     def _let(self, node: Expr, value: Expr, target: list[Any]) -> Expr:
         hint = self.hints.get(node.id)
-        # A value with a hint uses no number, so the names w1, w2, ... have no gaps.
+        # Only values without a preferred name get the names w1, w2, ....
         self.count += hint is None
         name = self.name(hint or f"w{self.count}")
         target.append(Let(name, value))

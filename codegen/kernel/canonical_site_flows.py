@@ -23,7 +23,7 @@ from codegen.scene.flow import Flow
 from codegen.scene.problem import TIME, Problem
 
 Timed = tuple[str, Flow, Number]
-"""The name of a flow, the flow, and its duration relative to the first flow of the sweep."""
+"""The name of a flow, the flow, and its duration divided by the duration of the sweep's first flow."""
 
 Word = Sequence[tuple[Summand, Number]]
 """The flows of a step in the order of application, each with its duration as a multiple of h."""
@@ -54,7 +54,7 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # Runs with the same flows and the same ratios of durations share one sweep.
+        # Two lists of flows share one sweep if their names and their ratios of durations are equal.
         first, moment = run[0][2:]
         ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
@@ -136,7 +136,7 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
         ghosts = [evaluate([sites.outside[k][row]], domain, values)[0] for _, k, row in around]
         outside = _scheduled(scene, label, ghosts)
         read |= {str(n.payload) for n in walk(ghosts) if n.op == "sym"}
-    # A kick does not read the momenta of neighbours, so the sweep can read and overwrite one array.
+    # Momenta are overwritten in place: no site reads the momenta of its neighbours.
     own = [Load(s, Row(RESULT, k)) for k, s in enumerate(scene.symbols) if s in read]
     near = [Load(s, Row(RESULT, row), k) for s, k, row in around]
     stores = tuple(Row(RESULT, len(q) + k) for k in range(len(mu)))
@@ -161,7 +161,7 @@ def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> lis
 
 
 def _scheduled(scene: Problem, label: str, ends: list[Expr]) -> Kernel:
-    """Return the kernel that computes ``ends`` from the coordinates of a site and its neighbours."""
+    """Return a kernel with the outputs ``ends``. Its inputs are coordinates of a site and its neighbours."""
     assert scene.sites is not None
     symbols = (*scene.symbols, *scene.sites.names)
     taken = {*symbols, *scene.runtime, "h", TIME}

@@ -36,7 +36,7 @@ class Frames:
     @property
     def _alike(self) -> bool:
         """True if ``program`` and the emitted code use the same frame for momenta."""
-        # If the scene has a body group, the emitted code stores the momentum in the body frame.
+        # Emitted code uses the body frame if and only if the scene has a body group.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
@@ -46,7 +46,7 @@ class Frames:
         return int(group.size)
 
     def begin(self, domain: ExprDomain, state: State) -> State:
-        """Convert the old state from the frame of the emitted code to the frame of the program."""
+        """Return ``state`` with the momentum in the frame of ``self.program``."""
         if self._alike:
             return state
         q, mu = state[: self._size], state[self._size :]
@@ -57,7 +57,7 @@ class Frames:
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Convert the new state from the frame of the program to the frame of the emitted code.
+        """Return ``new`` with the momentum in the frame of ``state``.
 
         ``state`` is the old state in the frame of the emitted code. ``start`` is the old state in the frame
         of the program.
@@ -90,7 +90,7 @@ class Frames:
     def carried(self, domain: ExprDomain) -> Carried | None:
         """Return the kernels that convert the momentum at the beginning and at the end of a run of steps.
 
-        If no conversion is needed there, the result is None.
+        If the two kernels are not needed, the result is None.
         """
         # Each step itself converts the momentum if only emitted code uses the body frame.
         if self._alike or self.whole or self.scene.body_group is not None:

@@ -1,7 +1,7 @@
 """The choice among variants of a group. The variants update a rotation matrix in different ways.
 
 One variant rotates all three columns. Each other variant rotates two columns and computes the third by a
-cross product. All variants are compiled, and the kernel with the shortest estimated step is used.
+cross product. All variants are compiled. The kernel with the smallest estimated execution time is used.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ same. With the value 5, the code of five explicit methods changes (``orderconds 
 WIDTH = 8
 """The number of independent operations that a processor completes during one addition.
 
-The number was chosen with ``benchmarks/emitted.py``. The value 16 changes no emitted file, and the value 4
-changes the code of ``rkmk:rk4`` on free_rigid_body and of one splitting (``orderconds regenerate --check``).
+The number was chosen with ``benchmarks/emitted.py``. With the value 16, the emitted files are the same. With
+the value 4, the code of two methods changes (``orderconds regenerate --check``).
 """
 
 
@@ -65,7 +65,7 @@ def fastest(program: Program, scene: Problem) -> Kernel:
 def _shortest(kernels: Sequence[Kernel]) -> Kernel:
     """Return the kernel whose step has the shortest estimated time.
 
-    If some kernels contain outlined functions, only these kernels are compared.
+    Kernels with outlined functions are preferred to kernels without outlined functions.
     """
     # The instruction cache limits the speed of a long step, so the shorter code with outlined functions is
     # preferred.

@@ -38,7 +38,7 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
             expected="a scene with a formula for each coordinate",
             hint="leave out --compensate",
         )
-    # Compensation needs the complete step in one kernel, so no flow may be deferred to a later step.
+    # A kernel with deferred flows is replaced by the kernel of the complete step.
     if kernel.deferred is not None:
         kernel = to_kernel(program, problem)
     if kernel.carried is not None:
@@ -110,9 +110,9 @@ _EMPTY = Kernel("", (), (), (), ())
 
 
 class Increments:
-    """Computes e - x and f - 1 without cancellation of leading digits.
+    """Computes d for expressions x + d and 1 + d, without cancellation of leading digits.
 
-    Here x is a symbol, e is the sum of x and an increment, and f is the sum of 1 and an increment.
+    Here x is a symbol, and d is an increment.
     """
 
     def __init__(self, kernel: Kernel) -> None:
@@ -130,7 +130,7 @@ class Increments:
 
     def _of(self, e: Expr, name: str) -> Expr | None:
         if e.op == "sym":
-            # A symbol other than ``name`` is replaced by the expression that the step assigns to this symbol.
+            # If e is another symbol, the expression assigned to this symbol is examined.
             if e.payload == name:
                 return self.space.zero
             return self.of(self.values[e.payload], name) if e.payload in self.values else None
