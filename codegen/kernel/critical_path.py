@@ -57,8 +57,8 @@ def chain(kernel: Kernel) -> int:
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     """Return assignments sorted by the time at which their values are ready.
 
-    The times are rounded down to multiples of the latency of a call. A sort by exact times would separate
-    operations that read the same values.
+    The times are rounded down to multiples of the latency of a call. Assignments with equal rounded
+    times keep their order.
     """
     ready: dict[int, int] = {}
     times = []
@@ -118,7 +118,7 @@ class _Chains:
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
                 self.follow[arg.id] = max(self.follow.get(arg.id, 0), after)
-        # The longest chain ends at the root that is ready last.
+        # At the time ``longest``, all values of ``roots`` are ready.
         self.longest = max(self.ready[r.id] for r in self.roots)
 
     def _measure(self, node: Expr) -> None:
@@ -143,7 +143,7 @@ class _Chains:
             # Only sums, differences and products can be expanded to sums of products.
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
-                # The expanded sum ``short`` has more products than ``plain``.
+                # The expanded expression ``short`` is used only if it is ready earlier than ``plain``.
                 if self.ready[short.id] < self.ready[plain.id]:
                     self.new[node.id] = short
         return tuple(self.new[r.id] for r in self.roots)
@@ -185,7 +185,7 @@ class _Chains:
         if node.op == "neg":
             return _scaled(self._sum(node.args[0], level), -1, one, one)
         if node.op in ("add", "sub"):
-            # ``_sum`` stores its results, so terms are added to a copy.
+            # Changes in ``total`` must not change the stored result of ``_sum``.
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():

@@ -44,14 +44,13 @@ class Parted:
 def part(program: Program, scene: Problem) -> Parted | None:
     """Split the program of a splitting method into programs for the start, the steps and the end of a run.
 
-    The result is None if the program is not a composition of flows, if no flow can be deferred, or if no flow
-    would remain in the steps.
+    The result is None if the program is not a composition of flows. The result is also None if the steps
+    would contain all flows or no flow.
     """
     letters = word(program)
     if letters is None:
         return None
-    # ``commute`` uses sample points, because the symbolic Lie bracket of commuting flows does not always
-    # simplify to zero.
+    # The function ``commute`` compares the results of both orders of two flows at sample points.
     commute = commuting(scene)
     # A part is not deferred if one of its flows reads a stage time or has a duration other than h.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
@@ -59,7 +58,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # If ``kept`` is empty, the steps would have no flows.
+    # If ``kept`` is empty, no flow remains in the steps.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)

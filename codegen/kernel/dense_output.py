@@ -29,9 +29,10 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
     """
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))
-    # With COMBINED the kernel calls no outlined functions, whose names could occur in the kernel of the step.
+    # With COMBINED, ``to_kernel`` creates no new functions. This avoids name clashes with functions of the
+    # step.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
-    # Because sigma(0) = 0, the outputs are the coefficients of theta^1, ..., theta^degree.
+    # The outputs are the coefficients of theta^1, ..., theta^degree. The constant term of sigma is zero.
     degree = len(program.outputs)
     return Continuous(coefficients, _moved(coefficients, problem), degree, order)
 

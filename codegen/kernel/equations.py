@@ -1,7 +1,7 @@
 """Implicit equations u = g(u) of a step, and the matrix of Newton's method.
 
-The values g(u) are called images, and Newton's matrix is 1 - g'(u). For equations r(u) = 0, r is called the
-residual, and Newton's matrix is -r'(u). One iteration of a solver is called a sweep.
+The values g(u) are called images, and Newton's matrix is 1 - g'(u). For equations r(u) = 0 with
+the residual r(u), Newton's matrix is -r'(u). One iteration of a solver is called a sweep.
 """
 
 from __future__ import annotations
@@ -180,13 +180,13 @@ def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
 
 
 class Solved:
-    """Replaces the values g(u) by the unknowns u, after the equations u = g(u) are solved."""
+    """Replaces expressions g_i(u) by the unknowns u_i. Both are equal for the solution of u = g(u)."""
 
     def __init__(self, block: Block) -> None:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
-            # For a symbol or a number, the replacement would save no operation.
+            # An image is replaced only if it contains operations.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 

@@ -32,13 +32,13 @@ from codegen.scene.linear_scene import LinearScene
 from codegen.scene.problem import TIME, Problem
 
 LARGE_SUM = 1e-6
-"""A sum of coefficients of matrices h A(t_i) counts as zero if its absolute value is below this limit."""
+"""The sum of all coefficients of h A(t_i) counts as zero if its absolute value is below this limit."""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method that cannot be compiled for large matrices.
 
-    ``what`` says why, and ``expected`` says what is accepted instead.
+    ``what`` contains the reason, and ``expected`` describes what is accepted.
     """
     hint = "use a method of the family magnus, cf_magnus or fer, for example cf_magnus4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
@@ -58,7 +58,7 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a small linear problem to verify the compiler passes. A depends on t if ``timed`` is true."""
+    """Return a small linear problem for tests of each compiler pass. A depends on t if ``timed`` is true."""
     from sympy import Matrix as SquareMatrix
     from sympy import Rational, Symbol
 
@@ -85,7 +85,7 @@ def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
 
 @dataclass(frozen=True)
 class _Value:
-    """A linear combination of matrices h A(t_i) and of their commutators, divided by h^p.
+    """A value x/h^p. Here x is a linear combination of matrices h A(t_i) and of their commutators.
 
     ``power`` is the exponent p. ``nodes`` maps i to the coefficient of h A(t_i). ``commutators`` maps the
     index of a commutator to the coefficient of this commutator.
@@ -164,12 +164,12 @@ class _Builder:
                 what = f"the operation {assign.operation.name} is not available for large matrices"
                 raise refused(self.scene, what, "a method that composes exponentials of Lie algebra elements")
             x, end = assign.args
-            # The loop follows the step backwards, so each exponent is inserted at the beginning of the list.
+            # The loop visits the exponentials in reverse order.
             result.insert(0, x)
         return result
 
     def run(self, assign: Assign) -> None:
-        """Compute and store the value of the variable that an assignment sets."""
+        """Compute and store the result of an assignment."""
         operation, args = assign.operation, assign.args
         (target,) = assign.targets
         # A variable that several exponents contain is computed only once.
@@ -254,7 +254,7 @@ class _Builder:
         return self.sum(terms)
 
     def element(self, value: _Value) -> Element:
-        """Return ``value`` as an :class:`Element`, the sum of a letter and of multiples of commutators."""
+        """Convert ``value`` to an :class:`Element`."""
         letter = None
         if value.nodes:
             # The pairs are sorted by node, so equal linear combinations have equal keys.

@@ -196,7 +196,7 @@ class _Execution:
     def _kernel(self, formulas: tuple[Expr, ...]) -> Kernel:
         """Return the kernel that computes ``formulas``.
 
-        A parameter that is no run-time argument becomes a constant.
+        All parameters except run-time parameters become constants.
         """
         domain = ExprDomain(formulas[0].space)
         symbols = sorted({n.payload for n in walk(formulas) if n.op == "sym"})
@@ -218,7 +218,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
-                # The power of h is arbitrary for a zero element.
+                # A zero element can have any power of h.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)
@@ -255,7 +255,7 @@ class _Execution:
         powers = {c.power + x.power for c, x in parts}
         if not powers:
             return _Element(ZERO, {}, 1)
-        # An ``_Element`` has one power of h, so all nonzero terms of the sum must have the same power.
+        # All nonzero terms of the sum must have the same power of h.
         (power,) = powers
         total = ZERO
         for c, x in parts:
@@ -263,7 +263,7 @@ class _Execution:
         return _Element(total, _sum((_constant(c.value), x.b) for c, x in parts), power)
 
     def _evaluated(self, point: Var, *time: Var) -> _Element:
-        """Record an evaluation of N at ``point`` and ``time``."""
+        """Record an evaluation of the nonlinearity N at ``point`` and ``time``."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
         # N_j is the new value of N. The result is the vector field u -> a lambda u + N_j with a = 1.
@@ -308,7 +308,7 @@ class _Execution:
             return y
         assert x.power == 1
         if x.a.is_zero:
-            # For x = h (0, b), the series of dexp^{-1}_x y ends after two terms: y - [x, y]/2.
+            # If x.a is zero, the series of dexp^{-1}_x y ends after two terms: y - [x, y]/2.
             half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
             return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
         beta = Multiplier.of(BERNOULLI, x.a)

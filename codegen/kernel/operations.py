@@ -23,7 +23,7 @@ from codegen.kernel.schedule import (
 )
 
 STEP = "step"
-"""The key for the operations outside loops."""
+"""In dictionaries of operation counts, the key for the operations outside loops."""
 
 START = "start"
 """The key for the operations of the initial guess."""
@@ -128,7 +128,7 @@ def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
 
 
 def matrix_of(label: str) -> str:
-    """Return the key for the operations that compute the Newton matrix of the block ``label``."""
+    """Return the key that :func:`operations` uses for the Newton matrix of the block ``label``."""
     return f"matrix of {label}"
 
 
@@ -153,7 +153,7 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
 
 
 def costs(kernel: Kernel) -> list[str]:
-    """Return lines of text with the operation counts of a step, and of the beginning and end of a run."""
+    """Return lines with operation counts: for a step, and for the beginning and the end of a run."""
     lines = sentences(step_operations(kernel))
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)

@@ -1,4 +1,4 @@
-"""Outlined functions: a tree of operations that a step repeats becomes one function.
+"""Outlined functions: if a step contains a tree of operations repeatedly, the tree becomes a function.
 
 The last operation of a tree computes the results of the tree. The arguments of the function are the inputs of
 the tree and the coefficients of its linear combinations.

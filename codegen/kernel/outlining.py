@@ -1,4 +1,4 @@
-"""Outlining: computations that a step repeats become one function with several calls.
+"""Outlining: if a step repeats a computation, the computation becomes a function.
 
 Outlining shortens the code. But if two calls contain a common subexpression, each call computes the
 subexpression again. Therefore only long steps are outlined.
@@ -21,13 +21,13 @@ from codegen.kernel.repeated_trees import Key, Tree, Trees
 from codegen.scene.problem import Problem
 
 LONG, LONG_EXPLICIT = 700, 500
-"""An implicit step is outlined if it has more than LONG assignments, and an explicit step if it has more than
-LONG_EXPLICIT assignments.
+"""Outlining is applied to implicit steps with more than LONG assignments, and to explicit steps with more
+than LONG_EXPLICIT assignments.
 
 Outlining shortens a step of cg:cg5 on dipole from 2345 to 545 lines, and the step then takes a third less
 time.
 
-To choose new limits, set both to 0 and compare the times that ``orderconds bench dipole`` measures.
+To choose new limits, run ``orderconds bench dipole`` with the old limits and with both limits 0.
 """
 
 WORTH = 0.85
@@ -39,10 +39,7 @@ for ``vcg:gauss4`` on heavy_top.
 """
 
 AGREE = 1e-9
-"""The largest relative difference of two values that is attributed to rounding errors.
-
-Rounding errors cause differences of at most 1.4e-17 for the methods named at :data:`WORTH`.
-"""
+"""The largest relative difference of two values that is attributed to rounding errors."""
 
 ATTEMPTS, DIGITS = 8, 60
 """The verification tries ATTEMPTS test points in double precision.
@@ -56,9 +53,7 @@ Shape = tuple[Key, tuple[int, ...]]
 
 @dataclass
 class Outline:
-    """Records the executed assignments of a program, and replaces repeated expressions by calls of
-    functions.
-    """
+    """Replaces repeated expressions of a program by calls of functions."""
 
     program: Program
     scene: Problem
@@ -104,7 +99,7 @@ class Outline:
         Return the expressions ``roots`` with calls of these functions, and a dictionary that maps the name of
         each function to its shape.
         """
-        # The functions of an earlier round of ``run`` are discarded.
+        # Functions from an earlier call of this method are discarded.
         self.outlined.clear()
         calls: dict[int, tuple[str, int, list[Expr]]] = {}
         shapes: dict[str, Shape] = {}
@@ -189,8 +184,8 @@ class Outline:
     def _even(self, tree: Tree, read: set[int]) -> bool:
         """Return True if one call can compute all results of ``tree`` whose indices are in ``read``."""
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # The loop of block ``deepest`` executes the call. Results that do not depend on the unknowns of this
-        # block stay outside the loop.
+        # The loop of block ``deepest`` contains the function call. Results that do not depend on the unknowns
+        # of this block stay outside the loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
         # An expression has a larger id than its operands. Therefore no input with a smaller id depends on the
         # result.
@@ -210,7 +205,7 @@ class Outline:
             # often.
             values |= {x: 0.5**attempt for x in names if x == "h"}
             domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
-            # If no point gives finite doubles, numbers with more digits and a larger range are tried.
+            # After ATTEMPTS failures in double precision, numbers with a larger range are used.
             if attempt > ATTEMPTS:
                 domain = precise = PreciseDomain(0.1, DIGITS)
                 values = {x: precise.context.mpf(v) for x, v in values.items()}

@@ -67,13 +67,13 @@ class Tree:
 
     @property
     def root(self) -> int:
-        """The index of the assignment whose results are the results of the tree."""
+        """The index of the last assignment. It computes the results of the tree."""
         return self.members[-1]
 
 
 @dataclass
 class Trees:
-    """Records the executed assignments of a program, and joins them into trees."""
+    """Collects the assignments of a program, and joins them into groups (:class:`Tree`)."""
 
     program: Program
     domain: ExprDomain
@@ -94,7 +94,7 @@ class Trees:
     ) -> None:
         """Record an assignment. ``place`` is the number of the block that contains it, or -1 outside blocks.
 
-        If ``joined`` is false, the assignment is never outlined.
+        If ``joined`` is false, no outlined function can contain the assignment.
         """
         assign, args = self._from_the_whole(assign, args)
         self.executions.append(
@@ -127,7 +127,7 @@ class Trees:
     def joined(self) -> list[Tree]:
         """Join assignments into trees, as long as this saves lines of emitted code. Return the trees."""
         self._find_users()
-        # The index of a tree is the index of its last assignment.
+        # The key of a tree in ``trees`` is the index of its last assignment.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
         # Each round except the last joins at least one pair of trees, so the number of trees decreases.
@@ -182,7 +182,7 @@ class Trees:
 
     def _size(self, i: int) -> int:
         """Estimate the number of lines of code for assignment ``i``."""
-        # All assignments with the same operation name get the estimate for the first of these assignments.
+        # Assignments with the same operation name get the same estimate.
         name = self.executions[i].assign.operation.name
         if name not in self._lines:
             results = [x for value in self.executions[i].results for x in value]
@@ -203,10 +203,10 @@ class Trees:
         for statement in self.program.body:
             if not isinstance(statement, Assign):
                 for v in (*statement.starts, *statement.images, *statement.residuals):
-                    # This reader is not an assignment, so it belongs to no tree.
+                    # None means that implicit equations read the variable ``v``.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
-            # Outputs are read outside the program.
+            # None also means that ``v`` is an output of the program.
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
@@ -235,7 +235,7 @@ class Trees:
             places = []
             for v in self.executions[i].assign.args:
                 if v in targets:
-                    # The sign distinguishes results from input variables.
+                    # Results of earlier assignments have negative numbers.
                     places.append(-targets[v])
                 else:
                     # Input variables are numbered in the order in which they are first read.
@@ -263,7 +263,7 @@ class Trees:
         # The inputs are computed outside the function, so their operations are not counted.
         stop = {x.id for x in self.inputs(tree)}
         nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
-        # A call takes about four lines, so a shorter function would save nothing.
+        # A call takes about four lines of code, and a line contains about NODES operations.
         return nodes > 4 * NODES
 
     def results(self, tree: Tree) -> Values:
@@ -288,7 +288,7 @@ class Trees:
         return [*flat, self.domain.h] if any(c.power for c in scales) else flat
 
     def width(self, tree: Tree, var: Var) -> int:
-        """Return the number of components of an input variable of a tree."""
+        """Return the number of components of ``var``, an input variable of ``tree``."""
         for i in tree.members:
             for v, x in zip(self.executions[i].assign.args, self.executions[i].args, strict=True):
                 if v == var:

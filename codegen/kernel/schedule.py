@@ -95,9 +95,7 @@ Simple = Assignment | SharedCall | Invocation
 
 @dataclass(frozen=True)
 class Beginning:
-    """The statement that sets the starting values of the unknowns of all loops, ready to print (see
-    :class:`codegen.ir.kernel.Start`).
-    """
+    """The printable statement that sets the starting values of the unknowns."""
 
     start: Start
     body: tuple[Simple, ...]
@@ -213,7 +211,7 @@ def arrange(kernel: Kernel) -> Arrangement:
     states = len(kernel.outputs)
     # A kernel without substeps executes its statements once in each step.
     repeated = max(1, len(kernel.substeps))
-    # Each outlined function is arranged separately, so it shares no calls of library functions with the step.
+    # Each function is arranged separately, because functions share no library calls with the step.
     functions = tuple((function, arrange(_alone(function))) for function in kernel.outlined)
     return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated, functions)
 
@@ -256,7 +254,7 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
-    """Return a dictionary whose keys are all names of the kernel."""
+    """Return a dictionary that maps each name in the kernel to 1."""
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -307,7 +305,7 @@ class _Scope:
         return inner
 
     def expect(self, expressions: list[Expr]) -> None:
-        """Record for each argument which Stumpff functions the expressions contain."""
+        """Record the Stumpff functions in ``expressions``, grouped by argument."""
         needed: dict[int, list[int]] = {}
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
@@ -362,7 +360,7 @@ class _Scope:
     def _shared_call(self, node: Expr, argument: Expr) -> None:
         # The keys of ``orders`` are ids of original arguments, but ``argument`` is rewritten.
         orders = self.orders[node.args[0].id]
-        # One call returns c_k for all recorded indices k, and each result gets its own name.
+        # One call returns the Stumpff functions c_k for all k in ``orders``. Each result gets a name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
@@ -392,7 +390,7 @@ class _Scope:
         space = base.space
         # The base occurs several times in the product, so the base gets a name.
         base = self._named(base)
-        # In emitted code, powers of up to three factors are written as products such as ``x * x * x``.
+        # For n <= 3, the emitted code contains a product such as ``x * x * x``.
         if n <= 3:
             return space.pow(base, n)
         # The leading bit of n is 1, so the product starts with the base.

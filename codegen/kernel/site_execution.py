@@ -40,8 +40,8 @@ class Content:
     - ``stored`` contains pairs (rows, variable). The sweep stores the variable in these rows.
     - ``unknowns`` are the unknowns u of equations u = g(u). In fixed-point iteration, the sweep replaces u by
       g(u).
-    - ``measured`` is empty or contains two rows: the largest change and the largest absolute value of an
-      unknown at each site.
+    - ``measured`` is empty or contains two rows. For the unknowns at each site, the rows contain the largest
+      change and the largest absolute value.
     """
 
     about: str
@@ -62,7 +62,7 @@ class Execution:
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
     - ``given`` contains the variables of the state at the beginning of the step.
     - ``coupled`` contains the indices of the blocks of ``problem.state`` that the field reads at neighbours.
-    - ``totals`` maps the variable of each sum over all sites to the name of the sum.
+    - ``totals`` maps variables to names. Each of these variables is a sum over all sites.
     """
 
     def __init__(
@@ -118,7 +118,7 @@ class Execution:
         for target, value in zip(assign.targets, results, strict=True):
             self.env[target] = value
             for k, x in enumerate(flatten(target.kind, value)):
-                # If several variables share an expression, the first variable gives the expression its name.
+                # If several variables share an expression, the expression is named after the first variable.
                 self.hints.setdefault(x.id, target.name if target.kind is Kind.REAL else f"{target.name}_{k}")
 
     def _evaluated(
@@ -134,7 +134,7 @@ class Execution:
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)
 
     def _roots(self, operation: Operation) -> list[Expr]:
-        """Return the formulas of an operation, in the coordinates of the site and of its neighbours."""
+        """Return the formulas that ``operation`` evaluates."""
         if isinstance(operation, Energy):
             # The formula returned here is the contribution of one site to the energy of the lattice.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
@@ -158,7 +158,7 @@ class Execution:
         return space.sym(name)
 
     def _around(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> Bindings:
-        """Return a value for each symbol in the formulas of the scene, at the site and at its neighbours."""
+        """Return a dictionary that maps each symbol in the formulas of the scene to its value."""
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
@@ -205,14 +205,14 @@ class Execution:
         kernel = self._scheduled(ends)
         # The sweep measures how much the unknowns change, so it reads their old values.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"} | set(unknowns)
-        # Only values that the formulas read at neighbours need ghosts.
+        # A ghost is computed only if ``kernel`` reads the value that it replaces.
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
             # The ghosts must have the same order as the loads (:class:`codegen.ir.site_step.Sweep`).
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
-            # The ghosts may depend on further values at the site, so these values are loaded, too.
+            # All values that the ghosts depend on are loaded, too.
             read |= {n.payload for n in walk(outside.expressions()) if n.op == "sym"}
         loads = tuple(load for symbol, load in self.loads.items() if symbol in read)
         own = (unknowns, content.measured)

@@ -27,7 +27,7 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
 
     MethodError is raised in four cases:
     - A part of the vector field has no exact flow.
-    - The format of the tableau or its number of parts does not fit the scene.
+    - The tableau of the method has the wrong format or the wrong number of parts.
     - The field depends on time and the scene is not Hamiltonian.
     - All parts depend on time.
     """

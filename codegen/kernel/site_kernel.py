@@ -75,7 +75,7 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     if degree:
         return SiteMethod(problem, lowered, program, trace, taylor_kernel(program, problem, degree))
     operations = [assign.operation for assign in program.assigns()]
-    # An operation that evaluates no formulas of the scene reads no neighbours, so it is permitted.
+    # Operations that evaluate no formulas of the scene are always permitted.
     other = [x for x in operations if x.evaluates_scene and not isinstance(x, EVALUATED)]
     if other:
         what = f"the operation {other[0].name} of {method.label} is not available on lattices"

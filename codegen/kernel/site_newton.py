@@ -1,8 +1,7 @@
 """The matrix of Newton's method for implicit equations u = g(u) on a chain, a one-dimensional lattice.
 
 The matrix is the derivative of u - g(u) with respect to u, to first order in the step size h. At a site, g(u)
-depends on the unknowns of the site and of its two neighbours. The value g(u) is called the image of the
-unknown u.
+depends on the unknowns of the site and of its two neighbours. The values g(u) are called images.
 """
 
 from __future__ import annotations
@@ -58,8 +57,7 @@ class Linearisation:
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
         """Return the matrix of Newton's method for the equations ``solve``.
 
-        ``places`` contains ``size``, ``residual``, ``border`` and ``matrix`` of the class
-        :class:`codegen.ir.site_step.SiteNewton`.
+        ``places`` contains the attributes ``size``, ``residual``, ``border`` and ``matrix`` of the result.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if the equations contain
         nested evaluations of the field.
@@ -75,7 +73,7 @@ class Linearisation:
         self.taken = {*self.problem.symbols, *self.problem.runtime, "h", TIME}
         # Values from the loop body may depend on the unknowns, so derivatives include these values.
         self.inside = {t for assign in solve.body for t in assign.targets}
-        # At one site, g(u) contains symbols for the unknowns of the site and of its neighbours.
+        # ``images`` contains the expressions g(u) at one site.
         images = [x for v in solve.images for x in flatten(v.kind, self.value(v, OWN))]
         # The columns belong to the unknowns of the left neighbour, the site and the right neighbour.
         rows = jacobian(leading_terms(images), [s for k in self._columns() for s in self._unknowns(solve, k)])
@@ -83,7 +81,7 @@ class Linearisation:
         size, *first = places
         blocks: list[list[Expr]] = [[], [], []]
         for i, row in enumerate(rows):
-            # ``row`` contains no derivatives for a neighbour that the field does not read.
+            # If the field does not read a neighbour, ``row`` has no entries for this neighbour.
             parts = iter(row)
             for block, there in zip(blocks, self._columns(), strict=True):
                 for j in range(size):
@@ -184,8 +182,7 @@ class Linearisation:
                     # The result is the value x of the neighbour (``exists`` is 1) or the ghost g (``exists``
                     # is 0).
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
-                # In the formulas of the field, the symbols for the coordinates of neighbour k get the
-                # values of the stage at neighbour k.
+                # The symbols of neighbour k in the formulas get the values ``there``.
                 values |= dict(zip(column[place], there, strict=True))
         f, dim = tuple(evaluate(list(self.problem.roots), domain, values)), self.problem.group.dim
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)

@@ -65,7 +65,7 @@ class _Block:
 
 @dataclass
 class Planner:
-    """Distributes the assignments of a program among sweeps."""
+    """Distributes the assignments of a program among sweeps (loops over all sites)."""
 
     program: Program
     problem: Problem
@@ -124,8 +124,8 @@ class Planner:
         """
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
-        # The workspace contains variables, residuals, border (:class:`codegen.ir.site_step.SiteNewton`) and
-        # matrix, in this order.
+        # The rows of the workspace contain, in this order: variables, residuals, ``border`` and ``matrix``
+        # (:class:`codegen.ir.site_step.SiteNewton`).
         border = count + most
         # A periodic chain couples the first site to the last site, hence the border.
         matrix = border + (most * most if self.sites.periodic else 0)
@@ -150,7 +150,7 @@ class Planner:
 
     @cached_property
     def coupled(self) -> tuple[int, ...]:
-        """The indices of the blocks of ``problem.state`` that the field reads at neighbours."""
+        """Indices of blocks in ``problem.state``. The field at a site reads these blocks of neighbours."""
         read = {n.payload for n in walk(self.problem.roots) if n.op == "sym"}
         return tuple(
             k
@@ -165,7 +165,7 @@ class Planner:
         return tuple(assign.args[k] for k in self.coupled)
 
     def _place(self) -> None:
-        """Find the first sweep that can compute each variable."""
+        """For each variable, find the index of the first sweep that can compute this variable."""
         least = 0
         for var in self.program.inputs:
             self.sweep_of[var] = 0
@@ -204,7 +204,7 @@ class Planner:
         assign = self._rename(statement)
         self.order.append(assign)
         places = [self.sweep_of[arg] for arg in assign.args]
-        # If the field reads a variable at neighbours, an earlier sweep must store the variable.
+        # Variables of neighbours are read from memory, so an earlier sweep must store them.
         points = [v for v in self._points(assign) if v in self.makers]
         places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
         if isinstance(assign.operation, Total):
@@ -223,7 +223,7 @@ class Planner:
 
     @cached_property
     def names(self) -> dict[Var, str]:
-        """The names of the sums over all sites."""
+        """The name of each variable in ``totals`` (sums over all sites)."""
         problem = self.problem
         taken = {*problem.symbols, *problem.runtime, *self.sites.names, "h", TIME}
         return {v: unique_name(v.name, taken) for v in self.totals}
@@ -271,7 +271,7 @@ class Planner:
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
         for number in range(len(needs)):
             for var in self._terms(number):
-                # The terms of a sum over all sites are added only after the sweep that stores them.
+                # The terms are added after the sweep ``number``, so they are needed until the next sweep.
                 used[var] = max(used.get(var, 0), number + 1)
         for block in self.blocks:
             repeated = needs[block.first : block.last + 1]

@@ -2,8 +2,7 @@
 
 Coefficient n + 1 of a site depends on the coefficients 0, ..., n of the site and of its neighbours
 (:mod:`codegen.ir.taylor_recurrence`). Coefficient n includes the factor h^n, where h is the step size.
-Outside an open boundary, the state of a neighbour is a given function of the time and of the state of the
-site.
+At an open boundary, given formulas replace the states of missing neighbours.
 """
 
 from __future__ import annotations
@@ -162,7 +161,7 @@ class TaylorSweeps:
         ]
         names = [*own, *(s for column in around for s in column)]
         sym = self.domain.space.sym
-        # Later sweeps read this coefficient from memory, so symbols replace its expressions.
+        # Later sweeps read this coefficient from memory, under the names in ``names``.
         self.recurrence.append([sym(s) if s else None for s in names])
         self.coefficients.append([sym(s) if s else None for s in own])
         self._load(every, own, around, degree)
@@ -188,7 +187,7 @@ class TaylorSweeps:
     def _polynomial(self) -> tuple[Expr, ...]:
         """Return the value of the Taylor polynomial of each coordinate at the end of the step.
 
-        To reduce the rounding error, the old state, the largest term, is added last.
+        The old state is added last, because this reduces the rounding error.
         """
         moved = []
         for first, *further in zip(*self.coefficients, strict=True):
@@ -263,7 +262,7 @@ class TaylorSweeps:
             known = {i: self.domain.space.sym(name) for i, name in names.items()}
             outputs = self._replaced([*roots, *kept], known)
             for node in kept:
-                # A free row is used before the workspace grows.
+                # The workspace gets a new row only if no row is free.
                 number = free.pop(0) if free else self.rows
                 self.rows = max(self.rows, number + 1)
                 rows[node.id] = Row(WORK, number)

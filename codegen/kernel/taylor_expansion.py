@@ -22,7 +22,7 @@ from codegen.scene.problem import TIME, Problem
 UNROLLED = 5000
 """The largest number of operations of unrolled code. Longer code becomes a loop.
 
-For a polynomial of degree P, P^2 operations are counted for each product in the differential equation. With
+For s products in the differential equation and the degree P, s P^2 operations are counted. With
 18 products (heavy_top), a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us with a loop. With
 24 products, the step takes 1.5 us with unrolled code and 0.82 us with a loop.
 """
@@ -31,7 +31,7 @@ For a polynomial of degree P, P^2 operations are counted for each product in the
 def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | None:
     """Return the kernel that computes the Taylor coefficients in a loop, or None if unrolled code is used.
 
-    If code is short, or if the state contains the body momentum, unrolled code is used.
+    Unrolled code is used if it has at most UNROLLED operations, or if the state contains the body momentum.
     """
     if problem.body_group is not None:
         return None
@@ -42,7 +42,7 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
     fields = Frames(problem, program).fields()
     # The expansion computes the whole step, so the kernel itself has no statements and no outputs.
     empty = Kernel(program.name, fields, (TIME, "h", *problem.runtime), (), ())
-    # Only ``with_step_control`` lets a run choose its step size from the coefficients.
+    # With ``controlled=False``, the step size does not depend on the Taylor coefficients.
     expansion = replace(_expansion(empty, problem, degree, loop), controlled=False)
     return replace(empty, expansion=expansion)
 
@@ -61,7 +61,7 @@ def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
 def _loop(inner: Evolution) -> OrderLoop:
     domain = SharedArguments()
     state = tuple(map(domain.space.sym, inner.inner.symbols))
-    # With step size 1, coefficient n contains no factor h^n.
+    # The argument 1 in place of h gives coefficients without powers of h.
     terms = inner.recurrence(domain, state, domain.space.sym(TIME), domain.space.one)
     return order_loop(terms, domain.space)
 
@@ -81,7 +81,8 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     # values.
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
-    # For each product a b of power series, ``left`` contains a_n and ``right`` contains b_n.
+    # Let n be the loop index. ``left`` and ``right`` contain a_n and b_n for each product a b of power
+    # series.
     following = _kernel(kernel, (), (*loop.left, *loop.right, *loop.following), name)
     return Expansion(degree, first, enter, leave, following, len(loop.sums))
 

@@ -94,7 +94,7 @@ def to_kernel(
 class _Translation:
     """The symbolic execution of a program.
 
-    - ``env`` maps each variable of the program to the expressions of its value.
+    - ``env`` maps each variable of the program to expressions for its components.
     - ``hints`` maps the ids of expressions to preferred names in emitted code.
     - ``taken`` contains all names that are already in use in emitted code.
     """
@@ -111,14 +111,14 @@ class _Translation:
     ) -> None:
         self.program, self.scene, self.solvers = program, scene, solvers
         self.variations, self.chains, self.outlining = variations, chains, outlining
-        # In this domain, equal expressions are one node.
+        # This domain stores equal expressions only once.
         self.domain = SharedArguments()
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
         self.blocks: list[Block] = []
         # ``name`` returns none of the names in ``taken``.
         self.taken = {*scene.symbols, *scene.runtime, *scene.inputs, "h", TIME, LEAD, ELAPSED}
-        # ``inside`` is true during the execution of a block of equations.
+        # ``inside`` is true while the equations of a block are translated.
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
         # With ``variations``, ``whole`` is treated as true.
@@ -140,7 +140,7 @@ class _Translation:
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(self, assign: Assign) -> None:
-        """Execute an assignment symbolically, and record the assignment for outlining."""
+        """Execute an assignment symbolically, and record the assignment."""
         scene, domain = self.scene, self.domain
         args = tuple(self.env[a] for a in assign.args)
         try:
@@ -184,7 +184,7 @@ class _Translation:
         return start
 
     def solve(self, statement: Solve) -> None:
-        """Execute a block of implicit equations, and add it to ``blocks``."""
+        """Add a block of implicit equations to ``blocks``."""
         # While ``inside`` is true, ``run`` records each assignment as part of this block. Outlining never
         # mixes these assignments with other assignments in one function.
         self.inside = True
@@ -243,8 +243,7 @@ class _Translation:
         outputs, lower = ends
         # The critical path is shortened before expressions are split into assignments.
         if self.chains in (COMBINED, SHORTENED):
-            # A compiler moves products of the symbols in ``constant`` out of the loop over the steps, because
-            # these symbols do not change in a run.
+            # Factors that contain only the symbols in ``constant`` are multiplied first.
             constant = frozenset({"h", LEAD, ELAPSED, *self.scene.runtime})
             outputs = critical_path.run(outputs, constant, spread=self.chains == SHORTENED)
         return outputs, lower
@@ -255,8 +254,7 @@ class _Translation:
         The equations for the variations of all unknowns are added to ``blocks``.
         """
         space, seeds = self.domain.space, variations.seeds(self.domain)
-        # The equations for the variations of a block contain the solution of this block, so they follow the
-        # block.
+        # Each block is followed by the linear equations for the variations of its unknowns.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
@@ -350,7 +348,7 @@ def _outlined(
     # A value in ``kept`` is removed if no expression in ``flat`` reads the value.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
-    # With one list for all blocks, outlining also finds computations that are repeated in different blocks.
+    # ``flat`` contains all blocks, because different blocks may repeat the same computation.
     flat += [x for block in blocks for _, x in block.kept]
     owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
     shorter = outline.run(flat, owners)
@@ -400,7 +398,7 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
 
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
-    """Add the samples of the run-time inputs that the kernel reads.
+    """Return the kernel with the attributes ``inputs`` and ``samples``.
 
     A sample contains all run-time inputs at one time.
     """
