@@ -73,7 +73,7 @@ class RunRequest:
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Raise :class:`MethodError` if one of ``options`` is requested.
+    """Raise :class:`MethodError` if a value of ``options`` is True. The message names ``method``.
 
     The keys of ``options`` are the names of options that cannot be combined with compensated summation.
     """

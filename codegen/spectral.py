@@ -181,7 +181,7 @@ class CompiledSpectral(Spectral):
         return u, status, int(completed[0])
 
     def _memory(self, name: str, n: int) -> Floats:
-        """Return an uninitialised array. The C function ``name`` computes its length from n."""
+        """Return an uninitialised array. Its length is the result of the C function ``name`` for n."""
         import numpy as np
 
         return np.empty(int(self._function(name)(n)))

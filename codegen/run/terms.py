@@ -156,8 +156,7 @@ class Term:
 
 Operand = Term | float | int
 
-# In ``x[2]``, no other operand determines the kind of the number 2. The placeholder _COUNT makes the index a
-# count.
+# In ``x[2]``, the index 2 must become a count. For this, _COUNT is passed to ``_term`` as ``like``.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
@@ -240,7 +239,7 @@ def truth(x: bool) -> Term:
 
 def value(x: Expr) -> Term:
     """Return the expression ``x`` as a term. A symbol becomes the variable with the name of the symbol."""
-    # For every variable, the attribute ``op`` of the term is "name".
+    # A symbol becomes a variable: a term with the ``op`` "name", not "value".
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
@@ -271,7 +270,7 @@ def select(test: Term, yes: Operand, no: Operand) -> Term:
 
     An array language computes both values and selects one (:mod:`codegen.run.language`).
     """
-    # If only one of ``yes`` and ``no`` is a Python number, the other one determines the kind of this number.
+    # If ``yes`` is a term and ``no`` is a number, ``yes`` determines the kind of ``no``, and vice versa.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)

@@ -138,7 +138,7 @@ def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, 
 def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statements that make one step from ``state`` and set the status.
 
-    A failed step is repeated by continuation in h, if it has a warm start and no substeps.
+    If steps have a warm start and no substeps, a failed step is repeated by continuation in h.
     """
     # Steps of constant size need no error estimate, so no array is passed for the estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
@@ -215,8 +215,7 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # LEAVE adds the increase of the momentum to the initial momentum in the row. ``rows.add`` copies
-            # the initial state to the row before this call.
+            # ``rows.add`` copies the initial state to the row. Then LEAVE adds the increase of the momentum.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.

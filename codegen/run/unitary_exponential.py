@@ -132,7 +132,7 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
 
     The step replaces a polynomial P in the matrix H by i^k/k! + H P, modulo H^3 = ``trace`` H + ``det``.
     ``part`` contains the real or the imaginary parts of the coefficients of P. ``added`` is
-    (1/k!, k modulo 4). It is None if i^k/k! is imaginary and ``part`` is the real part, or the reverse.
+    (1/k!, k modulo 4). It is None if this part of i^k/k! is zero.
     """
     last = real("last")
     # ``added[1]`` is k modulo 4. For 2 and 3, 1/k! is subtracted, because i^2 = -1 and i^3 = -i.

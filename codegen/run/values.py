@@ -48,7 +48,7 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 
 
 def _part(arguments: Sequence[Expr]) -> Term | None:
-    """Return the part of a result array with the entries ``arguments``, or None if there is no such part."""
+    """Return ``arguments`` as a slice of one result array, or None if they are not consecutive entries."""
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
     # A single argument is passed as a scalar, not as an array.
     if results[0] is None or len(results) == 1:

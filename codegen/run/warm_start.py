@@ -268,15 +268,15 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The previous solution is the simplest guess, with the error ``moved``. An extrapolation must be
-            # better than this simplest guess.
+            # The previous solution is the simplest guess, with the error ``moved``. The stored solutions are
+            # discarded if the last guess was hardly better.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
     def chosen(self, place: Term) -> list[Statement]:
         """Return the statements that adapt the degree of the extrapolation.
 
-        The degree changes by at most one, and only if this makes the backward difference smaller.
+        The degree n becomes n + 1 or n - 1 only if the backward difference of this order is smaller.
         """
         size_now = real("size")
 
@@ -306,8 +306,8 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
-        # ``place`` decreases by one in each step, modulo ``depth``. SELDOM divides ``depth``, so ``place`` is
-        # a multiple of SELDOM once in SELDOM steps.
+        # ``place`` decreases by one in each step, modulo ``depth``. SELDOM divides ``depth``, so the test of
+        # ``place`` is true once in SELDOM steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(

@@ -54,7 +54,7 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
             read = [places.get(x.text) if x.op == "name" else None for x in statement.values]
             first = read[0]
             if first is not None and read == list(range(first, first + len(read))):
-                # Calls use the part of ``state`` and not the copy.
+                # ``statement`` copies a part of ``state``. Omit the copy: later calls receive this part.
                 parts[statement.name.text] = state.part(first, len(read))
                 continue
         if isinstance(statement, Call):

@@ -44,7 +44,7 @@ digits must agree.
 class BodyField:
     """The field in the body frame, as formulas in q and in the momentum P in the body frame.
 
-    P_a has the same symbol as mu_a, a component of the momentum in the space frame. The equations of motion
+    The symbol of mu_a (momentum in the space frame) denotes P_a in these formulas. The equations of motion
     are q' = q.W and P' = N, where ``velocity`` is W and ``force`` is N. If W = A P with a constant invertible
     matrix A, ``inverse`` contains the rows of A^-1.
     """
@@ -100,7 +100,7 @@ def field_in_body(
 
     ``roots`` are the velocity xi and the force n in the space frame, as formulas in q and mu. The result is
     W = Ad_{q^-1} xi and N = Ad*_q n, as formulas in q and P = Ad*_q mu. P_a has the same symbol as mu_a.
-    A component that does not depend on q has a formula without q.
+    If a component is independent of q, q cancels in its formula.
     """
     space = roots[0].space
     domain = ExprDomain(space)
@@ -138,8 +138,8 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        # The potential is singular at the neutral element. If H has kinetic energy,
-        # the test ``_same`` fails.
+        # The potential is singular at the neutral element. The value zero is right if H has no kinetic
+        # energy. Otherwise H is not split.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)

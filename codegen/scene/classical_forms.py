@@ -2,8 +2,8 @@
 
 A form is a problem on R^n with a map to the state of the scene. The first form uses the coordinates of the
 scene. Another form can use the body frame (:mod:`codegen.scene.body_frame`). If a factor of the group has a
-covering group, a form uses coordinates of the covering group. The covering group has fewer coordinates than
-the factor.
+covering group, the last form can use its coordinates. The covering group has fewer coordinates than the
+factor.
 """
 
 from __future__ import annotations
@@ -71,8 +71,8 @@ def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
     """Return the classical forms of a scene.
 
     The first form uses the coordinates of the scene. Each later form uses the body frame, coordinates of
-    covering groups, or both. The choice of the frame, space or body, minimises the number of operations in
-    the equations.
+    covering groups, or both. A later form uses the frame (space or body) in which its equations need fewer
+    operations.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)
@@ -112,7 +112,7 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # Other changes repeat a form that is already in the list.
+        # Skip the change if its form is already in the list.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -145,8 +145,7 @@ class _Leaf:
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
         """Return the element of ``group`` that has the coordinates ``own``, after a projection.
 
-        Numerical errors can move ``own`` off a covering group, so the formula first projects ``own`` onto
-        this group.
+        If ``own`` are coordinates of a covering group, they are first projected onto this group.
         """
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
@@ -353,7 +352,7 @@ class _Change:
     def field(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the field in the frame of the classical form, as formulas in the symbols of the scene.
 
-        In the body frame, the momentum is P = Ad*_q mu. P_a and mu_a have the same symbol.
+        In the body frame, the momentum is P = Ad*_q mu. The symbol of mu_a then denotes P_a.
         """
         problem = self.problem
         if not self.body:

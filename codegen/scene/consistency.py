@@ -27,13 +27,13 @@ ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1,
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
 """A map from names to pairs of formulas. The two formulas of a pair must be equal. Messages use the name.
 
-If the second formula is None, the first formula must be the velocity: the action f.y of the field f on y.
+If the second formula is None, the first formula must equal the velocity f.y in the equation y' = f.y.
 """
 
 
 STEP_DIGITS, SLOPE_DIGITS = 10, 12
-"""Central differences use the step eps = 10^-STEP_DIGITS, with an error of about eps^2. A velocity and its
-central difference must agree to SLOPE_DIGITS digits.
+"""Central differences use the step eps = 10^-STEP_DIGITS, with an error of about eps^2. The
+velocity of an action must agree with the central difference of ``actexp`` to SLOPE_DIGITS digits.
 """
 
 

@@ -85,8 +85,8 @@ class Evolution:
             return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
-        # ``before`` is mu with rounding errors. The difference ``after`` - ``before`` cancels most of these
-        # errors.
+        # ``before`` is mu with rounding errors. ``after`` has similar errors, so most errors cancel in
+        # ``after`` - ``before``.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
@@ -173,7 +173,10 @@ def evolution(scene: Problem) -> Evolution:
 
 
 def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
-    """Return an :class:`Evolution` without omitted coordinates. ``roots`` are the time derivatives."""
+    """Return an :class:`Evolution` without omitted coordinates.
+
+    ``roots`` are the time derivatives of all coordinates.
+    """
     return Evolution(_problem(scene, outer.symbols, gathered(roots)), outer, body)
 
 

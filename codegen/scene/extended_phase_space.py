@@ -28,9 +28,10 @@ def extended(problem: Problem) -> Problem:
     The problem must have a Hamiltonian that depends on time, or it must be a linear Hamiltonian equation
     y' = A(t).y. For all other problems SceneError is raised.
 
-    The new coordinates are the time tau and its conjugate momentum u. A linear problem has no coordinate tau.
-    If a name is already used, underscores are appended. If the Hamiltonian has parts, u is added to the first
-    part that does not depend on time. If all parts depend on time, u becomes a new part.
+    The new coordinate of a linear equation is u, the momentum conjugate to the time. Other problems get two
+    new coordinates: u and the time tau. If a name is already used, underscores are appended. If the
+    Hamiltonian has parts, u is added to the first part that does not depend on time. If all parts depend on
+    time, u becomes a new part.
     """
     if problem.linear and not problem.paired and not problem.carries_momentum:
         return extended_linear(problem, _fresh("u", {*problem.symbols, *problem.parameters}))

@@ -228,8 +228,8 @@ class Deviation(Figure):
 class Scan(Figure):
     """The distance between the final states of a run and of the reference run, plotted against a parameter.
 
-    Each run needs a :class:`Sweep` with the values of the parameter. The figure marks the parameter value
-    with the least distance, computed by minimisation.
+    The attribute ``sweep`` of each run contains the values of the parameter. The figure marks the parameter
+    value with the least distance, computed by minimisation.
     """
 
     axis: str = ""

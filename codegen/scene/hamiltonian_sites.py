@@ -137,7 +137,7 @@ def _with_momenta(
 ) -> Column | dict[Sequence[int], Column] | None:
     """Return ``outside`` with ``mu`` appended to each column.
 
-    The equations contain no momenta of neighbours.
+    The values of ``mu`` have no effect: the equations contain no momenta of neighbours.
     """
     if outside is None:
         return None

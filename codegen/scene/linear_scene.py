@@ -41,8 +41,8 @@ def LinearScene(
       ``A`` can also be an n x n matrix of formulas.
     - ``y``: the symbols of the state in ``velocity`` and ``invariants``; by default, the real symbols y0, y1
       and so on.
-    - ``steps``: a map from names to methods y1 = M y0 with a matrix M. Each value contains a formula for M
-      (:mod:`codegen.scene.matrix_step`) and the order. In commands, write ``step:NAME``.
+    - ``steps``: a map from names to methods y1 = M y0 with a matrix M. Each value is a pair: a formula
+      for M (:mod:`codegen.scene.matrix_step`) and the order of the method. In commands, write ``step:NAME``.
 
     :func:`codegen.scene.FieldScene` describes the other arguments. For y' = y A(t), use the action
     ``RightMultiplication()`` and pass -A in place of A. :class:`SceneError` is raised if ``A`` depends on the

@@ -164,7 +164,7 @@ class _Compiler:
                 yield c, (self.factor(formula, transposed),)
 
     def factor(self, formula: MatrixFormula, transposed: bool) -> _Factor:
-        """Return a formula as a factor; raise :class:`SceneError` for an unknown matrix other than X."""
+        """Return a formula as a factor; raise :class:`SceneError` for a matrix variable other than X."""
         if isinstance(formula, Unknown) and formula is not self.x:
             raise SceneError(
                 "the velocity contains an unknown matrix other than x",

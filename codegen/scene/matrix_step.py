@@ -2,9 +2,9 @@
 
 The formula contains the step size :data:`h`, numbers, the matrix :data:`IDENTITY` and matrices A(t + c h),
 where c is a number (:func:`A`). Sums, products and the functions :func:`bracket`, :func:`projected`,
-:func:`expm` and :func:`logm` combine these matrices. The type of a formula (:class:`Place`) is one of three
-sets: the Lie algebra, the group, or all square matrices. This set contains all values of the formula.
-Logarithms, and exponentials of matrices outside the Lie algebra, are available only for 2 x 2 matrices.
+:func:`expm` and :func:`logm` combine these matrices. The values of a formula are in one of three sets
+(:class:`Place`): the Lie algebra, the group, or all square matrices. Logarithms are available only for 2 x 2
+matrices. For larger matrices, the argument of :func:`expm` must be in the Lie algebra.
 
 >>> projection = expm(projected(logm(IDENTITY + h * A(0))))
 >>> projection.place, projection.text()
@@ -332,7 +332,7 @@ class Logarithm(Unary):
 
     @property
     def place(self) -> Place:
-        """MATRIX, because a logarithm can be outside the Lie algebra."""
+        """The set MATRIX. The logarithm of a matrix can be outside the Lie algebra."""
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:

@@ -29,8 +29,8 @@ TOLERANCE = Fraction(1, 10**20)
 """
 
 FLOOR = Fraction(1, 10**28)
-"""The absolute tolerance of the test whether a sum is zero. Rounding errors of a term can
-exceed the term.
+"""The absolute tolerance of the test whether a sum is zero. If all terms are only rounding errors, the
+relative tolerance is too small.
 """
 
 POINTS = 4

@@ -16,8 +16,8 @@ DISPLACEMENT = 1e-4
 """The distance from the initial state to the points that the test :func:`reaches_orbit` projects."""
 
 REDUCED = 1e-2
-"""In :func:`reaches_orbit`, the projection must multiply a displacement perpendicular to the orbit by at most
-this factor. The factor is not zero, because the orbit may deviate from its tangent space by about
+"""The largest factor by which the projection in :func:`reaches_orbit` may multiply the distance from the
+orbit. The factor is not zero, because the orbit may deviate from its tangent space by about
 DISPLACEMENT^2.
 """
 

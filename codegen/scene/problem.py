@@ -74,7 +74,7 @@ class Problem:
     - ``paired``: True if the state is (q, mu).
     - ``parts``: summands of the Hamiltonian, by name.
     - ``flows``: the exact flow of each part.
-    - ``stated``: formulas of the scene for some of these exact flows: q and mu at the time tau.
+    - ``stated``: formulas from the scene for exact flows. They give q and mu as functions of the time tau.
     - ``runtime``: the parameters that are arguments of emitted code.
     - ``fixed``: the names of parameters with a replaced default, and their new values.
     - ``open_roots``: the expressions of ``roots`` before the signals are replaced by their formulas.
@@ -183,15 +183,15 @@ class Problem:
             )
         if not self.roots:
             raise SceneError(
-                f"a field without formulas in coordinates: {self.group.name} has the large dimension "
-                f"{self.group.dim}",
+                f"the field has no formulas in coordinates, because the dimension {self.group.dim} of "
+                f"{self.group.name} is too large",
                 where=self.name,
                 expected="a matrix with at most eight rows",
                 hint='use a smaller matrix; the commands "emit" and "converge" work for every matrix size',
             )
 
     def as_field(self) -> Problem:
-        """Return a Hamiltonian problem as y' = f(y).y. Here y is (q, mu), and f is (velocity, force).
+        """Return this problem with the equation y' = f(y).y. Here y is (q, mu), and f is (velocity, force).
 
         The group T*G of the result acts on itself by left multiplication. If the state is not (q, mu), the
         problem is returned unchanged.

@@ -133,8 +133,9 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
 
 
 def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, mpmath.mpf]:
-    """Return the values of the symbols of two neighbours: point ``number`` of ``orbit``, and the next point.
+    """Return the values of the symbols of a site and its neighbour.
 
+    The state of the site is point ``number`` of ``orbit``. The state of the neighbour is the next point.
     ``partner`` contains the symbols of the neighbour's coordinates.
     """
     point = dict(orbit.points[number])

@@ -63,8 +63,8 @@ def SiteScene(
     - ``y0``: the initial state of every site.
     - ``boundary``: "periodic" or "open".
     - ``outside``: at an open boundary, the state that replaces a missing neighbour, as a column of formulas
-      in ``y``, t and parameters, or as a mapping from offsets to columns. At a free end, this state must
-      exert no force. Examples are zeros and ``y``.
+      in ``y``, t and parameters, or as a mapping from offsets to columns. At a free end, the force from
+      this state must be zero. Examples are zeros and ``y``.
     - ``parts``: the summands of the field. A part is a column of formulas in ``y``, or a
       :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: the energy of a site, and the energies of pairs of neighbours (:class:`Bond`).
@@ -158,7 +158,7 @@ def _check_energy(problem: Problem) -> None:
 def with_frozen_neighbours(scene: Problem) -> Problem:
     """Return the problem of one site, with the coordinates of the neighbours as parameters.
 
-    The values of these parameters are near the initial state of the site.
+    The state of each neighbour is close to the initial state of a site.
     """
     sites = scene.sites
     assert sites is not None

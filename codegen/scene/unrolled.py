@@ -82,10 +82,10 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 
 
 def small(scene: Problem) -> Problem:
-    """Return a small lattice of the scene as one system.
+    """Return one problem with the equations of all sites of a small lattice.
 
     In a periodic lattice, no site is its own neighbour. In an open lattice, at least one site has all
-    neighbours. If this needs more than :data:`MOST_SITES` sites, the lattice is smaller.
+    neighbours, unless this needs more than :data:`MOST_SITES` sites.
     """
     assert scene.sites is not None
     offsets, dimension = scene.sites.offsets, scene.sites.dimension

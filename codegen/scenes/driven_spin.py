@@ -1,8 +1,8 @@
 """Driven spin on the sphere: the Landau-Lifshitz equation with anisotropy, damping and a rotating field.
 
 The equation is m' = w x m with w = H + alpha m x H and H = (a cos nu t, a sin nu t, K m_3 + b). K is the
-anisotropy, alpha the damping, a the strength of the rotating field and b a constant field. The scene tests
-numerical methods: none of their terms vanishes, so a wrong term changes the result.
+anisotropy, alpha the damping, a the strength of the rotating field and b a constant field. For this
+equation, no term of a numerical method vanishes, so a wrong term changes the result.
 
 L. Landau and E. Lifshitz, On the theory of the dispersion of magnetic permeability in ferromagnetic bodies,
 Phys. Z. Sowjetunion 8 (1935), 153-169.

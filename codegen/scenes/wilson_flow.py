@@ -2,8 +2,8 @@
 
 A link is a matrix V in SU(3). The equation of a link is V' = -g0^2 (dS(V)) V, where g0 is the coupling
 constant and S is the Wilson action. Let V^H be the conjugate transpose of V. The plaquette P = V0 V1 V2^H
-V3^H gives g0^2 S = 2 Re tr(1 - P). Let X be the product P or P^H with its four factors permuted cyclically.
-The first factor of X is V. The generator -g0^2 dS(V) is the traceless anti-Hermitian part of -X.
+V3^H gives g0^2 S = 2 Re tr(1 - P). Permute the four factors of P or P^H cyclically, until V is the first
+factor. Let X be this product. The generator -g0^2 dS(V) is the traceless anti-Hermitian part of -X.
 
 A link V is stored as a real 6 x 3 matrix: Re V above Im V.
 

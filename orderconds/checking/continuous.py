@@ -50,7 +50,10 @@ def extension_order(tableau: Tableau) -> ExtensionOrder | None:
 def _judged(
     method: RungeKutta, extension: Extension, ring: Ring, n: int
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Judge the conditions of order n for theta, theta^2, ... in turn, until a condition fails."""
+    """Judge the conditions of order n for the coefficients of theta^p in the weights, for p = 1, 2, ....
+
+    Stop at the first p with a condition that fails.
+    """
     family = families.get("rk")
     verdicts: set[str] = set()
     for p in range(1, max(extension.degree, n) + 1):
@@ -66,7 +69,7 @@ def _judged(
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
     """Return the order condition for the coefficients of theta^p in the weights b_i(theta).
 
-    For p = n, the right-hand side is ``condition.rhs``. For other p, it is zero.
+    If p is the order n, the right-hand side is ``condition.rhs``. For other p, it is zero.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")

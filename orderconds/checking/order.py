@@ -137,7 +137,7 @@ def family_order(
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
     - ``brief``: if true, the search ends at ``bound.order``, and the result contains the failing conditions
-      of ``bound``. If false, ``bound`` is used only if ``bound.order >= family.search_limit``.
+      of ``bound``. If false, the search ends there only if ``bound.order >= family.search_limit``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get
@@ -158,7 +158,7 @@ def family_order(
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
     """Return a tuple with one condition of order ``order`` that the method of ``tableau`` violates.
 
-    The condition is ``family.first_unmet(order)``: no method of the family satisfies it. The tuple is
+    The condition is ``family.first_unmet(order)``. Every method of the family violates it. The tuple is
     empty if no such condition is known, or if the residual is a ball that contains zero.
 
     >>> from orderconds.families import get
@@ -201,7 +201,7 @@ class _Search:
             known = len(self.sizes or ())
             verdicts, failing, whole = self._judged(n, n > expected, certificate == "decimal")
             if self.sizes and (failing or not verdicts.isdisjoint((STOPPED, "undecided"))):
-                # Remove the residuals of order n: the computed order is n - 1.
+                # The computed order is n - 1. Remove the residuals of order n.
                 del self.sizes[known:]
             if not failing and STOPPED in verdicts:
                 done = self.meter.total
@@ -220,7 +220,7 @@ class _Search:
         return FamilyOrder(label, limit, certificate, True, (), None, claimed, required, ended)
 
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
-        """Evaluate the conditions of order n. Return the verdicts, the failing conditions and a flag.
+        """Judge the conditions of order n. Return the set of verdicts, the failing conditions and a flag.
 
         If the flag is false, order n may have more failing conditions than those returned. Set ``decimal`` to
         True if some conditions of lower order hold only to the precision of the rounded coefficients.
@@ -230,8 +230,8 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # With balls, conditions that follow from others are skipped only if ``decimal`` is true.
-        # Otherwise, the certificate could be ``exact`` without a proof.
+        # If ``known`` is true, conditions that follow from others are skipped. In the ring ``Balls``, the
+        # certificate ``exact`` needs their evaluation.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):

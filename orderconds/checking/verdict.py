@@ -135,7 +135,7 @@ def _of_doubles(certificate: str) -> str:
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a hint if the doubles of a tableau agree with exact numbers, else an empty text."""
+    """Return a hint with exact numbers that agree with the doubles of a tableau, or an empty text."""
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -153,7 +153,7 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
 def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...]) -> EmbeddedOrder | None:
     """Return the orders of the embedded method, or None if the tableau has no embedded method.
 
-    The result omits families of ``wanted`` if their stages depend on the weights.
+    A family in ``wanted`` is ignored if its attribute ``fixed_stages`` is false.
     """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
@@ -224,9 +224,9 @@ Reading = tuple[Tableau, Family, int | None]
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return additional families. The orders in these families can bound the orders in ``wanted``.
+    """Return additional families. Their orders can give bounds of the orders in the wanted families.
 
-    The result is empty if each claimed or required order is below the ``search_limit`` of its family.
+    The result is empty if no claimed or required order reaches the ``search_limit`` of its family.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -234,7 +234,7 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return families in which the order of ``tableau`` bounds its orders in other families.
+    """Return the families that accept ``tableau``, if their attribute ``bounds_others`` is true.
 
     Omit families with a label in ``labels``.
     """
@@ -298,7 +298,7 @@ def _settled(
 ) -> FamilyOrder | None:
     """Derive the order in ``family`` from the orders in other families.
 
-    Return None if no order follows. Orders below ``family.search_limit`` are not derived.
+    Return None if no order follows, or if the order is below ``family.search_limit``.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)

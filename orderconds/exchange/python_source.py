@@ -366,7 +366,7 @@ def _import(statement: ast.ImportFrom, values: Values) -> None:
 
 
 def _is_script_part(statement: ast.If, values: Values) -> bool:
-    """Return True for ``if __name__ == "__main__":``. An import skips its body."""
+    """Return True for ``if __name__ == "__main__":``. An import does not execute this block."""
     return "__name__" not in values.known and ast.unparse(statement.test) in (
         "__name__ == '__main__'",
         "'__main__' == __name__",

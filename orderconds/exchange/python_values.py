@@ -57,7 +57,7 @@ class Array:
     """If this integer is equal for two arrays, a change of one array may change the other."""
 
     def parts(self) -> set[int]:
-        """Return the integers :attr:`memory` of this array and its rows."""
+        """Return the values of the attribute :attr:`memory` for this array and its rows."""
         return {self.memory}.union(*(x.parts() for x in self.items if isinstance(x, Array)))
 
 
@@ -101,8 +101,8 @@ class Values:
     functions: dict[str, str] = field(default_factory=dict)
     """A map from the imported name of a function to its original name."""
     sources: dict[str, tuple[frozenset[str], frozenset[int]]] = field(default_factory=dict)
-    """A map from a variable to two sets: names of variables, and integers :attr:`Array.memory` of arrays. An
-    unknown value may refer to these variables and arrays. Both sets are empty for an evaluated variable.
+    """A map from a variable to two sets: names of variables, and values of :attr:`Array.memory`. An unknown
+    value may refer to these variables and arrays. Both sets are empty for an evaluated variable.
     """
     active: set[str] = field(default_factory=set)
     """Names of functions, classes and instances. The use of such a name may execute code of the module."""
@@ -139,7 +139,7 @@ class Values:
             self.sources[name] = traced
 
     def _traced(self, names: Collection[str]) -> tuple[frozenset[str], frozenset[int]]:
-        """Return the two sets in :attr:`sources` for an unknown value that may refer to ``names``."""
+        """Return ``names`` with their sources, and the values of :attr:`Array.memory` of their arrays."""
         reached, memories = set(names), set[int]()
         for name in names:
             more, shared = self.sources.get(name, (frozenset(), frozenset()))
@@ -168,7 +168,7 @@ class Values:
     def _forget_others(self, changed: Array, line: int) -> None:
         """Mark arrays as unknown if they may share memory with ``changed``.
 
-        Exceptions are ``changed`` itself and arrays with ``changed`` as a row.
+        The array ``changed`` and all arrays with the row ``changed`` stay known.
         """
         for name, other in self.known.items():
             if isinstance(other, Array) and changed.memory in other.parts() and not _contains(other, changed):
@@ -334,8 +334,8 @@ def _require_digits(node: ast.Call) -> None:
     """Raise an error if a call such as ``Float('0.577', 2)`` drops digits of its text."""
     text = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
     digits = sum(x.isdigit() for x in text) if isinstance(text, str) else 17
-    # The keyword ``precision`` is in bits, and one bit corresponds to log10(2) = 0.30103 digits. The
-    # text of the number may have two digits more than this precision.
+    # The keyword ``precision`` is in bits, and one bit corresponds to log10(2) = 0.30103 digits. A text
+    # with two more digits than this precision is accepted.
     allowed = [(x, 1.0, 0) for x in node.args[1:]]
     allowed += [(k.value, 0.30103, 2) if k.arg == "precision" else (k.value, 1.0, 0) for k in node.keywords]
     for given, factor, more in allowed:

@@ -1,6 +1,6 @@
 """Coefficients as unevaluated expressions, for file formats without named numbers.
 
-In each coefficient, formulas replace the names of numbers. Rounded decimals keep their digits. Only
+In each coefficient, each named number is replaced by its formula. Rounded decimals keep their digits. Only
 operations with 0 and 1 are simplified.
 """
 
@@ -153,7 +153,7 @@ class UnevaluatedNumbers:
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
     """Return a copy of ``tableau``. Its coefficients are the unevaluated expressions from ``file``.
 
-    In these expressions, definitions from the table ``numbers`` replace the names of numbers.
+    In these expressions, each name in the table ``numbers`` is replaced by its definition.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'

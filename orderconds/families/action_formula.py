@@ -42,8 +42,8 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word whose letters are action trees. One letter can be the name of a stage. This letter is added
-to the velocity of the stage."""
+"""A word whose letters are action trees. One letter can be the name of a stage. The coefficient of
+this letter is one in the velocity of the stage, and zero in all other velocities."""
 
 
 def multiplier(tree: Velocity) -> int:
@@ -89,10 +89,10 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in a group element.
+        """Return a coefficient in the group element of stage ``row``, or in the update if ``row`` is None.
 
-        The new letter x is added to the velocity of the stage ``stage``. The group element is that of stage
-        ``row``. If ``row`` is None, the group element is the update.
+        It is the coefficient of the word (``before``, x, ``after``). Here x is a new letter. Its coefficient
+        is one in the velocity of stage ``stage``, and zero in all other velocities.
         """
 
     def condition(self, tree: Velocity) -> Formula:
@@ -104,9 +104,7 @@ class ActionFormula(ABC):
         return index_sum((stage,), (), product(coefficient("b", stage), self.tau(tree, stage)))
 
     def tau(self, tree: Velocity, stage: str) -> Formula:
-        """Return the coefficient of a tree in the velocity of ``stage``. The result is multiplied by
-        ``multiplier(tree)``.
-        """
+        """Return the coefficient of a tree in the velocity of ``stage``, times ``multiplier(tree)``."""
         return product(self.word(stage, tree.word), self._psi_product(tree.momenta, stage))
 
     def _psi_product(self, momenta: Momenta, stage: str) -> Formula:
@@ -194,7 +192,8 @@ class ExponentialsFormula(ActionFormula):
         """Return the coefficient of the word (``before``, x, ``after``) in the product of exponentials of
         stage ``row``, or of the update if ``row`` is None.
 
-        Here x is a new letter with the coefficient one in the exponent with index ``place``.
+        Here x is a new letter. Its coefficient is one in the exponent with index ``place``, and zero in all
+        other exponents.
         """
         terms = []
         for r in range(len(before) + 1):
@@ -233,10 +232,10 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in a group element.
+        """Return a coefficient in the group element of stage ``row``, or in the update if ``row`` is None.
 
-        The new letter x is added to the velocity of the stage ``stage``. The group element is that of stage
-        ``row``. If ``row`` is None, the group element is the update.
+        It is the coefficient of the word (``before``, x, ``after``). Here x is a new letter. Its coefficient
+        is one in the velocity of stage ``stage``, and zero in all other velocities.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -259,21 +258,20 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return fresh("J")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the coefficient of ``tree`` in one exponent of stage ``row``, or of the update if ``row`` is
-        None.
+        """Return the coefficient of ``tree`` in one exponent of stage ``row``.
 
-        The coefficient is ``sum_j alpha_iJj tau_t(j)`` in stage i = ``row``, and ``sum_j beta_Jj tau_t(j)``
-        in the update. Here J is ``place``, and ``tau_t(j)`` is the result of :meth:`tau` for ``tree`` and
-        stage j.
+        If ``row`` is None, the exponent belongs to the update. The coefficient is
+        ``sum_j alpha_iJj tau_t(j)`` in stage i = ``row``, and ``sum_j beta_Jj tau_t(j)`` in the update. Here
+        J is ``place``, and ``tau_t(j)`` is the result of :meth:`tau` for ``tree`` and stage j.
         """
         stage = fresh("i")
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in a group element.
+        """Return a coefficient in the group element of stage ``row``, or in the update if ``row`` is None.
 
-        The new letter x is added to the velocity of the stage ``stage``. The group element is that of stage
-        ``row``. If ``row`` is None, the group element is the update.
+        It is the coefficient of the word (``before``, x, ``after``). Here x is a new letter. Its coefficient
+        is one in the velocity of stage ``stage``, and zero in all other velocities.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -317,7 +315,8 @@ class MuntheKaasFormula(ActionFormula):
         """Return the coefficient of the word (``before``, x, ``after``) in exp(X_i), where i is ``row``, or
         in exp(Y) if ``row`` is None.
 
-        Here x is a new letter that is added to xi_j, the velocity of stage j = ``stage``.
+        Here x is a new letter. Its coefficient is one in the velocity of stage ``stage``, and zero in all
+        other velocities.
         """
         return self._exponential(row, (*before, stage, *after))
 
@@ -352,7 +351,7 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _argument(self, row: str | None, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in X_i for i = ``row``. If ``row`` is None, Y replaces X_i.
+        """Return the coefficient of ``word`` in X_i for i = ``row``, or in Y if ``row`` is None.
 
         In each term of the result, one letter comes from a velocity xi_j, and the other letters from X_j.
         """
