@@ -1,7 +1,6 @@
 """Measurements of emitted integrators.
 
-A reference solution is computed without group exponentials and without the code of a method. Each
-:class:`Measurement` produces one section of the report of the command ``orderconds report``.
+Each :class:`Measurement` produces one section of the report of the command ``orderconds report``.
 """
 
 from codegen.lab.measurement import Measurement, Section

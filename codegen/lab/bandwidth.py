@@ -57,7 +57,7 @@ FREE_SHARE = 8
 """The arrays take at most the fraction 1/FREE_SHARE of the free memory."""
 
 USUAL_CACHE, USUAL_MEMORY = 32 << 20, 1 << 30
-"""Sizes of the last-level cache and of the free memory in bytes, if the true sizes are unknown."""
+"""Assumed sizes of the last-level cache and the free memory in bytes, used if the true sizes are unknown."""
 
 FEW_SITES = 4096
 """The number of sites in a short run that estimates the CPU time for each site."""
@@ -161,7 +161,7 @@ class Unmeasured:
 def measure(
     compiled: Compiled, artifact: Artifact, most_bytes: int | None = None, seconds: float = COMPILE_SECONDS
 ) -> Bandwidth | Unmeasured:
-    """Return the bandwidth of an emitted module for a lattice, or the reason why it is not available.
+    """Return the measured bandwidth of an emitted module, or the reason why the measurement is impossible.
 
     ``most_bytes`` limits the size of the arrays, and ``seconds`` limits the compile time. ValueError is
     raised if the module is not for a chain or lattice.
@@ -222,7 +222,7 @@ class _Runs:
 
     @property
     def numbers(self) -> int:
-        """The size of the state and of the workspace of one site, in numbers."""
+        """The number of floating-point numbers in the state and the workspace of one site together."""
         return self.lattice.interface.size + self.lattice.interface.workspace
 
     @property

@@ -20,7 +20,7 @@ FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
 """Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``.
 
-FIELD_METHODS is for scenes given by a vector field.
+Scenes with a Hamiltonian use HAMILTONIAN_METHODS. All other scenes use FIELD_METHODS.
 """
 
 REPORT_SCENES = ("dipole", "free_rigid_body")
@@ -111,7 +111,7 @@ def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) ->
 
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
-    """Return the default methods of the report with equal steps, and those with step-size control."""
+    """Return the default methods of the report: those with equal steps, and those with step-size control."""
     families, chosen = families_for(scene), []
     for name, order in (REPORT_HAMILTONIANS if scene.is_hamiltonian else REPORT_FIELDS).items():
         if name.partition(":")[0].partition("(")[0] not in families:

@@ -76,7 +76,10 @@ def magnitude(root: Expr) -> Expr:
 
 
 def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
-    """Return the magnitude of the expression ``e`` from the magnitudes ``sizes`` of ``e.args``."""
+    """Return the sum of the absolute values of the terms of ``e``.
+
+    ``sizes`` contains these sums for the arguments ``e.args``.
+    """
     match e.op:
         case "add" | "sub":
             return sizes[0] + sizes[1]

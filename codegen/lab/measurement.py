@@ -62,7 +62,7 @@ class Measurement(ABC, Generic[R]):
         """Return the content of the section, or None if there is nothing to show."""
 
     def verdict(self, result: R, subject: Subject) -> str:
-        """Return the first sentence of the section, a summary of the result.
+        """Summarize the result in one sentence, for the beginning of the section in the report.
 
         If a subclass does not define this method, there is no such sentence: the method returns ''.
         """

@@ -22,7 +22,7 @@ from orderconds.input_file import MAX_WRITTEN_BYTES, content_of
 T = TypeVar("T")
 
 FORMAT = 1
-"""The version of the file format, which is part of every key."""
+"""The version of the file format. The names of the files depend on it."""
 
 FOLDER = ".measured"
 """The name of the cache folder inside the output folder of a report."""
@@ -88,7 +88,7 @@ class MeasurementCache:
             return
 
     def remove(self) -> None:
-        """Delete the folder with all results. A folder of another user or a symbolic link is not deleted."""
+        """Delete the folder with all results. Symbolic links, and folders of other users, are not deleted."""
         if self.folder is not None and _secured(self.folder):
             shutil.rmtree(self.folder, ignore_errors=True)
 

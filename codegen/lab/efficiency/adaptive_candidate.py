@@ -54,7 +54,7 @@ class AdaptiveCandidate(EmittedCandidate):
         return self.arrive(control, spans=spans).accepted
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None, spans: int = 1) -> Arrival:
-        """Run over ``spans`` times the time span of the scene with the given tolerance.
+        """Run with the given tolerance. The length of the run is ``spans`` times the time span of the scene.
 
         RunFailed is raised if a step fails.
         """

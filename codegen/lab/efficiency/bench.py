@@ -95,9 +95,9 @@ class Bench:
     def run(self, done: Callable[[Row], object], cache: MeasurementCache | None = None) -> Result:
         """Make all runs that are not in the cache, and rank the candidates.
 
-        The function ``done`` is called with the row of each run. If ``folder`` is not None, the results are
-        written to this folder as a CSV file, a JSON file and an SVG file. The default cache is a hidden
-        folder in ``folder``.
+        The function ``done`` is called with the row of each run. CSV, JSON and SVG files with the results are
+        written to ``self.folder``. The default cache is a hidden folder there. If ``self.folder`` is None,
+        there are no result files and no default cache.
         """
         name, stem = self.scene.name, scenes.file_stem(self.scene)
         own = MeasurementCache(self.folder / f".{stem}.measured" if self.folder else None)
@@ -177,7 +177,7 @@ def emitted_forms(
 ) -> list[Candidate]:
     """Return the candidates for a method: one for each element of ``equations``.
 
-    A method that uses the group of the scene has only one candidate.
+    Exception: a method that uses the group of the scene has only one candidate.
     """
     suited = equations if lowering(method.family).in_coordinates else [Equations(scene)]
     return [emitted(scene, method, exact, target, budget, adaptive=adaptive, equations=e) for e in suited]

@@ -36,8 +36,7 @@ class Recipe:
     """A way to integrate a scene: a method, one form of the equations, and equal steps or step-size control.
 
     - ``method``: the name of the method, such as ``rkmk(2):rk4``.
-    - ``order``: the order of the method, from the file of the tableau or (in :func:`named`) from the order
-      conditions.
+    - ``order``: the order of the method.
     - ``stages``: the number of stages or factors of the tableau.
     - ``tableau``: the name of the tableau.
     - ``adaptive``: True for step-size control, and False for equal steps.
@@ -213,8 +212,8 @@ def method_of(recipe: Recipe, problem: Problem) -> Method:
 def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Recipe]:
     """Yield the recipes of the given methods.
 
-    Each pair in ``methods`` contains the name of a method, and True for step-size control. A method that
-    treats the state as a vector in R^n has a recipe for each form of the equations.
+    Each pair in ``methods`` contains the name of a method, and whether it has step-size control. A method
+    that treats the state as a vector in R^n has one recipe for each of :func:`classical_forms`.
     """
     forms = [form.key for form in classical_forms(problem)]
     for label, adaptive in methods:

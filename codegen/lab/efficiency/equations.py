@@ -30,7 +30,7 @@ class Equations:
 
     @property
     def printed(self) -> bool:
-        """True for the equations that the scene itself states."""
+        """True for the original equations of the scene, and False for another form of the equations."""
         return self.form is None or self.form.printed
 
     @property

@@ -4,8 +4,8 @@ A recipe consists of a method, one form of the equations, and the choice of equa
 
 1. The CPU time of each recipe is predicted from a few runs in the interpreter.
 2. The predicted CPU time divided by the safety factor SAFE is a lower bound of the true CPU time.
-3. Each required error has a time limit: WORST times the best CPU time of the usual search. A recipe is
-   excluded if its lower bounds exceed the limits of all required errors.
+3. For each required error, the time limit is the best CPU time of the usual search, multiplied by WORST. A
+   recipe is excluded if its lower bound exceeds the time limit for every required error.
 4. The remaining recipes are emitted, compiled and timed.
 5. A sample of the excluded recipes is also timed, to test the lower bounds.
 """
@@ -37,7 +37,7 @@ SAFE = 8.0
 T = TypeVar("T")
 
 SAMPLE = 12
-"""The number of excluded recipes that are timed to test the lower bounds (:func:`sampled`)."""
+"""The largest number of excluded recipes in the result of :func:`sampled`."""
 
 
 @dataclass
@@ -96,8 +96,8 @@ def exhaust(
 ) -> Exhausted:
     """Search the whole library for the fastest recipe for each required error.
 
-    ``known`` maps each required error to the least CPU time in seconds that the usual search measured, or to
-    infinity if the usual search found no recipe. ``most`` is the time limit of this search in seconds.
+    ``known`` maps each required error to the best known CPU time in seconds, or to infinity. ``most`` is the
+    time limit of this search in seconds.
     """
     search = Search(request.task, (request.goal,))
     limits = {error: WORST * SAFE * seconds for error, seconds in known.items()}
@@ -197,8 +197,8 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
     """Measure the CPU time of a recipe for each required error, and add the results to ``done``.
 
-    Return the smallest ratio of a measured time to the best earlier time for the same error, or infinity if
-    the recipe reaches none of the errors.
+    Return the minimum of (measured CPU time)/(best earlier CPU time) over all reached errors. The result is
+    infinity if no error is reached.
     """
     done.codes.add(candidate.code)
     done.raced += 1

@@ -52,7 +52,7 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 
 
 def is_symplectic(compiled: Compiled) -> bool:
-    """Return True if the steps of a method are symplectic maps and all have the same size.
+    """Return True if a method is symplectic and has a constant step size.
 
     With variable step sizes, symplectic methods do not preserve the energy better than other methods over
     long times.

@@ -31,7 +31,7 @@ SETTLED = 1e-9
 
 
 class CountingDomain(FloatDomain):
-    """Double precision arithmetic that counts the sweeps (iterations for implicit equations)."""
+    """Double precision arithmetic, with a counter of sweeps (iterations for implicit equations)."""
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
@@ -87,7 +87,7 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
 def controlled_run(
     program: Program, problem: Problem, order: int, tolerance: float, end: float = math.inf
 ) -> tuple[Vector, int, float]:
-    """Make a run with step-size control over the time span, and return three values.
+    """Integrate over the time span with step-size control. Return three values.
 
     - the final state,
     - the number of accepted and rejected steps,

@@ -39,7 +39,7 @@ FAILED = 4.0
 
 
 def usual_order(error: float) -> float:
-    """Return the order of convergence that the fastest methods for a required error usually have.
+    """Return the typical order of the fastest methods when the required error is ``error``.
 
     >>> usual_order(1e-4), usual_order(1e-12)
     (4.0, 8.0)
@@ -180,7 +180,7 @@ class Jobs(Sequence[Job]):
 
 
 def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: float) -> Bar:
-    """Return the bar for a goal: the limits on the error and the CPU time of methods of the given order.
+    """Return the limits (:class:`Bar`) on the error and the CPU time for methods of order ``order``.
 
     ``known`` contains the available predictions for the goal. ``least_seconds`` is the least predicted CPU
     time for the goal, over all recipes.

@@ -76,8 +76,8 @@ def _called(name: str) -> Callable[..., float | tuple[float, ...]]:
 class Numeric(Operation):
     """An operation that calls a Python function of doubles.
 
-    ``parts`` contains the kind and the width (number of components) of each result. ``label`` is the name of
-    the operation that ``function`` replaces.
+    ``parts`` contains the kind and the width (number of components) of each result. ``function`` is the
+    Python function. ``label`` is the name of the replaced operation.
     """
 
     function: Evaluate
@@ -129,7 +129,7 @@ class NumericLinear(Operation):
 
 @dataclass
 class NumericPrograms:
-    """Replaces each operation in the program of a step by a Python function.
+    """Replaces each operation of a :class:`Program` by a Python function.
 
     If two programs contain the same operation, both programs use the same function.
     """

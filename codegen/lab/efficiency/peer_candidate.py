@@ -45,7 +45,7 @@ class PeerCandidate:
         self.overhead: Overhead | None = None
 
     def controls(self) -> Iterator[float]:
-        """Yield the argument ``control`` of :meth:`measure` for each run, with increasing accuracy.
+        """Yield tolerances or numbers of steps for :meth:`measure`. The accuracy of the runs increases.
 
         If the attribute ``controlled`` of the peer is "tolerance", the values are tolerances. Otherwise the
         values are the numbers of steps 1, 2, 4, ....

@@ -1,10 +1,9 @@
-"""Predicts the CPU time in which a recipe reaches an error, from a few interpreted steps and counted
-operations.
+"""Predicts the CPU time that a recipe needs to reach a required error.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter
-doubles the number of equal steps until the error is small. The number of steps for a required error is
-predicted from the most accurate run and the order of the method. The time of a step is predicted as the sum
-of the times of its operations.
+A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
+The interpreter doubles the number of equal steps until the error is small. The number of steps for a required
+error is predicted from the most accurate run and the order of the method. The time of a step is predicted as
+the sum of the times of its operations.
 
 The prediction ignores that the compiler computes common subexpressions only once.
 """
@@ -67,12 +66,12 @@ FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
 """Assumed numbers of sweeps (iterations for the implicit equations) in a step.
 
-A prediction assumes at least FEWEST_SWEEPS sweeps. Before the first run of a method, USUAL_SWEEPS sweeps are
-assumed.
+FEWEST_SWEEPS is a lower bound for the assumed number. Before the first run of a method, USUAL_SWEEPS sweeps
+are assumed.
 """
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
-"""The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
+"""In the interpreter, runs with step-size control have the tolerances 10^-k, with k in TOLERANCES."""
 
 FAR = 10.0
 """Methods of order p are excluded if even methods of higher order are too inaccurate.
@@ -122,7 +121,7 @@ class Prediction:
     def count(self, error: float) -> float:
         """Return the predicted number of steps that a run needs to reach an error.
 
-        The result is infinity if the interpreted runs failed.
+        The result is infinity if the attribute ``error`` is infinite.
         """
         if not math.isfinite(self.error):
             return math.inf
@@ -403,7 +402,7 @@ def amounts(roots: Sequence[Expr]) -> Amounts:
         divisions += node.op == "div"
         vector = component(node.payload) if node.op == "call" else None
         if vector is not None:
-            # One call computes all results of a vector function.
+            # The operations of a vector function are counted once, for its first component.
             function, index = vector
             arithmetic += sum(function.operations.values()) if index == 0 else 0
         else:

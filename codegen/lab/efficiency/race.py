@@ -1,8 +1,8 @@
 """Measures the CPU time that each recipe needs to reach a required error.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. The accuracy of the
-runs is increased until two consecutive runs have small enough errors. The error of a single run can be small
-by accident.
+A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
+The accuracy of the runs is increased until two consecutive runs have small enough errors. The error of a
+single run can be small by accident.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ Short times are not reliable, because the first run of a module is slower than l
 """
 
 PATIENT = 8.0
-"""If a run is much slower than the fastest other recipe, the accuracy is not increased further.
+"""If a run takes too long, the recipe is not run again with higher accuracy.
 
 The limit on the CPU time is PATIENT times the least CPU time of the other recipes, plus BRIEF.
 """

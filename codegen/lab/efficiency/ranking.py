@@ -40,10 +40,10 @@ def by_form(rows: Sequence[Row]) -> dict[str, list[Row]]:
 
 
 def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
-    """Return a pair (seconds, form) for the form of the equations on which a candidate is fastest.
+    """Return the fastest form of the equations as a pair (seconds, form).
 
-    ``seconds`` is the CPU time that the candidate needs on this form to reach ``error``. The result is None
-    if no run reaches the error.
+    ``seconds`` is the CPU time to reach ``error`` with this form. The result is None if no run reaches the
+    error.
     """
     times = [(_seconds_to(own, error), form) for form, own in by_form(rows).items()]
     return min(((t, form) for t, form in times if t is not None), default=None, key=lambda pair: pair[0])

@@ -53,7 +53,7 @@ class Request:
         return Task(self.scene, self.span, self.budget, self.tableaux)
 
     def problem(self) -> Problem:
-        """Return the problem of the scene. If ``span`` is not None, ``span`` is the time span."""
+        """Return the scene as a problem. If ``span`` is not None, it replaces the time span."""
         return self.task.problem()
 
 

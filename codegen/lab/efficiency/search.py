@@ -33,14 +33,14 @@ from orderconds.processes import in_processes
 SAFETY = 2.5
 """A recipe is measured if its predicted time is at most SAFETY times the best measured time.
 
-The predicted time is first corrected by the results of measured recipes.
+Before the comparison, the predicted time is multiplied by a correction factor.
 """
 
 UNSEEN = 4.0
 """The safety factor (:data:`SAFETY`) for a kind of recipe that has not been measured yet."""
 
 LEADERS, CLOSE = 4, 1.4
-"""The LEADERS fastest recipes are timed again if their CPU time is at most CLOSE times the best CPU time."""
+"""Up to LEADERS of the fastest recipes are timed again. Their CPU times are at most CLOSE times the best."""
 
 CONTROLLED = 100.0
 """The divisor for unreliable predictions of the CPU time with step-size control (:meth:`Search.hoped`).
@@ -64,9 +64,9 @@ The remaining budget is the time that is left after the computation of the refer
 """
 
 UNREACHED = 1e-3
-"""The gain of a recipe whose estimated time is infinite, or long but unreliable.
+"""The small gain of a recipe without a reliable estimate of its CPU time.
 
-Recipes with large gains are measured first.
+Recipes with larger gains are measured earlier.
 """
 
 LONG_STEPS = 20_000
@@ -132,12 +132,12 @@ class Search:
         return (time.monotonic() - self.start) / self.task.budget
 
     def run(self) -> None:
-        """Predict the times of recipes, and measure the promising recipes."""
+        """Run the search: call :meth:`predict` and :meth:`race`."""
         self.predict()
         self.race()
 
     def predict(self) -> None:
-        """Predict the times of recipes until the time budget (:data:`PREDICTING`) is used up."""
+        """Predict the CPU time of each recipe. Stop at the time limit (:data:`PREDICTING`)."""
         methods: dict[Recipe, list[Goal]] = defaultdict(list)
         for recipe, suited in self.suited.items():
             methods[replace(recipe, adaptive=False)] += suited
@@ -183,7 +183,7 @@ class Search:
     def prediction(self, recipe: Recipe) -> Prediction | None:
         """Return the prediction for a recipe, or None if there is no prediction.
 
-        If step-size control has no prediction of its own, the prediction for equal steps is returned.
+        If runs with step-size control were not predicted, the result is the prediction for equal steps.
         """
         known = self.predictions.get((recipe.method, recipe.form))
         return known.controlled or known if known is not None and recipe.adaptive else known
@@ -262,14 +262,14 @@ class Search:
         return prediction is not None and not prediction.failure
 
     def best(self, goal: Goal) -> float:
-        """Return the least measured CPU time in seconds of the recipes that reach a goal.
+        """Return the least CPU time in seconds that was measured for a goal.
 
         The result is infinity if no recipe has reached the goal.
         """
         return min((r.seconds for r in self._reached(goal)), default=math.inf)
 
     def _reached(self, goal: Goal) -> Iterable[Result]:
-        """Return the fastest result of each recipe that reaches a goal.
+        """Return the results that reach a goal, but only the fastest result of each recipe.
 
         If a recipe does not preserve a conserved quantity in a long run, the recipe is omitted.
         """
@@ -325,7 +325,7 @@ class Search:
     def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
         """Return the results for a goal, from fast to slow, and the labels of excluded recipes.
 
-        A recipe is excluded if it does not preserve a conserved quantity in a long run.
+        The excluded recipes did not pass the long run (:meth:`_loses`).
         """
         while True:
             ranked, raced = self._ranked(goal), len(self.raced)
@@ -337,8 +337,8 @@ class Search:
     def _ranked(self, goal: Goal) -> list[Result]:
         """Return the results for a goal, from fast to slow.
 
-        If a requirement of the goal concerns long times, the two fastest recipes must preserve the conserved
-        quantities in a long run.
+        If ``goal.long`` is True, the two fastest recipes are tested in a long run. After a failed test, the
+        step size is halved, or the recipe is removed.
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
@@ -346,7 +346,7 @@ class Search:
         kept = 0
         while goal.long and kept < min(2, len(ranked)):
             result = ranked[kept]
-            # All tests of a recipe use the same time span.
+            # The number of steps is doubled when the step size is halved.
             if not self._loses(result, LONG_STEPS << halvings[result.entry.recipe]):
                 kept += 1
                 continue
@@ -357,7 +357,7 @@ class Search:
             if shorter is None:
                 self.lost[goal][recipe] = None
             else:
-                # The first ``kept`` results have passed the test.
+                # The results in ``ranked[:kept]`` have passed their long runs.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked
 

@@ -1,7 +1,7 @@
 """The task of a search for the fastest methods, and the functions for the worker processes of the search.
 
-The search compares recipes. A recipe is a method with equal steps or step-size control, on one form of the
-equations.
+The search compares recipes. A recipe consists of a method, one form of the equations, and the choice of equal
+steps or step-size control.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ class Task:
     - ``span``: a time span that replaces the time span of the scene, or None.
     - ``budget``: the longest time of the search in seconds.
     - ``methods``: pairs (label, adaptive) of the methods to search, or () for the methods of the library.
-    - ``tableaux``: names of the tableaux of the library methods to search, or () for all. ``tableaux``
-      is used only if ``methods`` is empty.
+    - ``tableaux``: the names of the permitted tableaux, or () for all tableaux. ``tableaux`` is used only if
+      ``methods`` is empty.
     """
 
     scene: str
@@ -57,7 +57,7 @@ class Task:
         return _equations(self.scene, self.span, form)
 
     def recipes(self) -> list[Recipe]:
-        """Return the recipes (methods on forms of the equations) that the search compares."""
+        """Return the recipes that the search compares."""
         if self.methods:
             return list(named(self.problem(), self.methods))
         return list(candidates(self.problem(), self.tableaux))

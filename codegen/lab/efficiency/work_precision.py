@@ -107,8 +107,8 @@ def measure_rows(
 ) -> tuple[Row, ...]:
     """Make the runs of a candidate, and return one row for each run.
 
-    ``done`` is called with the row of each run. If the candidate cannot run on the scene, the last row
-    contains the reason.
+    ``done`` is called with the row of each run. If ``candidate.prepare()`` fails, an additional last row
+    contains the error message.
     """
     rows: list[Row] = []
     ready = False
@@ -214,8 +214,8 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
     """Return True if rounding errors probably prevent further convergence.
 
-    Let e1, e2 and e3 be the errors of the last three runs in ``rows``. The result is True if e1 is at most
-    :data:`NEAR_ROUNDING` times the size of the state, and e2 and e3 are above e1/3.
+    Let e1, e2 and e3 be the last three errors in ``rows``, where e3 is the last. The result is True if e1 is
+    at most :data:`NEAR_ROUNDING` times the size of the state, and e2 and e3 are above e1/3.
     """
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))

@@ -9,8 +9,8 @@ A slope different from zero can have three causes:
 - The deviation may vary slowly. The slope counts as a drift only if the means over five consecutive sections
   of the record are monotone.
 - The deviation may be a random walk. The slope counts as a drift only if at least one of two tests excludes a
-  random walk (:data:`STRAIGHT`, :data:`STEADY`). The test with STRAIGHT is due to J. D. Sargan and A.
-  Bhargava, Econometrica 51 (1983) 153.
+  random walk (:data:`STRAIGHT`, :data:`STEADY`). The first test is due to J. D. Sargan and A. Bhargava,
+  Econometrica 51 (1983) 153.
 - The deviation may grow systematically. Only systematic growth is called a drift.
 """
 
@@ -29,7 +29,7 @@ FEWEST = 2 * BLOCKS
 
 CONFIDENCE = 0.95
 PARTS = 5
-"""A slope counts as a drift only if the means over PARTS consecutive sections of the record are monotone."""
+"""The number of sections of a record. A drift requires that the means over the sections are monotone."""
 
 LOST = 1.0
 """A conserved quantity counts as lost if its relative deviation is at least LOST."""
@@ -63,10 +63,10 @@ is r_i.
 """
 
 CONFINED = 0.04
-"""A random walk is excluded if the scatter V/(n D) of a record is below CONFINED.
+"""A record does not count as a random walk if its scatter is below CONFINED.
 
-V is the variance of the means over n blocks, and D the variance of the differences between consecutive means.
-Only 3 % of all random walks have a scatter below CONFINED.
+The scatter is V/(n D). V is the variance of the means over n blocks, and D the variance of the differences
+between consecutive means. Only 3 % of all random walks have a scatter below CONFINED.
 """
 
 STRAIGHT = 0.0225
@@ -168,7 +168,7 @@ class Drift:
 
     @property
     def drifts(self) -> bool | None:
-        """True if the verdict :attr:`law` is ``drift``, ``random walk`` or ``lost``.
+        """True if :attr:`law` is ``drift``, ``random walk`` or ``lost``.
 
         None if the run is too short for a verdict.
         """
@@ -231,10 +231,10 @@ def fit(
 
 
 def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | numpy.ndarray) -> int | None:
-    """Return the index of the sample at which a deviation saturates (:data:`LEVEL`, :data:`STAYS`), or None.
+    """Return the index of the sample at which a deviation saturates (see :data:`LEVEL`), or None.
 
-    ``peaks`` and ``lows`` contain the largest and the smallest absolute deviation in the interval that ends
-    at each sample.
+    For each sample, ``peaks`` contains the largest absolute deviation since the previous sample, and ``lows``
+    the smallest.
 
     >>> saturation([0.1 * min(k, 10) for k in range(40)], [0.1 * min(k, 10) for k in range(40)])
     9
@@ -288,7 +288,7 @@ def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
 
 
 def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
-    """Return the two variance ratios of a record (:data:`WALKING`, :data:`FINE`)."""
+    """Return the variance ratios V_k/(k V_1) of :data:`WALKING` for k = NEAR and k = FAR."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, 1), x)
 
@@ -305,7 +305,7 @@ def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
 def _means(t: numpy.ndarray, y: numpy.ndarray, blocks: int) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Return the weighted mean time and the weighted mean value of each block.
 
-    With the weights (Hann's window), short oscillations nearly cancel in the mean.
+    The weights are Hann's window. Fast oscillations nearly cancel in the weighted mean.
     """
     rows = []
     for a, b in zip(numpy.array_split(t, blocks), numpy.array_split(y, blocks), strict=True):

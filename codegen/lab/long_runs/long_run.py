@@ -165,9 +165,9 @@ def _kept(
 ) -> tuple[Kept, ...]:
     """Return the deviations and the drift of each conserved quantity.
 
-    ``changes`` maps the name of a quantity to its largest change in one step. Deviations are attributed to
-    rounding errors only if this change is at most EPSILON/10 times the size of the quantity. ``early(n)``
-    repeats the first n steps with more samples.
+    ``changes`` maps the name of a quantity to its largest change c in one step. Deviations are attributed to
+    rounding errors only if c is at most EPSILON/10 times the size of the quantity. ``early(n)`` returns a
+    trajectory of the first n steps with dense samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:
@@ -197,7 +197,7 @@ def _before_saturation(
 ) -> Drift:
     """Return the drift of a quantity, fitted to the samples before the deviation saturates.
 
-    If too few samples precede the saturation, ``early(n)`` repeats the first n steps with more samples.
+    If these samples are too few, the fit uses ``early(n)``: the first n steps with dense samples.
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0

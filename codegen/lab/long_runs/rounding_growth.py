@@ -4,8 +4,8 @@ The deviation of an exactly conserved quantity shows how the rounding errors gro
 independent, the deviation grows like the square root of the number of steps (Brouwer 1937). If the rounding
 errors are biased, the deviation grows in proportion to the number of steps.
 
-A power of n is fitted to the root mean square of the deviations of several runs after n steps. The confidence
-interval of the exponent comes from the jackknife method.
+Let d(n) be the root mean square deviation of several runs after n steps. A power n^p is fitted to d(n). The
+confidence interval of the exponent comes from the jackknife method.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ EXACT = 1e-30
 CHAIN = 3
 """The number of consecutive steps in :func:`changes_of_a_step`.
 
-From a special initial state, the change of a quantity in one step may be zero by chance.
+The change in a single step may be zero by chance.
 """
 
 NEARLY = 1e-14
@@ -142,7 +142,7 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return the pairs (time, state) on one trajectory from which the measured runs start.
+    """Return the initial values (time, state) of the measured runs. They lie on one trajectory.
 
     ``run`` is a pair (compensated, integrator).
     """

@@ -55,7 +55,7 @@ def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, 
 
 
 def _measured_states(compiled: Compiled, trajectory: Trajectory) -> list[tuple[float, list[float]]]:
-    """Return the times and the states at which the steps of :func:`largest_defect` start."""
+    """Choose at most three samples (time, state) of the trajectory (:func:`largest_defect`)."""
     valid = 1
     for k in range(1, len(trajectory.states)):
         peaks = (s.peaks[k - 1] / trajectory.scales[name] for name, s in trajectory.series.items())
@@ -110,7 +110,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # Later calls of step() start from ``solution``, where _step() stores a solution with 40 digits.
+        # _step() refines ``solution`` to 40 digits. Then Newton's method in step() starts from ``solution``.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

@@ -42,8 +42,8 @@ FUNCTIONS = of_arrays(numpy)
 class Series:
     """The deviations of one conserved quantity in each interval between consecutive samples of a run.
 
-    The deviation of an invariant is its value minus its initial value ``start``. The deviation of the
-    manifold equations is their largest absolute residual.
+    The deviation of an invariant is its value minus its initial value ``start``. For the equations of the
+    manifold, the deviation is the largest absolute residual.
 
     - ``deviations``: the mean deviation.
     - ``peaks``: the largest absolute deviation.
@@ -133,8 +133,8 @@ def scale(start: float, magnitude: float) -> float:
     """Return the size of a conserved quantity, by which its deviation is divided.
 
     ``start`` is the initial value of the quantity, and ``magnitude`` is the sum of the absolute values of its
-    terms. The size is the absolute value of ``start``, or ``magnitude`` if the terms cancel
-    (:data:`CANCELLED`). If ``start`` and ``magnitude`` are zero, the size is 1.
+    terms. The size is ``abs(start)``. If the terms cancel (:data:`CANCELLED`), the size is ``magnitude``. If
+    ``start`` and ``magnitude`` are zero, the size is 1.
 
     >>> scale(-2.0, 3.0), scale(1e-12, 3.0), scale(0.0, 0.0)
     (2.0, 3.0, 1.0)

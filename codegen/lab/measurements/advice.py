@@ -66,7 +66,9 @@ class Line:
 
 @dataclass(frozen=True)
 class Searched:
-    """The result of a search. ``lines`` contains one :class:`Line` for each requirement.
+    """The result of the search for the fastest methods.
+
+    ``lines`` contains one :class:`Line` for each requirement in :data:`REQUIREMENTS`.
 
     ``complete`` is False if the time limit ended the search.
     """
@@ -80,7 +82,7 @@ class Recommendations:
     """The content of the section with advice on the choice of a method.
 
     - ``advice``: the fastest methods for each requirement.
-    - ``features``: the properties of the methods that the report measures.
+    - ``features``: the properties of each measured method.
     - ``complete``: False if the time limit ended the search for the fastest methods.
     """
 
@@ -122,14 +124,14 @@ class Advice(Measurement[Recommendations]):
         return Recommendations(tuple(map(monotone, all_lines)), tuple(known), search.complete)
 
     def as_json(self, result: Recommendations) -> object:
-        """Return the fastest method for each requirement and error as plain data.
+        """Return a JSON value: the fastest method for each requirement and each error bound.
 
         The data of a method contain its CPU time, its step size or tolerance, and the command that emits it.
         """
         return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
 
     def verdict(self, result: Recommendations, subject: Subject) -> str:
-        """Return a sentence with the fastest methods for the largest and the smallest error in the table."""
+        """Name the fastest methods for the largest and the smallest error bound in one sentence."""
         own = result.advice[0].best if result.advice else ()
         choices = [
             f"{best.method.partition(' (')[0]} ({duration(best.seconds)}) at an error of {decade(k)}"
@@ -255,7 +257,7 @@ def table(result: Recommendations, subject: Subject) -> dict[str, object]:
 def cell(best: Advised | None) -> dict[str, str] | None:
     """Return the texts of a cell of the table, or None for an empty cell.
 
-    The text ``control`` contains the step size or the tolerance, and the number of steps.
+    The entry with the key ``control`` contains the number of steps, and the step size or tolerance.
     """
     if best is None:
         return None
