@@ -44,7 +44,7 @@ def extension_of(method: Method, scene: Problem) -> Continuous:
 
 
 class RunOptions(TypedDict, total=False):
-    """The options of :func:`codegen.emit` for the run to an end time and for compensated summation."""
+    """The options ``integrate``, ``events``, ``dense`` and ``compensate`` of :func:`codegen.emit`."""
 
     integrate: bool
     events: int
@@ -99,7 +99,7 @@ def observed_run(method: Method, scene: Problem, degree: int, events: int, dense
     if degree and method.adaptive:
         raise MethodError(
             f"the Taylor method {method.label} cannot run to a given end time with step control",
-            expected="steps of constant size, or step control by an embedded method",
+            expected="a Taylor method with constant step size, or an embedded method with step control",
             hint="leave out --adaptive or --integrate",
         )
     return Observed(events, extension_of(method, scene) if dense else None)

@@ -166,7 +166,7 @@ def unknowns_of(kernel: Kernel) -> int:
 
 
 def trial_steps(kernel: Kernel) -> int:
-    """Return the number of steps that the trial of a kernel makes with the usual step size."""
+    """Return the number of steps in the first trial of a kernel."""
     return STEPS if unknowns_of(kernel) <= LARGE else FEW_STEPS
 
 
@@ -233,7 +233,7 @@ class Candidate:
         return self.cost.step(self.usual.sweeps, self.usual.matrices)
 
     def text(self, k: int) -> str:
-        """Return a text that describes the results of both trials for block number ``k``."""
+        """Return a text on the first and the second trial, for block number ``k`` of the kernel."""
         # If the first trial failed, there was no second trial, and ``far`` is None.
         if self.far is None:
             return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
@@ -272,8 +272,8 @@ def measured(trial: Trial, k: int) -> str:
 class _Selection:
     """Chooses the solvers for one program.
 
-    - ``candidates`` maps each solver that was tried to its kernel and the results of its trials.
-    - ``left_out`` maps each solver that was not tried to the reason.
+    - ``candidates[s]`` contains the kernel of the solver s and the results of its trials.
+    - ``left_out[s]`` is the reason why the solver s has no trials.
     - ``refused`` maps each solver whose kernel cannot be built to the error message.
     """
 
@@ -403,8 +403,9 @@ class _Selection:
     def by_continuation(self) -> tuple[Kernel, tuple[Choice, ...]]:
         """Return the kernel and the choices for a problem on which every solver failed in its first trial.
 
-        With at most LARGE unknowns, the fastest solver that converges with continuation in h is chosen. In
-        all other cases, Newton's method is chosen, or fixed-point iteration if Newton's method has no kernel.
+        With at most LARGE unknowns, the fastest solver that converges with continuation in h is chosen. With
+        more unknowns, or if no solver converges, Newton's method is chosen. If its matrix cannot be computed,
+        fixed-point iteration is chosen.
         """
         kernels = {s: c.kernel for s, c in self.candidates.items()}
         small = unknowns_of(self.fixed) <= LARGE
@@ -440,10 +441,10 @@ class _Selection:
         return f"takes {far.most} sweeps in a step of {LONGER} h"
 
     def choices(self, kernel: Kernel, reasons: list[str]) -> tuple[Choice, ...]:
-        """Return the choice for each block of the kernel."""
+        """Return one ``Choice`` for each block of the kernel, with the reason from ``reasons``."""
         choices = []
         for k, (loop, reason) in enumerate(zip(kernel.loops, reasons, strict=True)):
-            # If a solver was not tried, the text is the reason in ``left_out``.
+            # ``left_out`` contains the texts for the solvers that were not tried.
             figures = {s: c.text(k) for s, c in self.candidates.items()} | self.left_out
             compared = tuple(f"{METHODS[s]}: {text}" for s, text in figures.items())
             choices.append(Choice(loop.label, len(loop.unknowns), loop.solver, reason, compared))

@@ -1,4 +1,4 @@
-"""Statistics of a run: the numbers of sweeps and of Newton matrices, and the block of equations that failed.
+"""Statistics of a run: numbers of sweeps and Newton matrices, and the last unsolved block of equations.
 
 The caller of a run may pass a record. The run then adds its counts to this record.
 """
@@ -23,7 +23,8 @@ def statistics_record(plan: Plan) -> Record:
         # Blocks are numbered from 1, because 0 means that no block failed.
         (count("failed"), "number of the block that failed, counted from 1; 0 if none"),
     ]
-    # Simplified Newton needs no such field, because it computes one matrix in each step or substep.
+    # Only the matrices of Newton's method are counted. Simplified Newton computes one matrix in each step or
+    # substep.
     if plan.newton:
         fields.append((count("matrices"), "number of Newton matrices that were computed"))
     about = "Sweeps over the equations, summed over all steps since the caller set all fields to zero."
@@ -66,7 +67,7 @@ def count_sweeps(plan: Plan, block: int, sweeps: Term = SWEEPS) -> Statement:
 
 
 def count_matrix(plan: Plan) -> Statement:
-    """Return the call that increases the number of Newton matrices in the statistics by one."""
+    """Return the call that counts one more Newton matrix in the statistics."""
     return Call("count_matrix", (plan.statistics,))
 
 

@@ -65,9 +65,9 @@ def kernel_step(plan: Plan) -> Function:
     # All new entries are computed before the first entry is overwritten, because they depend on the old
     # state.
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # A NaN in an entry that the kernel does not read would not appear in the results of the kernel.
+    # The results do not depend on unread entries. A NaN in an unread entry must be found here.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
-    # The guess for the next step comes before the outputs, so that a processor can compute both at once.
+    # If the guess for the next step precedes the outputs, a processor can compute both in parallel.
     inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
     array = whole_result(plan.arrangement.outputs)
     finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)
@@ -155,8 +155,7 @@ def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
 def composed_step(plan: Plan) -> Function:
     """Return the emitted function that makes one step as a sequence of substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
-    # The initial guess is extrapolated from solutions of the same substep, so each substep has its own
-    # memory.
+    # Each substep extrapolates its own solutions from earlier steps, so it has its own memory.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)

@@ -30,7 +30,7 @@ from codegen.kernel.schedule import arrange
 Work = Mapping[str, Mapping[str, int]]
 """The numbers of operations in the parts of a step (:func:`codegen.kernel.operations.operations`).
 
-The parts are the sweep of each loop, the matrix of each loop, and all other statements."""
+The parts are one sweep of each loop, the Newton matrix of each loop, and all other statements."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ def of_step(kernel: Kernel, work: Work) -> Amounts:
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of work in one sweep."""
-    # For equations u = g(u), the next sweep of Newton's method must wait for a matrix-vector product.
+    # Each sweep of Newton's method for u = g(u) counts as one correction.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 

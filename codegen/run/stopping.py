@@ -151,8 +151,8 @@ class Stopping:
         # The tolerances are multiples of the unit roundoff, so they are larger in single precision.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # Without a warm start, both sides of the test are multiplied by ``previous`` to avoid a division. In
-        # the first sweep ``previous`` is 0, so this test is true only if the change is zero.
+        # Without a warm start, the rate is CHANGE / ``previous``. Both sides of the test are multiplied by
+        # ``previous``. In the first sweep ``previous`` is 0, so this test is true only if the change is zero.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
@@ -192,7 +192,7 @@ class Stopping:
         For equations r(u) = 0, the stopping rule uses these sums in place of the maxima of :meth:`measured`.
         """
         return [
-            # If a change is a NaN, the sum is a NaN, but a maximum could ignore the NaN.
+            # Sums are used, because a maximum could ignore a NaN.
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
         ]

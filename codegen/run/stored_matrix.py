@@ -47,7 +47,7 @@ class Hoisted:
         space, known = root.space, dict[Expr, Expr]()
         indexed: dict[Expr, bool] = {}
         for node in walk([root]):
-            # ``walk`` yields the arguments of a node before the node, so ``indexed`` contains the arguments.
+            # ``walk`` yields arguments first, so ``indexed`` already contains the arguments of ``node``.
             own_index = node.op == "sym" and node.payload in (ROW, COLUMN)
             indexed[node] = own_index or any(indexed[a] for a in node.args)
         # If a subexpression is independent of i and j, the loop does not visit its arguments. Only the whole
@@ -76,7 +76,7 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
         return space.pow(args[0], int(node.payload))
     if node.op == "call":
         return space.call(str(node.payload), *args)
-    # For each other operation, ``space`` has a method with the name of the operation.
+    # All operations except ``pow`` and ``call`` have a method of ``space`` with the same name.
     result: Expr = getattr(space, node.op)(*args)
     return result
 
@@ -84,8 +84,8 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
 class StoredMatrix(ABC):
     """The layout of matrices in arrays, and the emitted functions that evaluate and multiply matrices.
 
-    A step evaluates the matrix A at the times t_i. A linear combination of the matrices h A(t_i) is called a
-    letter.
+    A step evaluates the matrix A at the times t_i. In this class, a letter is a linear combination of the
+    matrices h A(t_i).
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
@@ -127,7 +127,7 @@ class StoredMatrix(ABC):
         """
         total: Term | None = None
         for term, given, table in entries:
-            # The method ``before`` returns the statements that prepare this entry.
+            # The method ``before`` returns the statements that are ignored here.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             # No multiplication is emitted for the coefficient 1.
@@ -168,7 +168,7 @@ class BandedMatrix(StoredMatrix):
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the loop that computes ``target``, the linear combination ``letter`` of ``nodes``."""
+        """Return the loop that stores a linear combination of ``nodes`` in the array ``target``."""
         return [For(_ROW, whole(self.letter_size), (Assign(target[_ROW], _combined(nodes, letter)),))]
 
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
@@ -202,8 +202,8 @@ class BandedMatrix(StoredMatrix):
         return For(_ROW, whole(self.n - abs(offset)), body)
 
     def _row_sum(self, a: Term) -> Function:
-        # If a diagonal has no entry in row i, its place i contains zero. Therefore all diagonals can be added
-        # without a test.
+        # If a diagonal has no entry in row i, the array contains a zero instead. Therefore all diagonals can
+        # be added without a test.
         places = [_at(number * self.n, _ROW) for number in range(len(self.matrix.offsets))]
         total = size(a[places[0]])
         for place in places[1:]:
@@ -211,8 +211,8 @@ class BandedMatrix(StoredMatrix):
         return _largest_sum(a, self.n, [Assign(_TOTAL, total)])
 
     def _product(self, a: Term, x: Term, y: Term) -> Function:
-        # If the matrix has a main diagonal, this diagonal comes first. The main diagonal has an entry in each
-        # row, so its products overwrite the old result.
+        # If the matrix has a main diagonal, this diagonal comes first. The products of its entries are
+        # assigned to ``y``. All later products are added.
         k, covered = self.columns, self.matrix.offsets[0] == 0
         zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
         body: list[Statement] = [] if covered else [zero]
@@ -234,14 +234,12 @@ class FullMatrix(StoredMatrix):
     The array for a time t_i contains the values of those subexpressions of the entries that are independent
     of i and j.
 
-    The array of a linear combination of the matrices h A(t_i) contains h times the coefficients, followed by
-    the arrays for all times t_i.
+    The array of the sum of w_i h A(t_i) contains the numbers h w_i, followed by the arrays for all times t_i.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         super().__init__(matrix, columns, nodes)
-        # The lengths of the arrays depend on the number of names in ``hoisted``. Therefore all names are
-        # chosen in the constructor.
+        # All names in ``hoisted`` are chosen here, because the properties below use the number of names.
         self.entries: list[tuple[int, Entry, str]] = []
         self.banded: list[tuple[int, int, Entry, str]] = []
         for term, (_, own_matrix) in enumerate(matrix.terms):
@@ -287,7 +285,7 @@ class FullMatrix(StoredMatrix):
         a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
         result = real("result", self.node_size)
         named = [Assign(result[k], value(node)) for k, node in enumerate(self.hoisted.names)]
-        # C has no arrays of length zero, so the array has at least one entry.
+        # C has no arrays of length zero, so ``result`` has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
         about = "The subexpressions of the entries of A(t) that contain neither the row i nor the column j."
         # The subexpressions do not depend on h, so h is not a parameter.
@@ -323,7 +321,7 @@ class FullMatrix(StoredMatrix):
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
-        """Return the statement that adds ``weight`` times an entry of a diagonal to ``_ENTRY``."""
+        """Return the statement that adds the contribution of one diagonal to ``_ENTRY``."""
         # In the table of the diagonal, the index of an entry is the smaller of i and j. The test
         # adds |offset| to one index, because a difference of unsigned indices could wrap around.
         place = _ROW if offset >= 0 else _COLUMN

@@ -1,9 +1,9 @@
 """Loops that solve implicit equations: fixed-point iteration, and Newton's method in three forms.
 
-The equations are u = g(u) or r(u) = 0. One iteration of a loop is called a sweep. The images of the unknowns
-u are the components of g(u) or r(u).
+The equations are u = g(u) or r(u) = 0. One iteration of a loop is called a sweep. The components of g(u) or
+r(u) are called images.
 
-Fixed-point iteration assigns the images to the unknowns. The last sweep omits this assignment.
+Fixed-point iteration assigns the images to the unknowns.
 
 Newton's method multiplies the residuals g(u) - u or r(u) by the inverse of a matrix and adds the product to
 the unknowns. The three forms of Newton's method use different matrices:
@@ -135,8 +135,7 @@ class _Loop:
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
-        # All images are computed before an unknown changes (as in Jacobi's method), so the order of the
-        # equations has no effect.
+        # As in Jacobi's method, all images are computed before the unknowns are updated.
         for image, x in zip(self.images, self.iteration.images, strict=True):
             if image.text.startswith("next "):
                 sequence.append(Assign(image, value(x)))
@@ -147,8 +146,8 @@ class _Loop:
     ) -> list[Statement]:
         """Return the loop with the given body, and the statements that follow the loop.
 
-        If the test ``astray`` is true, the loop cannot converge and ends. If the loop has failed and the test
-        ``singular`` is true, the status becomes SINGULAR.
+        The loop ends if the test ``astray`` is true. If the final status is not OK and the test ``singular``
+        is true, the status becomes SINGULAR.
         """
         # Array languages have no ``break`` statement. Therefore the loop condition tests the status and the
         # number of sweeps.
@@ -198,7 +197,7 @@ class _FixedPoint(_Loop):
         """Return the statements that compute the changes in a loop, and the sum of the absolute changes."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
-        # The loop also computes the sum of the sizes, because the maximum may ignore a NaN.
+        # The loop also sums the changes, because the maximum may ignore a NaN.
         most, all_changes, moved = real(f"largest_{k}"), real(f"total_{k}"), real("moved")
         body = (
             Assign(moved, size(after[i] - before[i])),
@@ -216,9 +215,9 @@ class _FixedPoint(_Loop):
 
 
 class _Newton(_Loop):
-    """Newton's method with an inverse matrix M^-1, for equations u = g(u) or r(u) = 0.
+    """Newton's method for equations u = g(u) or r(u) = 0.
 
-    A sweep adds M^-1 (g(u) - u) or M^-1 r(u) to the unknowns u.
+    The matrix M approximates 1 - g'(u) or -r'(u). A sweep adds M^-1 (g(u) - u) or M^-1 r(u) to u.
     """
 
     @property
@@ -275,8 +274,8 @@ class _Newton(_Loop):
         # ``SCALE`` is the largest absolute value of an unknown before this correction.
         body += self.corrected(changes)
         body += rule.converged()
-        # The function ``invert`` sets the age to 1 on success, and to 0 if the matrix is singular. With a
-        # singular matrix the changes are meaningless, so even small changes do not mean convergence.
+        # The function ``invert`` sets ``self.age`` to 1, or to 0 if the matrix is singular. With a singular
+        # matrix the changes are meaningless, so even small changes do not mean convergence.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
             # If the changes of the unknowns do not decrease with a new matrix, the loop fails.
@@ -284,8 +283,8 @@ class _Newton(_Loop):
             if not self.newton.inverted:
                 stalled = either(stalled, negated(self.age > 0))
             body.append(Assign(flag("astray"), stalled))
-            # If the changes decrease slowly, a new matrix costs less than many more sweeps. In the first
-            # sweep there is no previous change (``previous`` is 0), so the rate of decrease is not known.
+            # If the changes decrease slowly, the next sweep computes a new matrix. In the first sweep there
+            # is no previous change (``previous`` is 0), so the rate of decrease is not known.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
@@ -296,7 +295,7 @@ class _Newton(_Loop):
     def singular(self) -> Term:
         """Return the test whether the loop has failed because its matrix is singular.
 
-        The test is only for matrices that are inverted by elimination.
+        The result is valid only if the matrix is inverted by elimination.
         """
         return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
@@ -324,7 +323,7 @@ class _Newton(_Loop):
         return [Assign(u, u + c) for u, c in zip(self.unknowns, changes, strict=True)]
 
     def renewed(self) -> list[Statement]:
-        """Return the statements that compute a new matrix and store its inverse for later steps."""
+        """Return the statements that compute a new matrix for Newton's method and store its inverse."""
         sequence = self.entries()
         if self.newton.inverted:
             return [*sequence, Assign(self.age, whole(1)), *self.matrix_counted()]
@@ -384,8 +383,8 @@ class _Newton(_Loop):
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]
-            # The function ``paired`` groups the terms in pairs. A processor can compute several pairs at the
-            # same time.
+            # The products in a row are added in pairs. A processor can compute several pairs at the same
+            # time.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
         # The loop below reads the residuals from an array, so the variables of the residuals are first copied

@@ -68,7 +68,7 @@ LEAST = 1e-30
 The formula divides by the norm, so a norm below LEAST is replaced by LEAST."""
 
 ROWS = 4
-"""The number of products that one iteration adds to each inner sum (:func:`inner_sums`)."""
+"""The number of products that :func:`inner_sums` adds to a sum in one iteration."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -213,7 +213,7 @@ class _Controlled:
         """Return the statement that converts the old state to the coordinates in which the solution is
         expanded.
 
-        The tuple is empty if no conversion is needed.
+        If no conversion is needed, an empty tuple is returned.
         """
         return () if self.expansion.enter is None else (Call(ENTER, (self.state, self.start)),)
 
@@ -306,7 +306,7 @@ class _Controlled:
 
     @property
     def moment(self) -> tuple[Term, ...]:
-        """The arguments of the function ``expand`` that follow the state: the time and the parameters."""
+        """The time and the parameters, as arguments of the emitted function ``expand``."""
         return (*((TIME,) if self.own.time else ()), *self.own.parameters)
 
     def expand(self) -> Function:
@@ -356,7 +356,7 @@ class _Controlled:
         return number(self.plan.format.round(x))
 
     def run(self) -> Function:
-        """Return the function of the run with step control."""
+        """Return the emitted function that integrates with step control."""
         plan = self.plan
         chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
         parameters = (self.state, *chosen, *plan.parameters, self.accepted, self.rejected)
@@ -428,8 +428,8 @@ class _Controlled:
                     Assign(self.now, self.following),
                     Assign(self.steps, self.steps + 1),
                 ),
-                # The highest Taylor coefficients are finite here. If the old state is finite, too, a shorter
-                # step would succeed.
+                # The highest Taylor coefficients are finite here. If the old state is finite, too, the step
+                # was too long.
                 (Assign(STATUS, select(all_finite(self.state), code(TOO_FAR), code(NOT_FINITE))),),
             ),
         )

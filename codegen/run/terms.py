@@ -205,7 +205,7 @@ def record(name: str, of: str, *shape: int, optional: bool = False) -> Term:
 
 
 def signal(name: str) -> Term:
-    """Return a signal called ``name``: a function of time that returns the run-time inputs."""
+    """Return a term called ``name`` for the function of time that returns all run-time inputs."""
     return Term("name", (), Kind.SIGNAL, name)
 
 

@@ -101,7 +101,7 @@ class Rows:
         ]
 
     def due(self, step: Term = DONE) -> Term:
-        """Return the test whether the state after ``step`` steps is written to the trajectory."""
+        """Return the condition under which the state after ``step`` steps is written to the trajectory."""
         # ``recording`` is tested first. If it is true, the stride is positive, and the remainder is defined.
         return both(self.recording, (step % STRIDE).equals(0))
 

@@ -40,7 +40,7 @@ class Trial:
 
 
 class Trials:
-    """Makes the trials of one kernel.
+    """Counts the sweeps and matrices in test runs of one kernel.
 
     If a step with a warm start fails, it is repeated once, without the solutions of earlier steps. If
     ``continuation`` is True and the step fails again, it is repeated by continuation in h
@@ -65,7 +65,7 @@ class Trials:
     def run(self, steps: int, longer: int = 1) -> Trial:
         """Make ``steps`` steps from the initial state and return the results.
 
-        The step size is ``longer`` times T/PARTS, where T is the time span of the problem.
+        Let T be the length of the time span. The step size is ``longer * T / PARTS``.
         """
         first, last = self.span
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops
@@ -75,7 +75,7 @@ class Trials:
         signals = [lambda t: (0.0,) * number] if number else []
         # The exact step size is rounded once, as in the emitted example.
         h = float(longer * (last - first) / PARTS)
-        # No trajectory is stored. A trial needs only the numbers of sweeps and matrices.
+        # No trajectory is stored.
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
         status = self.machine.call("run", *arguments)
         # The matrices of all blocks with Newton's method are counted together. Each of these blocks gets an

@@ -42,7 +42,7 @@ def unit_of(plan: Plan) -> Unit:
         listed = [*matrix_functions(vectors, plan.format), *listed]
         return Unit(scalars, (), matrix_tables(vectors, plan.format), tuple(listed))
     functions = [outlined(function, arranged) for function, arranged in plan.arrangement.outlined]
-    # If the kernel has deferred flows, :mod:`codegen.run.deferred_flows` builds the steps and runs.
+    # For deferred flows, the module :mod:`codegen.run.deferred_flows` builds the functions.
     if plan.kernel.deferred is not None:
         functions += deferred_flows.functions(plan)
     else:
@@ -66,7 +66,7 @@ def _steps(plan: Plan) -> list[Function]:
         listed += counters(plan)
     if plan.start is not None:
         listed += WarmStart(plan).functions()
-    # If the kernel is inlined in a run, ``step`` calls ``run``. Therefore ``step`` comes last.
+    # If ``is_looped(plan)`` is true, ``step`` calls ``run``. Therefore ``step`` comes last.
     if is_looped(plan):
         return [*listed, *turning(plan), *looped_runs(plan), step(plan)]
     if plan.kernel.arrays is not None:

@@ -39,7 +39,7 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
     """Return the function that computes the exponential of a matrix in su(3)."""
     a, result, work = real("a", COORDINATES), real("result", 2 * SIZE), real("work", 2 * SIZE)
     y, scale, norm, squarings = real("y", COORDINATES), real("scale"), real("norm"), count("squarings")
-    # If the norm is larger than ``least``, even the polynomial of the highest degree is inaccurate.
+    # For norms above ``least``, even the polynomial of the highest degree is inaccurate.
     least = largest_norms(precision.bits)[-1]
     body: tuple[Statement, ...] = (
         Array(y),
@@ -64,8 +64,8 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
             # copied.
             (Call(f"{function.name}_square", (result, work)), Assign(result, work)),
         ),
-        # If the norm is still too large after all halvings, all results are set to NaN. The negation of
-        # ``norm <= least`` is also true if the norm is a NaN.
+        # If the norm is still too large after all halvings, all results are set to NaN. The negated test is
+        # also true for a NaN, but ``norm > least`` is not.
         If(
             negated(norm <= least),
             (For(_PLACE, whole(2 * SIZE), (Assign(result[_PLACE], INFINITY - INFINITY),)),),
@@ -85,7 +85,7 @@ def _polynomial(
 ) -> list[Statement]:
     """Return the statements that evaluate a Taylor polynomial of the exponential.
 
-    The matrix has the coordinates ``y``, and its norm is at most ``norm``.
+    The argument is the matrix with the coordinates ``y``. Its norm is at most ``norm``.
     """
     first, second, third, _ = largest_norms(precision.bits)
     groups, group = count("groups"), count("group")
@@ -96,7 +96,7 @@ def _polynomial(
     zero, coordinates = number(0.0), _coordinates(y)
     steps: list[Statement] = []
     for k in (3, 2, 1, 0):
-        # The number i^k/k! is real for even k and imaginary for odd k, so it changes only one of the parts.
+        # The coefficient i^k/k! is real for even k and imaginary for odd k.
         for parity, part in enumerate(parts):
             steps += _horner(part, trace, det, (coefficient[4 * group + k], k) if k % 2 == parity else None)
     square = [real(f"square_{k}") for k in range(SIZE)]

@@ -39,7 +39,7 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
         first += size
         array = _part(arguments)
         if array is None:
-            # No variable of the kernel has a name with a space, so this name is not in use.
+            # The new name contains spaces. Names of kernel variables contain no spaces.
             array = own(f"{statement.name} given {number}", size)
             declared.append(Array(array, tuple(map(value, arguments))))
         given.append(array)

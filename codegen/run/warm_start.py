@@ -50,7 +50,7 @@ FEW = 12
 """The largest number of unknowns for which backward differences are computed in scalar variables."""
 
 SELDOM = 8
-"""If the ring buffer is full, the degree of the polynomial is adapted once in this number of steps."""
+"""If the ring buffer is full, the degree of the polynomial is adapted once in SELDOM steps."""
 
 _I = count("i")
 
@@ -107,7 +107,7 @@ def memory_record(plan: Plan) -> Record:
 def differences(start: Start) -> Table:
     """Return the table of the coefficients of backward differences.
 
-    Row k contains the coefficients of order k, latest solution first.
+    Row k contains the coefficients of order k. The first coefficient belongs to the latest solution.
     """
     rows = tuple(
         tuple(float((-1) ** j * comb(order, j)) for j in range(order + 1)) for order in range(start.depth + 1)
@@ -198,8 +198,7 @@ class WarmStart:
         ]
         for k, partial in enumerate(sums):
             later, earlier = self.values[place][k], self.values[place + 1][k]
-            # The sum of the two products does not depend on the previous iteration. Only the addition to
-            # ``partial`` must wait for the previous iteration.
+            # The processor can compute the two products before the previous iteration ends.
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
@@ -232,7 +231,7 @@ class WarmStart:
         ]
         body += [
             Assign(self.first, number(0.0)),
-            # The rows are filled downwards. Row ``place + j`` then contains the solution of j steps ago.
+            # The index ``place`` decreases by one in each step, modulo ``depth``.
             Assign(place, select(self.place > 0, self.place - 1, self.depth - 1)),
             Assign(self.place, place),
         ]
@@ -245,8 +244,8 @@ class WarmStart:
         body += self.chosen(place)
         body += [
             Note("the guess for which the backward difference of order degree + 1 is zero"),
-            # For a polynomial of degree k, the backward difference of order k + 1 is zero. In that
-            # difference, the value at the next step has the coefficient 1, so no division is needed.
+            # For a polynomial of degree k, the backward difference of order k + 1 is zero. The value at the
+            # next step has the coefficient 1 in that difference.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
@@ -293,9 +292,9 @@ class WarmStart:
         )
         grows = flag("grows")
         adapt = (
-            # The best degree of the extrapolation is the order of the smallest difference. The best degree
-            # changes slowly, so the current degree is compared only with the next lower and the next higher
-            # degree.
+            # Let d_k be the size of the backward difference of order k. The best degree is the k with the
+            # smallest d_k. The best degree changes slowly, so the current degree is compared only with the
+            # next lower and the next higher degree.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
             # A backward difference of order k is computed from k + 1 solutions.

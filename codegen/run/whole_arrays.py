@@ -1,4 +1,4 @@
-"""Find long arrays that an emitted step can pass, test and copy as a whole, instead of entry by entry.
+"""Find long arrays that emitted code can handle as a whole, instead of entry by entry.
 
 For large matrix groups, states and products of matrices are long arrays. Without this module, emitted code
 would list all entries of such an array in each call, test and assignment.
@@ -40,7 +40,7 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
 
 
 def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term) -> list[Statement]:
-    """Return the statements of ``sequence`` without long copies of parts of the array ``state``.
+    """Return ``sequence``, but use parts of the array ``state`` in place of long copies.
 
     An ``Array`` statement is removed if it copies at least SHORTEST consecutive entries of ``state``.
     ``symbols`` are the names of the entries of ``state``.

@@ -177,7 +177,7 @@ def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, 
 
 
 def _row(normal: NormalForms, w: Expr, P: Sequence[Expr]) -> list[Number] | None:
-    """Return the coefficients of P in w, or None if w is not linear in P with constant coefficients."""
+    """Return the constants c_k with w = sum c_k P_k, or None if there are no such constants."""
     row = [Number.rational(0)] * len(P)
     place = {p.id: k for k, p in enumerate(P)}
     for monomial, c in normal.polynomial(w).items():
