@@ -84,7 +84,7 @@ def memory_record(plan: Plan) -> Record:
             (real("guess", past), "initial guess for the next step"),
             (
                 real("values", 2 * depth, past),
-                "ring buffer; each solution is in two rows, and the latest solutions are contiguous",
+                "ring buffer with two copies of each solution",
             ),
         ]
         # Without a warm start, the rates of convergence of the loops are not stored.
@@ -243,7 +243,7 @@ class WarmStart:
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
         body += self.chosen(place)
         body += [
-            Note("the guess for which the backward difference of order degree + 1 is zero"),
+            Note("compute the guess for which a backward difference is zero; its order is degree + 1"),
             # For a polynomial of degree k, the backward difference of order k + 1 is zero. The value at the
             # next step has the coefficient 1 in that difference.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
@@ -309,8 +309,6 @@ class WarmStart:
         # ``place`` is true once in SELDOM steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
-            Note(
-                f"adapt the degree of the extrapolation; if the ring buffer is full, once in {SELDOM} steps"
-            ),
+            Note(f"adapt the degree, or only once in {SELDOM} steps if the ring buffer is full"),
             If(often, adapt),
         ]
