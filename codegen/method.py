@@ -148,9 +148,9 @@ class Method:
     def embedded(self) -> Method | None:
         """Return the embedded method, or None if the method needs no embedded method.
 
-        The result is None if ``adaptive`` is False, or if the family needs no embedded method, for example
-        ``taylor``. An embedded method has the stages of the method, but other weights. :class:`MethodError`
-        is raised if a needed embedded method does not exist.
+        No embedded method is needed if ``adaptive`` is False, or in families such as ``taylor``. An embedded
+        method has the stages of the method, but other weights. :class:`MethodError` is raised if a needed
+        embedded method does not exist.
         """
         if not self.adaptive or self.kind.controls_steps:
             return None
@@ -213,7 +213,7 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families with embedded methods. In these families, no stage depends on the weights."""
+    """Return the families with embedded methods: their stages do not depend on the weights."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
@@ -317,7 +317,6 @@ def _library() -> Iterator[Tableau]:
 
 @cache
 def _of_library(name: str) -> Tableau:
-    # Loading all tableaux takes half a second.
     return Tableau.load(find(name))
 
 
@@ -437,7 +436,7 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]
     if not readable or (family is not None and family not in readable):
         raise _unreadable(text, tableau, families if family is None else (family,))
-    # A claim may name a family with a number, for example ``splitting(3)``.
+    # Numbers in the names of families are removed: ``splitting(3)`` becomes ``splitting``.
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:

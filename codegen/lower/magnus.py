@@ -1,7 +1,8 @@
 """Magnus methods for y' = A(t).y: a step applies one exponential, or a product of several exponentials.
 
 The exponents are linear combinations of the values A_i = h A(t + c_i h) and of brackets of these values. In a
-tableau, [2,1] denotes the bracket [A_2, A_1]. The group acts from the left. The first exponential acts first.
+tableau, [2,1] denotes the bracket [A_2, A_1]. The group acts from the left. The first exponential of the
+tableau is applied first.
 """
 
 from __future__ import annotations

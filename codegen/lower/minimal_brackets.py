@@ -2,8 +2,8 @@
 
 A step of size h from y0 to y1 for the field f is k_i = f(exp(u_i).y0), y1 = exp(u).y0. The exponents u_i and
 u are linear combinations of the values h k_j and of brackets. The function
-:func:`orderconds.series.brackets.fewest_brackets` searches for the smallest number of brackets for which the
-method has the order of its tableau.
+:func:`orderconds.series.brackets.fewest_brackets` searches for the smallest number of brackets. The order of
+the tableau is preserved.
 """
 
 from __future__ import annotations
@@ -45,21 +45,20 @@ def bracket_program(method: Method) -> BracketProgram:
             expected="an explicit tableau with exact coefficients, or a cut-off (the number of brackets)",
             hint=f"write rkmk(2):{name}",
         )
-    # The method on the group must have the order of the Runge-Kutta method on R^n.
+    # On the group, the method must have the same order as the Runge-Kutta method on R^n.
     order = family_order(method.tableau, families.get("rk")).order
     highest = method.kind.minimal_brackets
     if order > highest:
         raise MethodError(
             f"the search for the fewest brackets does not support the order {order} of {name}",
-            expected=f"an order of at most {highest}, or a cut-off (the number of brackets)",
+            expected=f"an order of at most {highest}, or a label with a number of brackets",
             # Let u be the exponent of a stage, and k the field at the stage. Then u = a h k + O(h^2) with a
             # number a. Since [k, k] = 0, ad_u^j k = O(h^{j+1}) for j >= 1. In the exponent of the update, the
             # series dexp^{-1}_u k has the factor h, so its term with ad_u^j k is O(h^{j+2}). Terms with
             # j > order - 2 therefore do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
-    # The bracket program is stored, because the search takes a long time and the certificate also needs the
-    # program.
+    # The search takes a long time, so its result is stored.
     ring = method.ring
     # The key contains the exact coefficients as strings, because elements of a ring may be unhashable.
     key = (ring, tuple(ring.text(x) for row in (*tableau.A, tableau.b) for x in row))

@@ -11,8 +11,9 @@ The tableau for the positions has the coefficients a_ij and b_i, the other table
 pair f(q, p, t) consists of the velocity and the force. The unknowns are the velocities xi_i and the forces
 n_i.
 
-A velocity that does not depend on q is evaluated at q0, and a force that does not depend on p at p0. The
-compiler can then detect explicit stages, for example in the Stoermer-Verlet method.
+If the velocity does not depend on q, the program uses q0 in place of Q_i. If the force does not depend on p,
+it uses p0 in place of P_i. The compiler can then detect explicit stages, for example in the Stoermer-Verlet
+method.
 """
 
 from __future__ import annotations
@@ -99,11 +100,11 @@ class PartitionedLowering(Lowering):
                 # the ring.
                 time = stages.at(sum(tableau.A[i][1:], tableau.A[i][0]))
                 v, f = build.hamilton(f"v{number}", f"f{number}", Q, P, *time)
-                # If the velocity does not depend on positions, it is evaluated at the old position.
+                # If the velocity does not depend on positions, its values at ``q`` and ``Q`` are equal.
                 if not by_position:
                     # With ``q`` in place of ``Q``, the velocity no longer depends on unknown velocities.
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
-                # If the force does not depend on the momentum, it is evaluated at the old momentum.
+                # If the force does not depend on momenta, its values at ``mu`` and ``P`` are equal.
                 if not by_momentum:
                     # P depends on the unknown forces n_j, but ``mu`` is known.
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)

@@ -108,7 +108,7 @@ def names() -> tuple[str, ...]:
     >>> names()[:4]
     ('rk', 'rkmk', 'cg', 'cf')
     """
-    # The built-in families were added to the dictionary first.
+    # A dictionary keeps the order of insertion. The built-in families are inserted first.
     return tuple(_lowerings())
 
 

@@ -17,7 +17,7 @@ class RungeKuttaLowering(FieldLowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene is not on R^n, and None otherwise."""
+        """Return None for a differential equation on R^n, and an objection for all other scenes."""
         group = scene.as_field().group
         # On R^n, every group element acts as a translation: exp(u).y = y + u.
         if group.abelian:

@@ -9,8 +9,7 @@ Here a_ij and b_i are the coefficients of the tableau, and dexp^{-1}_{(r),u} is 
 to the terms with r brackets. The unknowns are the v_i.
 
 If the scene has another coordinate map tau, tau replaces exp, and the exact inverse differential of tau
-replaces the truncated dexp^{-1}. The method with tau has the order of the tableau, and a cut-off has no
-effect.
+replaces the truncated dexp^{-1}. The method with tau does not use r, and has the order of the tableau.
 """
 
 from __future__ import annotations

@@ -11,8 +11,8 @@ The stage momenta M_i and the result of the step are
     M_i = dexp*_{-Y}(mu0 + h sum_j b_j nu_j) - h sum_j (b_j a_ji/b_i) dexp*_{X_j} n_j,
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j nu_j).
 
-The order is at most two. The thesis includes the factor h in f. The method with one stage, a_11 = theta and
-b_1 = 1 is the theta-method:
+The order is at most two. The thesis includes the factor h in f. The theta-method has s = 1, a_11 = theta and
+b_1 = 1:
 
     M = dexp*_{-h xi} mu0 + h (1 - theta) dexp*_{-(1 - theta) h xi} n,
     mu1 = Ad*_{exp(-h xi)} mu0 + h Ad*_{exp(-(1 - theta) h xi)} n.
@@ -79,7 +79,7 @@ def _program(scene: Problem, method: Method) -> Program:
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # ``after`` is X - Y, and X and Y commute, so Ad*_{exp(after)} = Ad*_{exp(-Y)} Ad*_{exp X}.
+        # With X = a x and Y = b x, ``after`` is X - Y, and Ad*_{exp(after)} = Ad*_{exp(-Y)} Ad*_{exp X}.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

@@ -52,7 +52,7 @@ class SplittingLowering(FlowLowering):
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
             return _in_order(parts, tableau, steps, chosen)
-        # A tableau for two parts also defines a composition of Phi and Phi* (see the top of this module).
+        # For more than two parts, a tableau for two parts defines a composition (see the top of this module).
         if len(tableau.parts) == 2 and len(chosen) > 2:
             # The composition has the order of the tableau for every basic method Phi (McLachlan 1995).
             return pairs(parts.arranged, _as_pairs(steps)), self.family
@@ -128,9 +128,8 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
     Each pair (beta_i, alpha_i) contains the durations of Phi* and Phi in units of the step size.
     """
     # Let A be the part whose flow acts first, and B the other part. Phi* applies first A and then B. Phi
-    # applies first B and then A. The composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... is the
-    # splitting A_{x1}, B_{x2}, A_{x3}, ... if x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and
-    # so on.
+    # applies first B and then A. The composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... consists
+    # of the flows A_{beta_1}, B_{beta_1 + alpha_1}, A_{alpha_1 + beta_2}, and so on.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:

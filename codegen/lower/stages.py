@@ -64,7 +64,7 @@ class Stages:
         return (self.builder.advance("t_stage", self.time, self.times_h(c)),)
 
     def f(self, target: str, y: Var, c: Element | None) -> Var:
-        """Append the statement target = f(y, t + c h), where f is the field, and return its variable."""
+        """Append the evaluation of the field at ``y`` and time t + c h, and return the value."""
         time = self.at(c)
         return self.builder.field_at(target, y, *time)
 
@@ -89,7 +89,7 @@ class Stages:
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
         # The update needs the solution of the equations, so its statements follow the Solve block.
         outputs = update()
-        # The time is the last input, so the state comes first in all programs.
+        # The inputs are the state and, if the scene depends on time, the time.
         inputs = self.inputs + (() if self.time is None else (self.time,))
         body: tuple[Statement, ...] = (*before, block, *self.builder.take())
         return verify(Program(self.method.label, inputs, body, tuple(outputs.items())))

@@ -9,7 +9,7 @@ Let gamma_k be the sum of the b_j of group k. Then the method is a composition, 
 length gamma_k h (Lemma 3.5.4 of Bogfjellmo and Marthinsen). The coefficients of group k, divided by gamma_k,
 are the tableau of the substep. If all substeps have the same tableau, one program computes all substeps.
 
-Only implicit methods are split, because the substeps of an explicit method have common subexpressions.
+Explicit methods are not split into substeps. Their substeps have common subexpressions.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     """Return the base method of a composition, and the substeps of one step.
 
     The result is None if the tableau is not a composition of implicit substeps, or if the step also computes
-    an embedded solution. The caller must check the attribute ``repeats_substeps`` of
-    :class:`codegen.lower.Lowering` first.
+    an embedded solution. The attribute ``repeats_substeps`` of the family's :class:`codegen.lower.Lowering`
+    must be True.
 
     >>> from codegen.method import parse
     >>> base, steps = substeps(parse("vcg:suzuki4", ("vcg",)))

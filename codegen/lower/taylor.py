@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 class Taylor(Lowering):
     """Taylor's method for y' = F(y) in R^n. The vector y contains the coordinates of the state.
 
-    Each step evaluates a Taylor polynomial of degree P in the step size, so the order is P. If the manifold
-    is not R^n, the value of the polynomial is projected onto the manifold.
+    Each step evaluates a Taylor polynomial of degree P in the step size, so the order is P. If the states are
+    points of a manifold in R^n, the value is projected onto the manifold.
     """
 
     family = "taylor"
@@ -65,7 +65,7 @@ class Taylor(Lowering):
         return scene.derived["taylor"]
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a step. A step evaluates the Taylor polynomial and projects the value."""
+        """Return the program of a step: the Taylor polynomial and the projection onto the manifold."""
         degree = self.conditions(method).degree_of_step()
         # ``moved`` is the value of the Taylor polynomial, and ``end`` is the projection of ``moved``.
         y, moved, end = (Var(name, Kind.POINT) for name in ("y", "moved", "end"))

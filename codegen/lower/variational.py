@@ -48,7 +48,7 @@ class VariationalLowering(Lowering):
 
 
 def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list[Number]], list[Number]]:
-    """Return the stages of a step from (q, mu), the tableau, its matrix A and its weights b.
+    """Return (stages, tableau, A, b) with the coefficients A and b of the tableau.
 
     :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i may be zero.
     """
@@ -119,7 +119,7 @@ class ExpandedStep(ABC):
 
     @abstractmethod
     def starts(self) -> list[Var]:
-        """Append and return the initial guesses of the unknowns."""
+        """Return the initial guesses of the unknowns."""
 
     def exponentiate(self, v: Sequence[Var]) -> None:
         """Append the exponents X_i = h sum_j a_ij v_j and the group elements exp(X_i) of all stages."""
@@ -147,7 +147,7 @@ class ExpandedStep(ABC):
         return self.stages.at(self.tableau.c[i])
 
     def update(self) -> dict[str, Var]:
-        """Append the new state: q1 = exp(Y) q0 and mu1 = Ad*_{exp(-Y)} mubar."""
+        """Return variables for the new state q1 = exp(Y) q0, mu1 = Ad*_{exp(-Y)} ``mubar``."""
         g = self.build.exp("g", self.Y)
         q = self.build.mul("q1", g, self.q)
         # The operator Ad*_{exp(-Y)} transports the momentum from q0 to q1 = exp(Y) q0.

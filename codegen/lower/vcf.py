@@ -108,7 +108,7 @@ def _program(scene: Problem, method: Method) -> Program:
         terms = []
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:
-                # The coefficient row[i] is beta_J^i.
+                # In the module docstring, row[i] is denoted by beta_J^i.
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
                 # All terms of mubar are listed, because some may cancel terms of the next loop.
@@ -164,7 +164,7 @@ def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
 def _weights(method: Method, update: Rows, s: int) -> list[Number]:
     """Return the weights b_i, the sums of the coefficients of xi_i in the update.
 
-    ZeroWeight is raised if a weight may be zero.
+    ZeroWeight is raised unless all weights are provably nonzero.
     """
     b = []
     for i in range(s):

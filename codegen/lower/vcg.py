@@ -50,7 +50,7 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, list[Var]] = {}
 
     def partial_products(row: tuple[Element, ...], name: str) -> list[Var]:
-        """Append the factors exp(h row_j xi_j). Return the products of the first 0, 1, ..., s factors."""
+        """Return the products of the first 0, 1, ..., s factors exp(h row_j xi_j)."""
         products = [build.identity(f"{name}0")]
         for j in range(s):
             x = stages.combination(f"x{name}{j + 1}", Kind.ALG, row[j : j + 1], xi[j : j + 1])
@@ -58,7 +58,7 @@ def _program(scene: Problem, method: Method) -> Program:
         return products
 
     def momentum(i: int, e: list[Var], E: list[list[Var]], nu: list[Var]) -> Var:
-        """Append the momentum M_i of stage i (see the docstring of this module)."""
+        """Return the momentum M_i of stage i (see the docstring of this module)."""
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:

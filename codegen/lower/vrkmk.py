@@ -64,7 +64,7 @@ class _Step(ExpandedStep):
     def _evaluated(self) -> list[Var]:
         """Append the velocities and forces of all stages, and return the new values of the v_i.
 
-        The stages are computed from the last to the first, because m_i may depend on later stages.
+        The stages are computed from the last to the first.
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
@@ -81,17 +81,17 @@ class _Step(ExpandedStep):
             M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
             Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
-            # With different cut-offs in v_i and M_i, the step would not be symplectic.
+            # The step is symplectic only if v_i and M_i have the same cut-off ``r``.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
             # The vector ``slope`` is P*_(r)(X_i, xi_i) m_i (see the module docstring). It is zero for r = 0.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
-            # A small change d of X_i moves Q_i = exp(X_i) q0 by dexp_{X_i} d. Hence the force n_i occurs in
-            # lambda_i with the dual operator dexp*_{X_i}.
+            # A small change d of X_i moves Q_i = exp(X_i) q0 by dexp_{X_i} d. The work of the force n_i is
+            # then <n_i, dexp_{X_i} d> = <dexp*_{X_i} n_i, d>.
             direct = build.dual_dexp(f"d{i + 1}", self.X[i], n)
             terms = [(self.stages.times_h(-b[i]), direct), (self.stages.times_h(ONE.value), slope)]
             lagrange[i] = build.lin(f"lambda{i + 1}", Kind.DUAL, terms)
-        # The result begins with the first stage.
+        # The list is in the order of the stages, unlike the loop.
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:

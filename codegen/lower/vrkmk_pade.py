@@ -45,7 +45,7 @@ class VariationalMuntheKaasPade(VariationalLowering):
 
 
 class _Step(ExpandedStep):
-    """The equations of one step of a VRKMK method with the inverse of a truncated dexp."""
+    """The equations of one step. The method uses the inverse of the truncated series of dexp."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
         super().__init__(problem, method)
@@ -81,7 +81,7 @@ class _Step(ExpandedStep):
         return velocity
 
     def _powers(self, x: Var, first: Var) -> list[Var]:
-        """Append and return ad_x^k v for k = 0, ..., r, or (ad*_x)^k v if v = ``first`` is a covector."""
+        """Return ad_x^k v for k = 0, ..., ``self.r`` and v = ``first``. For a covector v, ad* replaces ad."""
         powers = [first]
         for k in range(self.r):
             powers.append(self.build.bracket(f"{first.name}_{k + 1}", x, powers[-1]))

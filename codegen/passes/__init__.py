@@ -2,7 +2,7 @@
 
 A pass is exact if, in exact arithmetic, the new program has the results of the old program.
 
-After every pass, :func:`optimise` compares the results with the results of the program before the first pass.
+After every pass, :func:`optimise` compares the results of the new program and of the original program.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ class Optimiser:
         # An unchanged program is not compared with the reference.
         if new == old:
             return
-        # The reference is the program before the first pass, so small deviations cannot add up.
+        # ``new`` is compared with the program before the first pass, not with ``old``.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
             raise IllFormed(f"the pass {each.name} changed the results of {old.name}: {account}")
@@ -107,7 +107,7 @@ class Optimiser:
 
 
 def _part(program: Program) -> Program:
-    """Return the program of one substep of ``program``."""
+    """Return ``program`` without the list ``substeps``."""
     return replace(program, substeps=())
 
 
@@ -123,12 +123,12 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         # After the previous pass, equal right-hand sides of equations are the same variable.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
-        # After two stages have been merged, terms of a sum may be equal, and may cancel.
+        # After the previous pass, a variable may occur twice in a sum. Its coefficients are then added.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
-        # This pass removes the stage times of the flows that the previous pass removed.
+        # The previous pass removes flows. The stage times of these flows are now unused.
         Pass("unused values", UNUSED, dead.run),
-        # Terms that cancel would look like dependencies, so the pass for zeros precedes this pass.
+        # A term with coefficient zero would count as a dependency. The pass for zeros has removed such terms.
         Pass("blocks", "stages are solved one after the other", blocks.run),
         # The next pass counts the operations that read a linear map. Unused operations are removed before the
         # count.
@@ -155,7 +155,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
     return [
         Pass("body frame", "the equations are written in the body frame", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
-        # The Legendre transform needs one variable for each momentum.
+        # Equal momenta become the same variable. The Legendre transform requires this.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
         # The Legendre transform introduces inverses of maps.
@@ -181,7 +181,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("unused values", UNUSED, dead.run),
-        # Factoring moves coefficients c into the arguments of maps L. This pass moves c out again.
+        # For linear maps L and numbers c, this pass replaces L(c x) by c L(x).
         Pass(
             "numbers outside maps",
             "numeric factors become coefficients of sums",

@@ -16,7 +16,7 @@ from codegen.ir.values import Var
 
 
 def run(program: Program) -> Program:
-    """Return the program with every block split into its strongly connected components."""
+    """Return the program with every block of equations split into smaller blocks."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
     for statement in program.body:
@@ -66,7 +66,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
         ]
         kept = set(own)
         renamed = [_rename(a, names, image, kept) for a in assigns]
-        # A component without unknowns has no cycle, so it needs no block.
+        # A component without unknowns contains no implicit equation.
         if not own:
             result += renamed
             continue
@@ -80,7 +80,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
-    """Return a map from each unknown to a variable that has the same value at the solution."""
+    """Return ``image`` without chains: if ``image`` maps u to v and v to w, the result maps u to w."""
     result = {}
     for unknown in image:
         var, seen = image[unknown], [unknown]

@@ -5,16 +5,16 @@ The pass is exact. Let q be the position at the start of the step. Every value i
 - a group element E becomes E~ = q^{-1} E q,
 - an element x of the algebra becomes Ad_{q^-1} x,
 - a momentum mu becomes Ad*_q mu,
-- a position Q = E q is written as q E~.
+- a position Q = E q is computed as q E~ (the same position).
 
 The operations in :data:`EQUIVARIANT` commute with this transformation, so the pass replaces only their
 arguments.
 
 The pass replaces one operation: the evaluation of the derivatives of the Hamiltonian. The evaluation gives
 the velocity and the force of a stage at a position Q = q E~. Let M be the transformed momentum of the stage.
-In the body frame at the position Q, the momentum is P = Ad*_E~ M. The module :mod:`codegen.scene.body_frame`
-defines the velocity W(Q, P) and the force N(Q, P). The transformed velocity is Ad_E~ W(Q, P), and the
-transformed force is Ad*_{E~^-1} N(Q, P).
+The body momentum at the position Q is P = Ad*_E~ M. The module :mod:`codegen.scene.body_frame` defines the
+velocity W(Q, P) and the force N(Q, P). The transformed velocity is Ad_E~ W(Q, P), and the transformed force
+is Ad*_{E~^-1} N(Q, P).
 
 The new program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`).
 """
@@ -54,7 +54,7 @@ EQUIVARIANT = (
     Multiply,
     Identity,
 )
-"""Operations that commute with the adjoint action of q if no argument is a position."""
+"""For these operations, the pass replaces only the arguments (see the docstring of this module)."""
 
 
 class NotFramed(Exception):
@@ -135,7 +135,7 @@ class _Framing:
             self._field(assign)
         elif isinstance(operation, Multiply) and args[1] in self.relative:
             left, right = args[0], self.relative[args[1]]
-            # The pass cannot rewrite the product of two positions.
+            # The pass cannot rewrite a product if both factors are positions.
             if left in self.relative:
                 raise NotFramed
             # The product is L R q with L = ``left`` and R = ``right``. It is E q with E = L R.

@@ -1,7 +1,7 @@
 """Remove dead code: values on which no output of the program depends.
 
-The pass is exact. A value is live if an output depends on it. An unknown that is not live is removed together
-with its equation.
+The outputs of the program do not change. A value is live if an output depends on it. An unknown that is not
+live is removed together with its equation.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from codegen.ir.values import Var
 
 
 def run(program: Program) -> Program:
-    """Return the program without dead assignments, unknowns and blocks."""
+    """Return the program without dead code."""
     live: set[Var] = {var for _, var in program.outputs}
     kept: list[Statement] = []
     # The loop runs backwards: when it reaches an assignment, it knows which later statements read the result.
@@ -31,9 +31,9 @@ def run(program: Program) -> Program:
 
 
 def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
-    """Return the statements that replace a block, and add the values that they read to ``live``."""
+    """Return ``block`` without dead code. The variables that the result reads are added to ``live``."""
     image = dict(zip(block.unknowns, block.images, strict=True))
-    # Zip is not strict, because a block without residuals has an empty tuple ``residuals``.
+    # The tuple ``residuals`` is either empty or as long as ``unknowns``.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
@@ -59,6 +59,6 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     if not pairs:
         return body
     unknowns, starts, images = zip(*pairs, strict=True)
-    # The start values of the unknowns are live.
+    # The block also reads the start values of its unknowns.
     live.update(starts)
     return (replace(block, unknowns=unknowns, starts=starts, images=images, body=body, residuals=kept),)

@@ -12,7 +12,7 @@ from codegen.ir.values import Var
 
 
 def run(program: Program) -> Program:
-    """Return the program in which unknowns of a block are merged if they have the same image."""
+    """Merge two unknowns of a block if their equations have the same right-hand side."""
     same: dict[Var, Var] = {}
 
     def now(variables: tuple[Var, ...]) -> tuple[Var, ...]:
@@ -26,7 +26,7 @@ def run(program: Program) -> Program:
             # statement may read a removed unknown.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
-            # Value numbering merges assignments that become equal by the replacement.
+            # Some assignments may now be equal. A later pass, value numbering, merges them.
             inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
             statement = replace(
                 statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner
@@ -43,7 +43,7 @@ def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]
 
     The kept unknowns are triples (unknown, start value, right-hand side of the equation).
     """
-    # The dictionary ``first`` maps each image to the first unknown with this image.
+    # ``first[x]`` is the first unknown v with the equation v = x.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}

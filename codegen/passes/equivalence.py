@@ -49,7 +49,7 @@ MORE_SWEEPS, FEW_DIGITS = 400, 60
 """Largest number of sweeps and number of decimal digits for the repetition of a failed comparison."""
 
 NOT_A_NUMBER = "differs by nan"
-"""End of the description of a difference that is not a number (NaN)."""
+"""The description of a difference ends with these words if the difference is NaN."""
 
 APART = 16
 """Smallest ratio of two consecutive step sizes of the reference."""
@@ -88,7 +88,7 @@ class _Step:
 
 
 class _Bounded(PreciseDomain):
-    """Arithmetic with many digits that raises an error if an iteration diverges."""
+    """Arithmetic with many digits. An error is raised if an iteration diverges."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function.
@@ -154,7 +154,7 @@ class Reference:
         # If the field is not finite at this state, no step can begin here.
         if not math.isfinite(speed):
             return
-        # The product of ``speed`` and STEPS[0] / 2**excess is at most REACH.
+        # The exponent satisfies speed * STEPS[0] <= REACH * 2**excess.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
         last = math.inf
         for moderate in STEPS:
@@ -169,7 +169,7 @@ class Reference:
                 yield result
 
     def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
-        """Return a domain with ``digits`` decimal digits and step size h, and the state at the start.
+        """Return the arithmetic (``digits`` decimal digits, step size h) and the state at the start.
 
         If ``moved`` is True, this state is near the initial state.
         """
@@ -253,7 +253,7 @@ class Reference:
         return failure
 
     def _is_solved(self, step: _Step) -> bool:
-        """Return True if the reference program can compute the step with many digits."""
+        """Return True if the reference program can compute ``step`` in arithmetic with many digits."""
         if step.tiny:
             return True
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
@@ -264,8 +264,7 @@ class Reference:
         return True
 
     def _by_newton(self, program: Program, step: _Step) -> str | None:
-        """Repeat the step with Newton's method and many digits, and describe the difference between the
-        programs.
+        """Describe the difference between ``program`` and the reference, computed with Newton's method.
 
         The result is '' if there is no difference, and None if Newton's method fails.
         """

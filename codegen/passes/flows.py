@@ -1,7 +1,7 @@
 """Join exact flows of the same part of the Hamiltonian.
 
-The pass is exact. Two flows of one part are joined if all flows between the two commute with this part. The
-pass tests this with 40 digits at sample points of the scene.
+Two flows of one part are joined if all flows between the two commute with this part. The pass tests this with
+40 digits at sample points of the scene.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the index in ``kept`` of the flow that can be joined with ``letter``, or None if no flow can."""
+    """Return an index k such that the flows ``kept[k]`` and ``letter`` can be joined, or None."""
     for at in reversed(range(len(kept))):
         # Two flows of one part have different vector fields if their stage times differ.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
@@ -104,7 +104,7 @@ def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
 
 
 def commuting(scene: Problem) -> Callable[[str, str], bool]:
-    """Return a function of the names of two parts of the Hamiltonian.
+    """Return a function with two arguments: the names of two parts of the Hamiltonian.
 
     The function returns True if the flows of the two parts commute.
     """

@@ -32,7 +32,7 @@ AT_IDENTITY = (Act, Adjoint)
 
 
 def run(program: Program) -> Program:
-    """Return the program without zeros, identities and cancelling terms."""
+    """Simplify operations with zeros and identity elements, and remove terms that cancel."""
     return rewrite(program, _rule)
 
 
@@ -61,7 +61,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Append a linear combination in simplified form, and return its variable."""
+    """Simplify the linear combination ``assign``, and return the variable of the result."""
     # The terms a h^p x and b h^q x are added only if p = q.
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:

@@ -72,7 +72,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if source is not None and inner is not None:
         scale = ratio(rewriter.definitions, x, inner[0])
         if scale is not None:
-            # Because x = scale y, f(ad_x) = f(scale ad_y), and f(ad_x) g(ad_y) is a function of ad_y.
+            # With x = scale y, f(ad_x) g(ad_y) = f(scale ad_y) g(ad_y), a function of ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
     # If v is a sum of terms g(ad_x) w, then f(ad_x) v is the sum of the terms (f g)(ad_x) w.
@@ -136,7 +136,7 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
-        # Ad_g is a function of ad_x only if the program computes g = exp(x).
+        # Without an assignment g = exp(x), the exponent x is unknown.
         if source is None or not isinstance(source.operation, Exp):
             return None
         # Ad_{exp x} = exp(ad_x), Ad*_{exp x} = exp(ad*_x), and the inverse of exp(ad_x) is exp(-ad_x).

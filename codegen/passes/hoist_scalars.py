@@ -107,7 +107,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    # The old sums read the new sums ``totals``, so the new sums must come first.
+    # The old sums read the new sums ``totals``. The function ``ordered`` puts the new sums first.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
     # The new sums create no cyclic dependencies, so ``ordered`` does not return None.
     assert result is not None

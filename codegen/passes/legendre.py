@@ -25,7 +25,7 @@ from codegen.passes.tearing import ordered
 from codegen.scene.problem import Problem
 
 INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
-"""Invertible linear maps of the last argument. Functions of ad_x are invertible if x is small."""
+"""Invertible linear maps, applied to the last argument. Functions of ad_x are invertible if x is small."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ def path(block: Solve, unknown: Var) -> Path | None:
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The second argument of the velocity is the momentum P.
+    # ``velocity.args[1]`` is the momentum P.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 

@@ -1,4 +1,4 @@
-"""Remove pairs of an adjoint operation and its inverse, and exponentials without effect.
+"""Remove adjoint operations that cancel in pairs or have no effect.
 
 The pass is exact. An exponential has no effect on multiples of its exponent: Ad_{exp x} (c x) = c x for each
 number c.

@@ -59,7 +59,7 @@ class PassReport:
 def summaries(reports: Iterable[PassReport]) -> tuple[str, ...]:
     """Return a text for each reason why passes removed operations, in the order of the passes.
 
-    In the text ``2 brackets: the group is abelian``, 2 is the sum over all passes with this reason.
+    An example is ``2 brackets: the group is abelian``. Passes with equal reasons are counted together.
     """
     total: dict[str, Counter[str]] = {}
     for report in reports:

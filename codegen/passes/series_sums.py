@@ -35,7 +35,7 @@ class Term:
 
 @dataclass
 class SeriesSums:
-    """Finds sums of functions of the same ad_x in a program, and computes the values of these sums."""
+    """Evaluates sums such as f(ad_x) v + g(ad_x) w in nested form, with fewer Lie brackets."""
 
     program: Program
     scene: Problem
@@ -46,7 +46,7 @@ class SeriesSums:
         self.uses = uses(self.program)
 
     def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Value]) -> tuple[Value, ...] | None:
-        """Return the value of a sum in nested form, or None if nesting saves nothing.
+        """Evaluate ``assign`` as a nested sum, or return None if nesting saves nothing.
 
         The method must be called for every assignment of the program, in the order of execution.
         """
@@ -59,7 +59,7 @@ class SeriesSums:
         sums = self._groups(assign)
         if not sums:
             return None
-        # Each group of terms becomes one nested sum.
+        # Each list of terms in ``sums`` is evaluated as one nested sum.
         inner = {term.target for terms in sums for term in terms}
         total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, terms, env) for terms in sums]
@@ -71,7 +71,7 @@ class SeriesSums:
         return result
 
     def _groups(self, assign: Assign) -> list[list[Term]]:
-        """Return groups of at least two terms c W(ad_x) v in which all x are multiples of one element."""
+        """Return lists of two or more terms c f(ad_x) v. In a list, all x are multiples of one element."""
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
@@ -108,7 +108,7 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Return ``terms`` with all inner sums expanded, or unchanged if the expansion is longer or empty."""
+        """Expand inner sums in ``terms``. If the result is longer or empty, return ``terms``."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
             # An inner sum v is replaced by its terms. This shortens chains of dependent additions.
@@ -125,7 +125,7 @@ class SeriesSums:
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return the value of a coefficient c. If c is rational and negative, return minus the value of -c."""
+    """Return the value of a coefficient c, computed as -(-c) if c is rational and negative."""
     # The terms c x and (-c) x use the same product |c| x.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
