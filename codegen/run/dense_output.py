@@ -38,7 +38,10 @@ class DenseOutput:
         self.inner = plan.state("inner")
 
     def functions(self) -> tuple[Function, ...]:
-        """Return the functions of the extension. Each function comes after the functions that it calls."""
+        """Return the functions of the continuous extension.
+
+        Each function comes after the functions that it calls.
+        """
         about = (
             "Apply exp(x) to a state, where x is an element of the Lie algebra. The first array contains the "
             "state and then the coordinates of x."
@@ -70,7 +73,7 @@ class DenseOutput:
         # The polynomials in theta have no constant term. For each polynomial, Horner's rule computes the
         # factor ``total``. The polynomial is theta times ``total``.
         horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
-        # The array ``pair`` contains the state and the coordinates at theta.
+        # The array ``pair`` contains the old state and the coordinates of x(theta).
         body = (
             Array(pair),
             Assign(pair.part(0, plan.size), state),

@@ -112,7 +112,7 @@ class Machine:
             setattr(record, term.text, self.zero(term.shape, term.kind))
 
     def zero(self, shape: Sequence[int], kind: Kind, record: str = "") -> Any:
-        """Return the number zero, a zero ``record``, or (if ``shape`` is not empty) an array of zeros."""
+        """Return zero for the kind ``kind``, or an array of zeros if ``shape`` is not empty."""
         if shape:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
@@ -221,7 +221,7 @@ class _Compiler:
         test, body = self.term(loop.test), self.body(loop.body)
 
         def run(env: Environment) -> bool:
-            # With ``at_least_once``, the body assigns variables of the test, so the body is executed first.
+            # With ``at_least_once``, the body is executed before the first test.
             again = loop.at_least_once or test(env)
             while again:
                 if body(env):
@@ -312,7 +312,7 @@ class _Compiler:
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
             results = library(*passed) if library is not None else [machine.call(function, *passed)]
-            # If the function has no result, ``stores`` is empty, and ``results`` is ignored.
+            # If the call has no results, ``stores`` is empty, and nothing is stored.
             for store, x in zip(stores, results, strict=False):
                 store(env, x)
             return False
@@ -345,7 +345,7 @@ class _Compiler:
         return lambda env: env[identifier]
 
     def constant(self, term: Term) -> Value:
-        """Return the closure that evaluates a constant term. Flags and counts become Python integers."""
+        """Return the closure that evaluates a constant term. The value of a flag or count is an integer."""
         value: Any = None
         if term.op == "status":
             value = STATUSES.index(term.text)
@@ -368,7 +368,7 @@ class _Compiler:
         return lambda env: a(env) or b(env)
 
     def access(self, term: Term, args: Sequence[Value]) -> Value:
-        """Return the closure that evaluates a term, for example an entry or a field."""
+        """Return the closure that evaluates ``term``, for example an array entry or a record field."""
         first = args[0]
         match term.op:
             case "item":

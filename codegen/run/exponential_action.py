@@ -17,8 +17,8 @@ _ROW, _COLUMN, _PLACE, _PART = count("i"), count("j"), count("place"), count("pa
 def exponential_action(function: ExponentialAction, precision: Precision) -> Function:
     """Return the emitted function that computes exp(a) y for a matrix a and a vector y.
 
-    The matrix is halved s times, until its norm is small. The vector is then multiplied 2^s times by the
-    Taylor polynomial of exp(a/2^s). If s would exceed HALVINGS, all entries of the result are NaN.
+    The matrix is halved s times, until its norm is small. The Taylor polynomial of exp(a/2^s) is
+    then applied 2^s times to the vector. If s would exceed HALVINGS, all entries of the result are NaN.
     """
     n, entries = function.n, len(function.places)
     a, y, result = real("a", entries), real("y", n), real("result", n)
@@ -32,8 +32,8 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
     # Let b be the scaled matrix, m the degree, and v the vector ``result``. The Taylor polynomial of exp(b) v
-    # is v + b p/m!, where p is the sum of (m!/j!) b^(j - 1) v over j = 1, ..., m. The integers m!/j! are
-    # exact, but rounding errors of 1/j! would accumulate over many steps.
+    # is v + b p/m!, where p is the sum of (m!/j!) b^(j - 1) v over j = 1, ..., m. Unlike 1/j!, the
+    # integers m!/j! have no rounding errors.
     horner = (
         Assign(weight, weight * factor),
         Assign(factor, factor - 1.0),
@@ -84,7 +84,7 @@ def _entries(function: ExponentialAction) -> str:
 
 
 def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
-    """Return the statements that compute ``norm``, the largest sum of absolute values in a row of ``a``."""
+    """Return the statements that compute ``norm``, the infinity norm (largest absolute row sum) of ``a``."""
     row = real("row_sum")
     larger = Assign(norm, select(row > norm, row, norm))
     # For a large matrix, loops compute the sums. For a small matrix, each row has its own sum, and entries

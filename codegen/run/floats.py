@@ -79,8 +79,8 @@ class EmittedFloats(FloatDomain):
 
     def _curvature(self, k: int, z: float) -> float:
         if z > 1.0:
-            # For small z, the formula with three Stumpff functions loses digits, so a Taylor polynomial is
-            # evaluated below.
+            # For z <= 1, the formula with three Stumpff functions loses digits. Then a Taylor polynomial is
+            # used.
             a, b, c = self.together([k - 2, k - 1, k], z)
             return 0.25 * ((a - float(2 * k + 1) * b) + float(k * (k + 2)) * c) / (z * z)
         *rest, total = curvatures(k)
@@ -129,7 +129,7 @@ def _terms(k: int, name: str) -> tuple[float, ...]:
 
 
 def _short(k: int, z: float, name: str) -> float:
-    """Return the Stumpff function c_k(z) for small z, from the polynomial ``name``: "tiny" or "small"."""
+    """Return the Stumpff function c_k(z) for small z. ``name`` selects the polynomial: "tiny" or "small"."""
     terms, w = _terms(k, name), z * z
     total, factor = 0.0, 1.0
     # The additions have the order of the emitted code (template ``stumpff_small``), so the roundings agree.

@@ -59,7 +59,7 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
     # them.
     own.add_all(scalars)
     entries: dict[str, str] = {}
-    # Statements are visited in the order of the code, so equal functions get equal identifiers.
+    # The identifiers are chosen in the order of the statements.
     for statement in statements(function.body):
         if isinstance(statement, Array) and statement.name.own:
             name = statement.name.text

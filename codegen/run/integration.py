@@ -121,8 +121,7 @@ class _Constant:
     def own_step(self) -> bool:
         """True if each step calls the function ADVANCE. False if each step calls ``run``."""
         plan = self.plan
-        # An inlined kernel has no function ADVANCE. With deferred flows or conversions of the momentum,
-        # ADVANCE makes only a part of a step.
+        # ``run`` is called if flows are deferred, the momentum is converted, or the kernel is inlined.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:

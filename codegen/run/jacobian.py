@@ -50,7 +50,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     requested."""
     if plan.kernel.vary is None:
         return ()
-    # The linearised step has other inputs and outputs than the step, so it needs a separate plan.
+    # The linearised step has its own kernel ``vary``, and each kernel needs a plan.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
 
@@ -101,7 +101,7 @@ class _Jacobian:
         matrix = real("jacobian", dim * dim)
         # The run-time inputs are constant during the step. The array ``inputs`` contains their values.
         given = (self.given,) if plan.held else ()
-        # ``vector`` contains one column of the Jacobian matrix, which is stored row by row.
+        # ``vector`` contains one column of the Jacobian matrix. The matrix is stored row by row.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),

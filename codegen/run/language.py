@@ -33,7 +33,7 @@ class Assign:
 class Array:
     """The declaration of an array or record with the entries ``values``.
 
-    If ``zero`` is True, all entries are 0.
+    If ``values`` is empty and ``zero`` is True, all entries are 0.
     """
 
     name: Term
@@ -228,7 +228,7 @@ def direct(statement: Statement) -> tuple[Term, ...]:
         case Array(name, values):
             return (name, *values)
         case For(index, count, when=when):
-            # A loop may have no test ``when``.
+            # The test ``when`` is optional.
             return (index, count) if when is None else (index, count, when)
         case While(test) | If(test):
             return (test,)
@@ -286,12 +286,12 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 
 
 def reads(statement: Statement) -> Iterator[Term]:
-    """Yield the names that a statement reads, without the names in the bodies of a loop or branch.
+    """Yield the names that a statement reads. Names in the body of a loop or branch are omitted.
 
     An assignment to one entry of an array also counts as reading the array.
     """
     given = assigned(statement)
-    # An assignment to one entry keeps the other entries, so the array counts as read.
+    # An assignment to a whole variable does not read the variable.
     whole = {id(t) for t in given if t.op == "name"}
     for term in direct(statement):
         if id(term) not in whole:

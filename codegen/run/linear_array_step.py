@@ -89,8 +89,8 @@ def linear_array_tables(step: LinearArrayStep, precision: Precision) -> tuple[Ta
 class _Step:
     """Builds the emitted functions of one step.
 
-    A linear combination of the matrices h A(t_i), where t_i are times in the step, is called a letter. An
-    element is a letter, a sum of multiples of commutators, or a letter plus such a sum.
+    A letter is a linear combination of matrices h A(t_i). The times t_i are in the step. An element is a
+    letter, a sum of multiples of commutators, or a letter plus such a sum.
     """
 
     plan: Plan

@@ -67,7 +67,7 @@ def used(functions: Iterable[Function]) -> list[VectorFunction]:
 
 
 def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) -> list[Function]:
-    """Return the emitted functions for ``functions``, for example for a matrix exponential.
+    """Return emitted functions that compute ``functions``, for example a matrix exponential.
 
     Each emitted function comes after the functions that it calls.
     """
@@ -111,7 +111,7 @@ def _is_lost(array: Term) -> For:
 
 
 class _Exponential:
-    """Builds the emitted functions for the exponential of a jet, a matrix with its derivatives."""
+    """Builds the emitted functions for the exponential of a jet (a matrix and its derivatives)."""
 
     def __init__(self, function: MatrixExponential, precision: Precision) -> None:
         self.name, self.n, self.level = function.name, function.n, function.level
@@ -121,8 +121,7 @@ class _Exponential:
         self.coefficient = _coefficient()
 
     def functions(self) -> list[Function]:
-        """Return the emitted functions for the norm, the product of two jets, and the exponential of a
-        jet."""
+        """Return three emitted functions: norm of a matrix, product of two jets, exponential of a jet."""
         return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
@@ -178,7 +177,7 @@ class _Exponential:
         # The loop below adds the terms in the order of this sum, so the rounding errors are the same.
         if self.n <= UNROLLED:
             return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
-        # The sums for different matrices of the jet need different variables.
+        # Each matrix of the jet has its own variable for the sum.
         value = real(f"total_{part}" if self.level else "total")
         added = tuple(Assign(value, value + x) for x in terms(_TERM))
         loop = For(_TERM, whole(self.n), added)
@@ -197,8 +196,7 @@ class _Exponential:
             Assign(scale, number(1.0)),
             Assign(squarings, whole(0)),
             While(
-                # After more squarings than ``bits``, the number of bits of the significand, no digit would be
-                # correct.
+                # Each squaring can double the relative error, so the number of squarings is limited.
                 both(norm * scale > least, squarings < bits),
                 (Assign(scale, number(0.5) * scale), Assign(squarings, squarings + 1)),
             ),
@@ -261,7 +259,7 @@ class _Exponential:
 
         inner = (
             If(
-                # The loop begins with the group of the highest degree.
+                # The loop begins with the terms of the highest degree.
                 group + 1 < groups,
                 (self.product(result, b4, work),),
                 (For(_PLACE, whole(self.size), (start,)),),
@@ -353,7 +351,7 @@ def _inverse(function: MatrixInverse) -> Function:
     order, pivot, kept = count("order", n), count("pivot"), real("kept")
     factor, multiple = real("factor"), real("multiple")
     k, i, j = _TERM, _ROW, _COLUMN
-    # The index of entry j in the pivot row k is ``row``, and the index of the pivot is ``at``.
+    # ``row`` is the array index of entry (k, j). ``at`` is the array index of the pivot (k, k).
     row, at = n * k + j, n * k + k
     # The pivot has the largest absolute value in column k on and below the diagonal, so rounding errors stay
     # small.

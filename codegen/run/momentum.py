@@ -1,8 +1,8 @@
 """Conversion of the momentum between the space frame and the body frame.
 
 The caller's state contains the space momentum, but the steps of a run use the body momentum. Rounding makes
-the group element q slightly non-orthogonal, so a conversion has an error. To reduce this error, the run adds
-only the increase of the space momentum to the caller's momentum.
+the group element q slightly non-orthogonal, so a conversion has an error. The errors nearly cancel in
+the increase of the space momentum during the run. This increase is added to the caller's momentum.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from codegen.run.terms import NOT_FINITE, OK, Kind, Term, all_finite, code, coun
 ENTER, LEAVE = "enter_body", "leave_body"
 
 MOVING = "moving"
-"""The name of the array for the state with the body momentum during a run."""
+"""The name of the array for the current state of a run. The momentum in this array is the body momentum."""
 
 
 def momentum_before(plan: Plan) -> Term:
@@ -29,7 +29,7 @@ def momentum_before(plan: Plan) -> Term:
 def turning(plan: Plan) -> tuple[Function, ...]:
     """Return the emitted functions for a run whose steps use the body momentum.
 
-    If ``plan`` needs no conversion, the tuple is empty.
+    The tuple is empty if the steps of ``plan`` do not use the body momentum.
     """
     carried = plan.kernel.carried
     if carried is None:

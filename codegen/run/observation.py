@@ -5,8 +5,9 @@ extension was requested, the states at output times are computed by the extensio
 (:mod:`codegen.run.dense_output`).
 
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of the
-sign of an event function between two consecutive times. If a function changes its sign twice between them, no
-event is found. If an event function is exactly zero at the beginning of a run, this zero is no event.
+sign of an event function between two consecutive times. Two changes of sign between
+consecutive times are not found. If an event function is exactly zero at the beginning of a run, this zero is
+no event.
 
 The Illinois variant of the secant method, together with bisection, encloses an event in a short interval. The
 event state is the state at the end of this interval, where the sign has changed.
@@ -107,7 +108,7 @@ class Observation:
 
     @property
     def sound(self) -> Term:
-        """The condition that the observation of a step has not failed."""
+        """The condition for success: the status is OK or EVENT."""
         good = STATUS.equals(code(OK))
         return either(good, STATUS.equals(code(EVENT))) if self.events else good
 
@@ -138,7 +139,7 @@ class Observation:
         place = self.written[0]
         first = (Assign(self.rows[place], state), Assign(place, place + 1))
         same = negated(either(self.times[place] < now, self.times[place] > now))
-        # A failure before this test keeps its status, even if the output times are wrong.
+        # An earlier error has priority over wrong output times.
         checked = both(STATUS.equals(code(OK)), negated(ordered))
         # Several output times may equal the initial time, so this is a loop.
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
@@ -188,7 +189,7 @@ class Observation:
         return Function(INSIDE, about, parameters, body, Kind.STATUS)
 
     def state_at(self, state: Term, elapsed: Term) -> tuple[Statement, ...]:
-        """Return the call of ``inside`` for the state at the time ``elapsed`` after the start of the step."""
+        """Return the call that computes the state at the time ``elapsed`` after the beginning of the step."""
         plan = self.plan
         moment = plan.moment(self.now, elapsed)
         return (Call(INSIDE, (state, *moment, *plan.parameters, *plan.sampled(), self.inner), (STATUS,)),)
@@ -236,7 +237,7 @@ class Observation:
         return (For(i, whole(self.events), (Assign(self.signs[i], sign),)),)
 
     def changed(self, i: Term, values: Term) -> Term:
-        """Return the test whether the sign of entry ``i`` of ``values`` differs from its stored sign."""
+        """Return the condition that the sign of ``values[i]`` differs from the stored sign."""
         # If the stored sign is 0, a nonzero value is not a change of sign.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
@@ -302,7 +303,7 @@ class Observation:
     def _guess(
         self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
     ) -> tuple[Statement, ...]:
-        """Return the statements that choose ``middle``, the fraction of the step for the next evaluation."""
+        """Return the statements that choose the next iterate ``middle`` (a fraction of the step)."""
         i, estimate = count("i"), real("estimate")
         # For each event function, a secant interpolates the weighted values (:meth:`_moved`) at ``low`` and
         # ``high``. The earliest zero of a secant is chosen. In every third iteration, the midpoint is chosen

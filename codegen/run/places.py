@@ -10,7 +10,7 @@ from codegen.run.terms import Term, real
 
 @dataclass(frozen=True)
 class Place:
-    """The position of a block of the state, for example of the momentum.
+    """The position of one block (such as the momentum) in the state.
 
     The block consists of the entries ``start`` to ``start + size - 1`` of the array named ``array``. This
     array has ``whole`` entries.
@@ -23,7 +23,7 @@ class Place:
 
     @property
     def term(self) -> Term:
-        """The block as a slice of its array."""
+        """The entries of the block, as a slice of the array."""
         # The stopping rule computes the largest entry of this slice.
         return real(self.array, self.whole).part(self.start, self.size)
 
@@ -33,7 +33,7 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
 
     If the state has a variation (a tangent vector), it is the last block. Its array is ``vector``.
     """
-    # The array ``state`` does not contain the variation.
+    # ``whole`` is the length of the array ``state`` (without the variation).
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0

@@ -28,8 +28,8 @@ STEPS, STRIDE = count("steps"), count("stride")
 class Plan:
     """A kernel (the arithmetic of a step) and the floating-point format of the emitted module.
 
-    If a step fails, the continuation in the step size (:mod:`codegen.run.continuation`) makes at most
-    ``tries`` attempts. If ``tries`` is None, the limit is ``Start.TRIES``.
+    After a failed step, the continuation method (:mod:`codegen.run.continuation`) makes at most ``tries``
+    attempts. If ``tries`` is None, the limit is ``Start.TRIES``.
     """
 
     kernel: Kernel
@@ -123,7 +123,7 @@ class Plan:
         return real(name, self.size)
 
     def remembering(self, memory: Term) -> tuple[Term, ...]:
-        """Return a tuple with the argument ``memory``. The tuple is empty if steps store nothing."""
+        """Return ``(memory,)`` if steps store numbers for the next step, and ``()`` otherwise."""
         return (memory,) if self.remembers else ()
 
     @property
@@ -140,7 +140,7 @@ class Plan:
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
-        """Return a tuple with the argument for run-time inputs. Without inputs, the tuple is empty."""
+        """Return ``(inputs,)`` if the kernel has run-time inputs, and ``()`` otherwise."""
         return (inputs,) if self.kernel.inputs else ()
 
     @property
@@ -149,7 +149,7 @@ class Plan:
         return (real("held", len(self.kernel.inputs)),) if self.kernel.inputs else ()
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
-        """Return the terms for those names in ``scalars`` that the statements of the kernel read."""
+        """Return a term for each name in ``scalars`` that occurs in the kernel's statements."""
         # Scheduling may remove statements. Names that occur only in removed statements are omitted.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)

@@ -60,7 +60,7 @@ def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
         for statement in body:
             if isinstance(statement, Assign | Call):
                 for target in assigned(statement):
-                    # Arrays and records have declarations (Array) in the body.
+                    # Arrays and records are omitted. The body already contains their declarations.
                     if target.op == "name" and not target.shape and not target.record:
                         result.setdefault(identifiers.variable(target), target)
             # Some variables are assigned only in inner blocks, so inner blocks are visited too.
@@ -79,7 +79,7 @@ class _Scopes:
 
     def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
         self.identifiers, self.result = identifiers, result
-        # Caches of ``mentioned``, ``own`` and ``assignments``, with the keys ``id(statement)``.
+        # Three caches with the keys ``id(statement)``: results of ``mentioned``, ``own`` and ``assignments``.
         self.known: dict[int, frozenset[str]] = {}
         self.known_own: dict[int, frozenset[str]] = {}
         self.counts: dict[int, Counter[str]] = {}
@@ -87,7 +87,7 @@ class _Scopes:
     def place(self, body: Body, variables: dict[str, Term]) -> None:
         """Declare variables in the block ``body`` or in its inner blocks.
 
-        No statement outside ``body`` mentions these variables.
+        The variables must not occur outside ``body``.
         """
         inside: dict[int, dict[str, Term]] = {}
         # A loop for each variable would take quadratic time.
@@ -121,7 +121,7 @@ class _Scopes:
         # ``places`` contains the indices of all statements in ``body`` that mention the variable.
         for k in places:
             statement = body[k]
-            if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
+            if name in self.own(statement):  # the variable occurs outside the inner blocks
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
         # If an inner block may read a value from another inner block, ``name`` must be declared in ``body``.
@@ -147,7 +147,7 @@ class _Scopes:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):
                 return False
-            # A For loop may have no iterations, so the statements after the loop are tested, too.
+            # The loop may have no iterations. Then a later statement may read ``name`` before an assignment.
             looped = True
         return looped
 

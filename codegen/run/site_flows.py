@@ -12,8 +12,8 @@ Part number K has several functions:
   variants are valid only near zero.
 - ``pair_K`` computes the pair of the last and the first site of a periodic row.
 
-A kick is a flow that reads neighbours and changes only momenta, in place. A kick has the functions
-``sweep_K``, ``site_K`` and ``pass_K`` (:mod:`codegen.run.sites`).
+A kick is a flow that reads neighbours and changes only momenta, in place. A kick has other
+functions: ``sweep_K``, ``site_K`` and ``pass_K`` (:mod:`codegen.run.sites`).
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
-    # A sweep that changes single sites (axis OWN) but reads neighbours is a kick.
+    # A kick changes single sites (the axis is OWN) and reads neighbours.
     if sweep.axis == OWN and sweep.neighbours:
         # The last flow of a step tests the whole new state, so a kick needs no test for infinities and NaNs.
         return _Kick(Loop(plan, step, sweep, index, tested=False))
@@ -77,12 +77,15 @@ def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick
 
 @dataclass(frozen=True)
 class _Kick:
-    """Builds the functions of a kick."""
+    """Builds the functions of a kick: a flow that reads neighbours and changes only momenta."""
 
     loop: Loop
 
     def functions(self) -> list[Function]:
-        """Return the functions of the kick. Each function comes after the functions that it calls."""
+        """Return ``sweep_K``, ``site_K`` and ``pass_K``.
+
+        Each function comes after the functions that it calls.
+        """
         return [self.loop.sweep(), self.loop.site(), self.loop.all_sites()]
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
@@ -174,7 +177,7 @@ class _Part:
         )
 
     def loop(self, name: str, near: bool) -> Function:
-        """Return the function ``flow_K`` or ``whole_K``.
+        """Return the function ``flow_K`` or ``whole_K`` for K = ``index``.
 
         ``name`` is ``flow`` or ``whole``. If ``near`` is True, the function calls fast variants of sines,
         cosines and Stumpff functions, which are valid only near zero.
@@ -266,7 +269,7 @@ class _Part:
         return self._function(f"part_{self.index}", f"All sites: {self.own.about}.", parameters, body)
 
     def pairs(self) -> Function:
-        """Return the function ``part_K`` for a flow of pairs.
+        """Return the function ``part_K`` for a flow that changes pairs of sites.
 
         The argument ``colour`` of ``part_K`` is 0 for the pairs whose first site has an even index, and 1 for
         the other pairs.
@@ -275,8 +278,8 @@ class _Part:
         last, periodic = self.step.dimension - 1, self.step.periodic
         outer = [count(f"i{e}") for e in range(last)]
         length = shape[self.own.axis]
-        # In an open lattice, the pairs of colour 1 begin at site 1, and the last site may have no partner. In
-        # a periodic lattice, the number of sites along the axis is even, and every site has a partner.
+        # In an open lattice, the first site (for colour 1) and the last site may have no partner. In a
+        # periodic lattice, the number of sites along the axis is even, and every site has a partner.
         number = length // 2 if periodic else (length - _COLOUR) // 2
         body: list[Statement]
         if self.strided:
@@ -299,7 +302,7 @@ class _Part:
         for e in range(last - 1, -1, -1):
             mine = e == self.own.axis
             loop = For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))
-            # Pairs of one colour have no common site, so they can be computed in parallel.
+            # No site belongs to two of these pairs, so the loop can be parallel.
             body = [loop if e else distributed(loop)]
         parameters = (WHOLE, shape, _COLOUR, SITES, *self.arrays, *self.scalars)
         first = [Assign(COLUMNS, shape[last])]
@@ -307,7 +310,7 @@ class _Part:
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 
     def _rows(self, outer: list[Term], shape: Term) -> list[Statement]:
-        """Return the statements that apply the flow to all pairs between two adjacent rows."""
+        """Return the statements that apply the flow to all pairs of sites in two adjacent rows."""
         axis, length = self.own.axis, shape[self.own.axis]
         index = outer[axis]
         there = count("there")

@@ -72,7 +72,7 @@ class ChainSolver:
         return ARRAYS["work"]
 
     def name(self, of: str) -> str:
-        """Return the name of a function: ``of``, followed by the number of the implicit block."""
+        """Return the name of a function. For ``of`` = "factor" and block 2, the name is ``factor_2``."""
         return f"{of}_{self.index}"
 
     def functions(self) -> list[Function]:
@@ -82,7 +82,7 @@ class ChainSolver:
     def prepared(self) -> list[Statement]:
         """Return the calls that compute and factor the matrix.
 
-        The second call also returns the number of singular pivot blocks.
+        The call for the factorisation also counts the singular pivot blocks.
         """
         linearise = self.linearise()
         return [
@@ -149,7 +149,7 @@ class ChainSolver:
             if symbol in read and there is not None:
                 body.append(Assign(own(symbol), select(there, number(1.0), number(0.0))))
         body += [Assign(own(x.symbol), entry_of(step, x.row, nears[x.neighbour])) for x in newton.loads]
-        # The outputs of the kernel are the entries of the three blocks of a site, in the order of storage.
+        # The outputs of the kernel are the entries of the blocks LEFT, OWN_BLOCK and RIGHT, in this order.
         first = Assign(_ENTRY, _BASE + PLACE * (3 * self.n * self.n))
         stores = [
             Assign(self.work[_ENTRY + k] if k else self.work[_ENTRY], end) for k, end in enumerate(ends)
@@ -186,7 +186,7 @@ class ChainSolver:
                 Assign(value[_I], _SUM),
             ),
         )
-        # Each new component depends on all old components of the site, so ``value`` stores the new ones.
+        # Each new component needs all old components, so the new components are first stored in ``value``.
         taken = For(_I, whole(n), (Assign(x(_SITE, _I), value[_I]),))
         # In back substitution, a new component depends only on its old value and on the next site.
         right = self.cell(_SITE, RIGHT, _I, _K) * x(_SITE + 1, _K)
@@ -255,7 +255,7 @@ class ChainSolver:
         return For(_I, whole(self.n), (For(_J, whole(self.n), body),))
 
     def border_columns(self) -> list[Statement]:
-        """Return the statements that copy blocks of the matrix to the border (:meth:`border`)."""
+        """Return the statements that copy the columns for the unknowns of the last site (:meth:`border`)."""
         # Let z be the unknowns of the last site. In the rows of site 0, the block LEFT multiplies z. In the
         # rows of site ``_LAST`` (the last but one), the block RIGHT multiplies z.
         n, ends = self.n, []
@@ -310,7 +310,7 @@ class ChainSolver:
             ]
         base, inner_sites = self.opening()
         body: list[Statement] = [
-            # In an open chain, C compilers would warn about the unused variable ``_BASE``.
+            # In an open chain, no statement of this function reads ``_BASE``.
             *([base] if self.step.periodic else []),
             inner_sites,
             Call(self.name("substitute"), (_INNER, SITES, self.work, first)),
@@ -324,7 +324,7 @@ class ChainSolver:
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
-        """Return the statements that complete the solution of the linear equations in a periodic chain.
+        """Return the statements that solve for the last site of a periodic chain and correct the other sites.
 
         ``first`` is the index in the workspace at which the right-hand side begins.
         """
@@ -333,7 +333,7 @@ class ChainSolver:
         def x(site: Term, k: Term) -> Term:
             return self.work[first + k * STRIDE + site]
 
-        # The terms of both neighbours are subtracted from the right-hand side of the last site.
+        # In the equations of the last site, the terms of its neighbours move to the right-hand side.
         rest = (
             Assign(_SUM, x(_INNER, _I)),
             *self.dot(self.cell(_INNER, RIGHT, _I, _K) * x(whole(0), _K)),

@@ -7,7 +7,7 @@ In fixed-point iteration, the last sweep of each iteration replaces u by g(u). T
 (:mod:`codegen.run.stopping`) uses the largest change and the largest absolute value of an unknown over
 all sites.
 
-Newton's method for chains (:mod:`codegen.run.site_newton`) stores the residuals g(u) - u instead.
+In Newton's method for chains (:mod:`codegen.run.site_newton`), the last sweep stores the residuals g(u) - u.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Sums over all sites of a lattice.
 
-The sums of chunks of consecutive sites are added in a fixed order. Therefore the result does not depend on
-the number of threads.
+Each chunk of consecutive sites has its own sum. These sums are added in a fixed order. Therefore the result
+does not depend on the number of threads.
 """
 
 from __future__ import annotations

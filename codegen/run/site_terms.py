@@ -83,21 +83,21 @@ value of an unknown. The third number is finite only if all changes are finite."
 def padded(sites: Count) -> Count:
     """Return the distance between two rows of the workspace: an odd multiple of 8, at least ``sites``.
 
-    If the distance were a large power of two, such as 512, the numbers of one site would compete for the same
-    few lines of a cache. A step of the method ``cf4`` would then take 1.7 times as long on 1024 x 1024 spins
+    If the distance were a large power of two, such as 512, the rows would cause cache conflicts. A step of
+    the method ``cf4`` would then take 1.7 times as long on 1024 x 1024 spins
     (``benchmarks/lattice.py --side 1024``).
 
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
     """
-    # A multiple of 16, plus 8, is an odd multiple of 8.
+    # The number 16 k + 8 is an odd multiple of 8.
     return (sites + 7) // 16 * 16 + 8
 
 
 def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
     """Return the entry with the index ``place`` in ``row``."""
     array = ARRAYS[row.array]
-    # Only the workspace has padded rows.
+    # The distance between rows is STRIDE in the workspace, and SITES in all other arrays.
     if row.array == WORK:
         return array[row_of(step, row.number) + place]
     return array[(row.number * SITES if row.number > 1 else SITES) + place] if row.number else array[place]
@@ -106,7 +106,7 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 def row_of(step: SiteStep, number: int | Term) -> Term:
     """Return the index at which row ``number`` of the workspace begins.
 
-    Row 0 comes after the ``step.size`` rows of a state.
+    The workspace begins with space for a second state. Row 0 comes after this space.
     """
     first = number + step.size
     return STRIDE if isinstance(first, int) and first == 1 else first * STRIDE

@@ -3,8 +3,9 @@
 The number of sites in each dimension is an argument of the emitted functions. Row k of an array contains
 component k of all sites. Within a row of an array, the last index of a site changes fastest.
 
-Sweep number K has three functions. ``sweep_K`` computes consecutive sites whose neighbours all exist.
-``site_K`` computes one site, which may be at the boundary. ``pass_K`` computes all sites with both functions.
+A sweep is a loop over all sites. Sweep number K has three functions. ``sweep_K`` computes consecutive sites
+whose neighbours all exist. ``site_K`` computes one site, which may be at the boundary. ``pass_K`` computes
+all sites with both functions.
 
 ``sweep_K`` uses fast sines, cosines and Stumpff functions, which return NaN for arguments far from zero. If
 the new state is not finite at some site, the step is repeated with ``site_K`` for all sites. A finite result
@@ -128,7 +129,7 @@ def checked(values: Sequence[Term]) -> list[Statement]:
 
 @dataclass(frozen=True)
 class Loop:
-    """The generator of the functions of one sweep. If ``tested`` is False, the functions do not test whether
+    """Builds the emitted functions of one sweep. If ``tested`` is False, the functions do not test whether
     new values are finite."""
 
     plan: Plan
@@ -151,7 +152,7 @@ class Loop:
 
     @property
     def neighbours(self) -> tuple[int, ...]:
-        """The neighbours whose values the sweep reads, as indices into the list of offsets."""
+        """The neighbours whose values the sweep reads, as indices of :attr:`SiteStep.offsets`."""
         return self.own.neighbours
 
     @property
@@ -173,7 +174,7 @@ class Loop:
         return {x.text for x in self.scalars}
 
     def entry(self, row: Row, place: Term) -> Term:
-        """Return the array entry that ``row`` contains for the site with the index ``place``."""
+        """Return the entry with the index ``place`` in ``row``."""
         return entry_of(self.step, row, place)
 
     def loaded(
@@ -208,7 +209,7 @@ class Loop:
         return body
 
     def _images(self, ends: Sequence[Term]) -> tuple[list[Statement], list[Term]]:
-        """Return the statements that compute the new values of the unknowns, and these new values."""
+        """Assign the new values of the unknowns to variables. Return the statements and the variables."""
         images = [own(f"next {u}") for u in self.own.unknowns]
         # ``ends`` begins with the new values of the unknowns. Other results may follow.
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
@@ -236,7 +237,7 @@ class Loop:
     def function(
         self, name: str, about: str, parameters: tuple[Term, ...], body: list[Statement]
     ) -> Function:
-        """Return a function of the sweep with the given body.
+        """Return an emitted function with the statements ``body``.
 
         If :attr:`last` is true, the function returns the number of sites whose new state is not finite.
         """
@@ -264,13 +265,13 @@ class Loop:
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
     def _read(self) -> list[Load]:
-        """Return the loads of the unknowns, and the loads of all symbols that the kernel reads."""
+        """Return the elements of ``own.loads`` for the unknowns and for the symbols that the kernel reads."""
         # The change of an unknown is its new value minus its old value, so the old value is always loaded.
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
 
     def site(self) -> Function:
-        """Return the function of this sweep for one site, which may be at the boundary."""
+        """Return ``site_K``, the function for one site. The site may be at the boundary."""
         before, inside, ends = split(self.own.kernel, self.shared)
         column: list[Statement] = [Assign(PLACE, ROW + COLUMN)]
         nears: dict[int, Term] = {}
@@ -299,7 +300,8 @@ class Loop:
         around = [load for load in self._read() if load.neighbour != OWN]
         if self.own.outside is None:
             return [*body, *(Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in around)]
-        # The values of a missing neighbour may depend on values of the site, so the site is loaded first.
+        # The kernel ``outside`` computes values for neighbours that do not exist. This kernel may read values
+        # of the site.
         before, inside, ghosts = split(self.own.outside, set())
         body += [*before, *inside]
         for load, ghost in zip(around, ghosts, strict=True):
@@ -375,7 +377,7 @@ class Loop:
         return body
 
     def _peeled(self, number: Term, column: Term) -> For:
-        """Return a loop over ``number`` sites that calls ``site_K`` for each site."""
+        """Return a loop that calls ``site_K`` for ``number`` sites. ``column`` is the column of a site."""
         arguments = (column, COLUMNS, *self.rows(), SITES, *self.arrays, *self.scalars)
         return For(INDEX, number, tuple(self._called("site", arguments)))
 
@@ -409,7 +411,7 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
-        # One loop repeats all sweeps of a block of equations.
+        # The sweeps of a block of equations are repeated together, so they are first collected in ``calls``.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls
@@ -442,7 +444,7 @@ def _too_small(step: SiteStep) -> Term:
 def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
     """Return the public function that makes several steps of equal size.
 
-    If ``twice`` is True, a step whose result is not finite is repeated once with the flag WHOLE.
+    If the result of a step is not finite and ``twice`` is True, ``site_K`` repeats the step once.
     """
     later = exact_time(TIME, _DONE, STEP)
 
