@@ -219,12 +219,14 @@ class _Exponential:
     def _about(self) -> str:
         what = f"the exponential of the {self.n} x {self.n} matrix a"
         if self.level:
-            single = ", and its derivative in the direction E (the input contains a, then E)"
-            several = f" + E for a polynomial E in {self.level} symbols whose squares are zero (the input"
-            what += single if self.level == 1 else f"{several} contains a, then the coefficients of E)"
+            single = ", and its derivative in the direction E. The input contains a, then E"
+            several = (
+                f" + E. Here E is a polynomial in {self.level} symbols with squares equal to zero. The input"
+            )
+            what += single if self.level == 1 else f"{several} contains a, then the coefficients of E"
         return (
-            f"result = {what}, by a Taylor polynomial and repeated squaring. If the relative "
-            f"error may exceed 2^-{LEAST_DIGITS}, all entries of the result are NaN."
+            f"result = {what}. The method is a Taylor polynomial and repeated squaring. If the estimate of "
+            f"the relative error exceeds 2^-{LEAST_DIGITS}, all entries of the result are NaN."
         )
 
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:

@@ -63,8 +63,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         Call("to_space", (moving, before)),
     )
     about = (
-        "Begin: moving = the state with the body momentum. before = this body momentum, "
-        "converted back to the space frame."
+        "Write the state with the momentum in the body frame into 'moving'. Convert this momentum back to the "
+        "space frame, and write it into 'before'."
     )
     return Function(ENTER, about, (state, moving, before), body)
 
@@ -86,7 +86,7 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Return(code(OK)),
     )
     about = (
-        "End: update the state. The increase of the space momentum during the run is added to the "
-        "old space momentum."
+        "Update the state at the end of a run. In the space frame, the increase of the momentum is added to "
+        "the old momentum."
     )
     return Function(LEAVE, about, (moving, before, state), body, Kind.STATUS)
