@@ -63,8 +63,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         Call("to_space", (moving, before)),
     )
     about = (
-        "Write the state with the momentum in the body frame into 'moving'. Convert this momentum back to the "
-        "space frame, and write it into 'before'."
+        "Write the state with the momentum in the body frame into 'moving'. Convert this momentum back to "
+        "the space frame, and write it into 'before'."
     )
     return Function(ENTER, about, (state, moving, before), body)
 
