@@ -64,7 +64,11 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
     widths = [part.shape[1] for part in flat]
     known = [width for _, width in fields]
     if sum(widths) != size or (len(flat) > 1 and known and widths != known):
-        parts_text = f", or a tuple of arrays, {known} numbers per state" if len(flat) > 1 and known else ""
+        parts_text = (
+            f", or a tuple of arrays (numbers per state in each array: {known})"
+            if len(flat) > 1 and known
+            else ""
+        )
         raise ValueError(
             f"expected an array of N states with {size} numbers each{parts_text}, "
             f"found arrays of shape {shapes}"

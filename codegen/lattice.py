@@ -97,7 +97,7 @@ class Lattice(ArrayModule, ABC):
         values: Sequence[float],
         work: Any,
     ) -> tuple[Status, int]:
-        """Make the steps of a run in ``table``, and return the status and the number of completed steps.
+        """Update the states in ``table`` step by step. Return the status and the number of completed steps.
 
         - ``shape``: the numbers of sites (n1, ..., nd) in the d directions.
         - ``table``: the states, an array of shape (size, n1, ..., nd) or (size, n1 x ... x nd).
@@ -129,7 +129,7 @@ class CompiledLattice(Lattice):
         values: Sequence[float],
         work: Any,
     ) -> tuple[Status, int]:
-        """Make the steps of a run. The arguments and the result are those of :meth:`Lattice.advance`."""
+        """Call the compiled function. :meth:`Lattice.advance` describes the arguments and the result."""
         (t, h, steps), kind = moment, self.interface.format.c_type
         completed = self._ffi.new("size_t *")
 

@@ -39,9 +39,9 @@ c s^(k + 1) with a constant c.
 """
 
 VANISHING = 1e-30
-"""A margin whose absolute value is less than VANISHING counts as zero.
+"""A margin is a function of the state and the time. Absolute values less than VANISHING count as zero.
 
-The field can be non-smooth at a zero of a margin (a function of the state and the time).
+The field can be non-smooth at a zero of a margin.
 """
 
 SUBSTEPS = 24
@@ -50,7 +50,7 @@ SUBSTEPS = 24
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that :meth:`PiecewiseField.beyond` counts."""
+"""The largest value that :meth:`PiecewiseField.beyond` returns for the smoothness of the field."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ Advance = Callable[..., tuple[Vector, float]]
 
 
 class Sided:
-    """A vector field as a function of (state, t), with the current case of each selection.
+    """A vector field as a function of (state, t). The field is smooth until the next event.
 
     ``sides`` contains the current case of each selection (an operation with several cases). ``kinks``
     contains the number of continuous derivatives at each past event, or -1 if the field is discontinuous
@@ -154,7 +154,7 @@ class Sided:
         self.points: list[tuple[Vector, Scalar]] = []
 
     def begin(self, y: Vector, t: Scalar, least: float) -> None:
-        """Determine the case of each selection at the initial state y and the initial time t.
+        """Set ``sides`` for a run that begins at the state y and the time t.
 
         ``least`` is the length of the shortest permitted step.
         """
@@ -163,7 +163,7 @@ class Sided:
     def __call__(self, y: Vector, t: Scalar) -> Vector:
         """Return the value of the field at the state y and the time t, and add (y, t) to ``points``.
 
-        Each selection (operation with several cases) uses its current case.
+        Operations with several cases use the cases in ``sides``.
         """
         self.points.append((y, t))
         return self.fields.on(self.sides)[0](y, t)

@@ -88,7 +88,7 @@ class Reference:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A :class:`Reference` as the cache stores it, with decimal strings in ``state``."""
+    """A :class:`Reference` for the cache. The entries of ``state`` are decimal strings."""
 
     state: tuple[str, ...]
     uncertainty: float

@@ -28,7 +28,7 @@ INTERPRETER = "interpreter"
 """The name that selects the interpreter in place of a target such as C or Python."""
 
 DOUBLE = 16
-"""The largest number of decimal digits for which the interpreter computes with doubles."""
+"""The interpreter computes with doubles if at most DOUBLE decimal digits are requested."""
 
 
 class RunFailed(ArithmeticError):
@@ -154,7 +154,7 @@ class Emitted:
     def observed(self) -> Emitted:
         """A runner of the same method whose module also returns the solutions of the implicit equations.
 
-        The new runner can have another target, because only some targets can emit such a module.
+        The new runner uses a target that can emit such a module.
         """
         return Emitted(self.compiled, printers.observable().name, self.order)
 

@@ -53,7 +53,7 @@ class Measured:
         return None if self.failure else self.measurement.overview(self.result, self.subject)
 
     def files(self) -> Mapping[str, str]:
-        """Return the texts of the files to write beside the report page of the scene, by file name."""
+        """Return the files to write into the folder of the report page, as a mapping from name to text."""
         return {} if self.failure else self.measurement.files(self.result, self.subject)
 
     def lines(self) -> Iterable[str]:

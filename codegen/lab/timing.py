@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 BATCH = 0.002
-"""The least time of a batch of calls in seconds, far above the resolution of the clock."""
+"""A batch of calls takes at least BATCH seconds, far more than the resolution of the clock."""
 
 BATCHES = 5
 FEWER = 3
@@ -161,8 +161,8 @@ def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list
     """Return the times of a run in seconds without the overhead of a call, in increasing order.
 
     ``sample()`` times the run and returns a list of times that include the overhead. Short runs with an
-    uncertain time are measured again (:data:`SHORT`). Each returned time is at least :data:`LEAST_SHARE`
-    times the measured time.
+    uncertain time are measured again (:data:`SHORT`). A returned time is never below the fraction
+    :data:`LEAST_SHARE` of the measured time.
     """
     spent = sorted(sample())
     for _ in range(AGAIN):
@@ -176,9 +176,9 @@ def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list
 
 
 def spread(times: Sequence[float]) -> float | None:
-    """Return the relative spread s of a sorted list of times, or None if the smallest time m is zero.
+    """Return (q - m)/m, where q is the upper quartile of the sorted times, and m is the smallest time.
 
-    About three quarters of the times are at most (1 + s) m.
+    The result is None if ``times`` is empty or m is zero.
 
     >>> spread((1.0, 1.25, 1.5, 9.0)), spread((0.0, 1.0))
     (0.5, None)

@@ -115,7 +115,7 @@ def lower_composed(scene: Problem, method: Method) -> Program | None:
 
     The program lists the length and the initial time of each substep.
     """
-    # Some families cannot divide a step. A step of a VRKMK method, for example, is one exponential.
+    # The steps of some families have no substeps. A step of a VRKMK method, for example, is one exponential.
     if not lowering(method.family).repeats_substeps:
         return None
     # The function substeps() recognises compositions, even if they are given as Butcher tableaux.

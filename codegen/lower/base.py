@@ -41,7 +41,7 @@ def without_formulas(scene: Problem) -> Objection | None:
     # ``roots`` are the formulas of the field in coordinates.
     if scene.roots:
         return None
-    # The state of a semilinear equation is a function of space, so the field has no formulas in coordinates.
+    # The state of a semilinear equation is a function of space, not a list of coordinates.
     if scene.semilinear is not None:
         return Objection(", a semilinear equation", "a scene with formulas in coordinates")
     # The families in the hint compute with whole matrices, so they need no formulas in coordinates.

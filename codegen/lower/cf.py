@@ -92,7 +92,7 @@ def two_registers(
 ) -> Program:
     """Return the program of a low-storage scheme: K_i = A_i K_{i-1} + k_i, Y_{i+1} = exp(h B_i K_i) Y_i.
 
-    Here k_i is the value of the field at Y_i. ``estimate`` contains the coefficients (D_1, ..., D_s) of the
+    Here k_i is the value of the field at Y_i. ``estimate`` is the row (D_1, ..., D_s) of coefficients of the
     embedded method, or None if there is no embedded method. The embedded method applies exp(h E) to the new
     state, where E is the sum of the D_i k_i.
     """
@@ -106,7 +106,7 @@ def two_registers(
     sums: list[Var] = []
 
     def advance(i: int) -> None:
-        """Append the operations that compute K, E and the next state from the field at stage i."""
+        """Append the operations of stage i after the evaluation of the field."""
         terms = [(one, k[i])]
         # At the first stage, K_1 = k_1.
         if register:
@@ -119,7 +119,7 @@ def two_registers(
         x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
         state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))
 
-    # Stage i is at the time t + times[i] h, and times[i] sums the coefficients of all earlier exponents.
+    # Stage i is at the time t + times[i] h, where times[i] = steps[0] + ... + steps[i - 1].
     steps = [reduce(add, row) for row in scheme.increments(method.ring)]
     times = list(accumulate(steps, initial=method.ring.zero))
 

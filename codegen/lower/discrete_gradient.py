@@ -67,15 +67,15 @@ class DiscreteGradient(FieldLowering):
         """Return the program of a step.
 
         :class:`codegen.errors.MethodError` is raised if the differential of the energy is zero at a point
-        where the field is not zero. The error is also raised if a force at the open boundary of a lattice is
-        not a derivative of the energy.
+        where the field is not zero. The error is also raised if the force at an open boundary is not
+        conservative.
         """
         # The energy of a single site is not constant, because neighbours exchange energy.
         if not _agrees(problem if problem.sites is None else small(problem)):
             if problem.sites is not None and problem.sites.outside:
                 raise MethodError(
-                    f"{method.label} cannot be used on {problem.name}: a state outside the open boundary "
-                    "exerts a force that is not the derivative of an energy",
+                    f"{method.label} cannot be used on {problem.name}: the force at the open "
+                    "boundary is not the derivative of an energy",
                     expected='states in the argument "outside" that are constant or exert no force',
                 )
             raise MethodError(
@@ -109,7 +109,7 @@ def _program(scene: Problem, method: Method) -> Program:
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
-        # With the bivector at y instead of the midpoint, the method would have order 1.
+        # The bivector is evaluated at the midpoint. At y, the method would have order 1.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # H(x1) depends on the unknown xi, so the energies are part of the equation for xi.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]

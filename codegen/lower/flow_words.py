@@ -82,7 +82,7 @@ class Reading:
 class FlowLowering(Lowering):
     """A family of methods that compose exact flows of the parts of a Hamiltonian.
 
-    :meth:`problem` returns a copy of the scene with the flows of the step. :meth:`lower` forms the program
+    :meth:`problem` stores the exact flows of a step in a copy of the scene. :meth:`lower` forms the program
     from this copy.
     """
 
@@ -111,7 +111,7 @@ class FlowLowering(Lowering):
         return None
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return a copy of the scene whose attribute ``flows`` maps names to the exact flows of a step."""
+        """Return a copy of the scene. The attribute ``flows`` of the copy maps names to exact flows."""
         word = self.read(scene, method).word
         # Only flows of the step are included, because other flows would be emitted as unused functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
@@ -138,7 +138,8 @@ class FlowLowering(Lowering):
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
         """Return the sequence of flows of a step, and the label of the family whose order conditions apply.
 
-        :class:`codegen.errors.MethodError` is raised for a tableau that cannot be used with the parts.
+        :class:`codegen.errors.MethodError` is raised if the tableau of ``method`` cannot be used with
+        ``parts``.
         """
 
     def read(self, scene: Problem, method: Method) -> Reading:
@@ -156,7 +157,7 @@ class FlowLowering(Lowering):
         """Return the program: one operation for each flow."""
         reading = self.read(problem, method)
         q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
-        # The flow of one summand, the carrier, advances t.
+        # If the scene depends on time, ``time`` is the current time within the step.
         time = None if problem.autonomous else Var("t", Kind.REAL)
         inputs = (q, mu) if time is None else (q, mu, time)
         # The names t and h are reserved, because they are arguments of emitted code.
@@ -231,7 +232,7 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
     """Return the flows of a composition of a method Phi and its adjoint Phi*.
 
     For each pair (beta, alpha) in ``both``, Phi* with the duration beta h acts before Phi with the duration
-    alpha h. Phi* applies the flows of ``summands`` in the given order.
+    alpha h. Phi* applies the flows of ``summands`` in the given order, and Phi in the reverse order.
     """
     word: Word = []
     for beta, alpha in both:
@@ -272,6 +273,6 @@ def _carrier(parts: Parts) -> Summand | None:
     raise MethodError(
         "every part depends on t",
         where=parts.where,
-        expected="at least one part that does not depend on t: the flow of such a part advances the time",
+        expected="at least one part that does not depend on t",
         hint="add a part that does not depend on t",
     )

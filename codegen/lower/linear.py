@@ -118,7 +118,7 @@ class LinearLowering(FieldLowering):
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the order of the method.
 
-        If the scene itself defines the step of the method, the scene also states the order.
+        If ``method.step`` names a step of the scene, the scene also states the order.
         """
         if not method.step:
             return super().order(method, scene)
@@ -142,12 +142,12 @@ class LinearLowering(FieldLowering):
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """Return ``step``, with the update of the momentum conjugate to time if the state contains one."""
+    """Return ``step``. If the state contains the momentum u conjugate to time, an update of u is appended."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     # If the step does not depend on time, the momentum conjugate to time does not change.
     if not problem.carries_momentum or time is None:
         return step
-    # The momentum is updated last, because the update needs the whole step.
+    # The update of the momentum follows all other operations of the step.
     ((_, point),) = step.outputs
     # In ``moved``, the new momentum replaces the old momentum.
     moved = Var("y_with_u", Kind.POINT)

@@ -90,7 +90,7 @@ def test_an_error_at_one_site_is_seen_in_the_sums():
 @pytest.mark.parametrize(
     ("scene", "options", "message"),
     [
-        (open_bodies, {}, "a state outside the open boundary exerts a force that is not the derivative of"),
+        (open_bodies, {}, "the force at the open boundary is not the derivative of an energy"),
         (chain, {}, "which has no energy"),
         (string, {"solver": "simplified-newton"}, "equations that contain sums over all sites"),
     ],

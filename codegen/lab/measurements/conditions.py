@@ -49,7 +49,7 @@ class FamilyConditions:
 
 @dataclass(frozen=True)
 class ConditionTables:
-    """The order conditions of the method families in the report, and the orders of the methods."""
+    """The order conditions of each method family, and the order of each method."""
 
     families: tuple[FamilyConditions, ...]
     methods: tuple[OrderStudy, ...]
@@ -84,7 +84,7 @@ class Conditions(Measurement[ConditionTables]):
     def verdict(self, result: ConditionTables, subject: Subject) -> str:
         """Return a sentence with the number of methods whose computed order is exact.
 
-        The computed order of a method is exact if the method violates a condition of the next order.
+        The computed order p of a method is exact if the method violates a condition of order p + 1.
         """
         if not result.methods:
             return ""
@@ -96,7 +96,7 @@ class Conditions(Measurement[ConditionTables]):
         )
 
     def section(self, result: ConditionTables, subject: Subject) -> Section | None:
-        """Return the section with the conditions of each family, and the conditions that methods violate."""
+        """Return a section with the conditions of each family and the violated conditions of each method."""
         if not result.methods:
             return None
         families = [
@@ -120,8 +120,8 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            # Order conditions can be shown only for the families in :mod:`orderconds.families`, and only for
-            # methods with a tableau.
+            # The report omits methods without a tableau, and families that are not in
+            # :mod:`orderconds.families`.
             continue
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())

@@ -1,6 +1,6 @@
 """The section about run times: the error and the CPU time of methods and other integrators.
 
-The section also shows the fastest integrator for each error, and the operations of a step.
+The section also shows the fastest integrator at each error level, and the operations of a step.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ Result = MethodResults[LongRun]
 class LongRuns(Measurement[Result]):
     """Measures the drift of conserved quantities over many steps.
 
-    The step size is a hundredth of the time span of the scene.
+    The step size is T/100, where T is the length of the time span of the scene. A run can be longer than T.
     """
 
     name = "long"

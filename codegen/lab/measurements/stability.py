@@ -66,7 +66,7 @@ class StabilityTests(Measurement[Result]):
         return not result.failures and all(s.honest for s in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
-        """Return one line for each wrong result of a step with extreme input.
+        """Return one line for each extreme input with a wrong result.
 
         Each method that was not tested adds one line with the reason.
         """
@@ -77,7 +77,7 @@ class StabilityTests(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the stability tests failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence about wrong results for extreme input, and about the largest usable step."""
+        """Return a sentence about the tests with extreme input, and about the largest usable step."""
         answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
         wrong = [method for kind, method in answers if kind == "wrong"]
         parts = []

@@ -29,7 +29,7 @@ If the observed order agrees with an unproved order, the order is tested again w
 """
 
 FEWEST = 4
-"""The smallest number of usable runs. The test whether the slopes have settled needs three slopes."""
+"""The smallest number of usable runs. Four runs give the three slopes for :attr:`Refinement.settled`."""
 
 
 @dataclass(frozen=True, repr=False)

@@ -133,7 +133,7 @@ class CanonicalFields:
         self._known: dict[DirectedTree, Vector] = {}
 
     def tree(self, tree: DirectedTree) -> Vector:
-        """Return the pair (xi, nu) of a tree: the components of xi, followed by the components of nu."""
+        """Return the elementary differential (xi, nu) of a tree as one vector."""
         if tree not in self._known:
             n, point, bit = self.scene.dimension(), list(self.point), 1
             for kind, child in directed_branches(tree):

@@ -4,8 +4,8 @@ In the first way, the interpreter executes the program of a step with power seri
 exact solution, computed by Picard iteration, is subtracted.
 
 In the second way, the coefficient of the lowest power of h is a sum over the order conditions. Each summand
-is the residual of a condition times an elementary differential. If the program of the step is correct, the
-two results are equal.
+is the residual of a condition times an elementary differential. If the program is correct, both ways give the
+same coefficient of this power.
 """
 
 from __future__ import annotations

@@ -69,7 +69,7 @@ class Refinement:
 
     @property
     def clean(self) -> tuple[Run, ...]:
-        """The runs that are used for slopes: the longest section of ``runs`` without excluded runs."""
+        """The longest sequence of consecutive runs that are not excluded. The slopes use only these runs."""
         stretches: list[list[Run]] = [[]]
         for run in self.runs:
             if run.excluded:
@@ -81,7 +81,7 @@ class Refinement:
 
     @property
     def slopes(self) -> tuple[float, ...]:
-        """The slopes of log(error) against log(step size) for consecutive runs in :attr:`clean`."""
+        """The slopes of log(error) against log(h), one for each two consecutive runs in :attr:`clean`."""
         return slopes(self.clean)
 
     @property

@@ -1,7 +1,7 @@
 """The scenes (test problems) of the strict protocol.
 
-The scenes have no symmetry that could hide an error in a method. Rotations about one axis, axes of rotation
-orthogonal to the state, and fields that do not depend on time can hide errors.
+The scenes have no symmetry that could hide an error in a method. Examples of such symmetries are a fixed axis
+of rotation, an axis orthogonal to the state, and an autonomous field.
 
 Each kind of method has its own scenes:
 

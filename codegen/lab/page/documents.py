@@ -95,7 +95,7 @@ def render_overview(summaries: Sequence[Summary], command: str) -> str:
 
 
 def _formatted(paragraph: str) -> Markup:
-    """Return a paragraph of a docstring as HTML, with text in double or single backquotes as code."""
+    """Convert a paragraph of a docstring to HTML. Text between backquotes becomes code."""
     # The list ``parts`` contains plain text and code alternately, and begins with plain text.
     parts = re.split(r"`{1,2}([^`]+)`{1,2}", paragraph)
     return Markup("").join(
@@ -104,12 +104,12 @@ def _formatted(paragraph: str) -> Markup:
 
 
 def _html(section: Section, styles: Styles) -> Markup:
-    """Return a section as HTML, with special characters escaped except in objects of the class ``Markup``."""
+    """Return a section as HTML. Special characters are escaped, except in ``Markup`` objects."""
     return Markup(_environment().from_string(section.template).render(section.data, styles=styles))
 
 
 def _marked(sentence: str, labels: Sequence[str]) -> Markup:
-    """Return a sentence as HTML, with the names of methods and peers marked as code."""
+    """Return a sentence as HTML. The names in ``labels`` are marked as code."""
     pattern = "|".join(re.escape(escape(label)) for label in sorted(labels, key=len, reverse=True))
     text = str(escape(sentence))
     return Markup(re.sub(rf"(?<![\w:])({pattern})(?![\w:])", r"<code>\1</code>", text) if labels else text)

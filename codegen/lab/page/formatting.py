@@ -1,4 +1,4 @@
-"""The formats of numbers and times on a page of the report, and a picture with its caption."""
+"""Formats numbers and times for the report. The class ``Picture`` contains a picture and its caption."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ from codegen.lab.peers import PEERS
 from codegen.printers import names
 
 COLOURS = 8
-"""The number of colours for curves, which are the CSS variables ``--series-1``, ``--series-2``, ...."""
+"""The number of CSS variables ``--series-1``, ``--series-2``, ... with the colours of curves."""
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h", "p", "*")
 """The markers in the notation of Matplotlib."""
@@ -88,8 +88,7 @@ class Styles:
     def of(self, label: str) -> Style:
         """Return the style of the method or peer (other integrator) that ``label`` names.
 
-        The label may begin with ``adaptive``, and may end with a target or a form of the equations in
-        brackets.
+        The label can contain the prefix ``adaptive`` and a suffix in brackets, as in :func:`method_name`.
         """
         name = method_name(label)
         if name in PEERS:

@@ -123,7 +123,7 @@ def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
 
 
 def _with_titles(body: str, values: Sequence[str]) -> str:
-    """Add the titles ``values`` to the markers of a curve, which are the first markers in ``body``."""
+    """Add the texts ``values`` as titles to the first markers in ``body``, one title to each marker."""
     titles = iter(values)
 
     def titled(match: re.Match[str]) -> str:

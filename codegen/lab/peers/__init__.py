@@ -41,7 +41,7 @@ class Outcome:
 
 
 class Run(Protocol):
-    """The type of a function that runs a peer."""
+    """The type of a function that runs a peer (an integrator for comparison)."""
 
     def __call__(self, spans: int = 1, /) -> Outcome:
         """Integrate from t0 to t0 + ``spans`` (t1 - t0), where [t0, t1] is the time span of the scene."""

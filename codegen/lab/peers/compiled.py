@@ -43,8 +43,8 @@ def peer(name: str) -> Peer:
 def source(template: str, scene: Problem) -> str:
     """Return the C source code of a peer for a scene, from the template file ``template``.
 
-    Raises :class:`codegen.errors.SceneError` if the template contains a projection, but there is no
-    projection onto the manifold of the scene.
+    Raises :class:`codegen.errors.SceneError` if the template needs a projection onto the manifold of the
+    scene, and none is known.
     """
     environment = Environment(
         loader=PackageLoader("codegen.templates", "peers"),

@@ -46,5 +46,5 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
             raise PeerFailed(f"heyoka: {outcome}")
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
-    # run(0) takes slightly longer than the overhead of a call: heyoka steps even in an empty interval.
+    # The measured overhead is slightly too large, because heyoka makes a step even in an empty interval.
     return Prepared(run, lambda: run(0))

@@ -16,7 +16,7 @@ MOST_STEPS = 1_000_000
 
 
 def peer(name: str) -> Peer:
-    """Return the peer (an integrator for comparison) ``diffrax``."""
+    """Return the peer (integrator for comparison) ``name``. The peer uses the package ``diffrax``."""
     import diffrax
 
     return Peer(name, "tolerance", _prepare, f"diffrax {diffrax.__version__}")

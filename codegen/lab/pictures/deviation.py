@@ -1,4 +1,4 @@
-"""Draws the largest deviation of a quantity, up to each time or in each group of consecutive states.
+"""Draws the largest deviation of a quantity against time.
 
 The deviation is the difference from the value along the reference run. Without a reference run, the deviation
 is the difference from the initial value.

@@ -1,4 +1,4 @@
-"""Draws means over the sites of a lattice against time."""
+"""Draws mean values over the sites of a lattice as functions of time."""
 
 from __future__ import annotations
 

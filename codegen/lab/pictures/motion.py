@@ -73,7 +73,7 @@ class _Sheet:
         return self.top + MARGIN + self.unit * (self.high - self.low)
 
     def seen(self, points: numpy.ndarray) -> numpy.ndarray:
-        """Return the positions of points in the picture, as the columns of an array.
+        """Project points onto the picture, and return their positions as the columns of an array.
 
         The columns of ``points`` are points in space.
         """

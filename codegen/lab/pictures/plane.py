@@ -58,8 +58,8 @@ def _draw_run(
 ) -> None:
     """Draw the curve of a run, as dots if ``figure.dots`` is True.
 
-    ``points`` contains the x and the y coordinates, and ``times`` the time or the swept parameter value of
-    each point.
+    ``points`` contains the x and the y coordinates of the curve. ``times`` contains the time or the parameter
+    value of each point.
     """
     x, y = points
     style = styles(figure)[run.name]

@@ -20,7 +20,7 @@ from codegen.scene.figure import Figure
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
-# Each function draws figures of one subclass of Figure, the type of its first argument.
+# Each function draws figures of one subclass of Figure. The first argument is such a figure.
 Draw: TypeAlias = Callable[[Any, Source], Drawn]
 
 BUILT_IN: dict[type[Figure], str] = {

@@ -18,7 +18,7 @@ from codegen.lab.pictures.source import Source, sweep_values
 from codegen.scene.figure import Run, Scan, Sweep
 
 DIGITS = 1e-8
-"""The tolerance of the minimisation, divided by the length of the parameter interval."""
+"""The tolerance of the minimisation as a fraction of the length of the parameter interval."""
 
 
 def draw(figure: Scan, source: Source) -> Drawn:
@@ -76,8 +76,9 @@ def minimum(
 ) -> tuple[float, float]:
     """Return a pair: the parameter value with the least error, and the least error.
 
-    ``values`` is sorted, and ``sizes`` contains the error for each value. Brent's method minimises the error
-    between the two neighbours of the value with the least error.
+    ``values`` is sorted, and ``sizes`` contains the error for each value. Let x be the entry of ``values``
+    with the least error. Brent's method minimises the error in the interval from the entry before x to the
+    entry after x.
     """
     from scipy.optimize import minimize_scalar
 

@@ -30,11 +30,11 @@ STEP_LIMIT = 10**7
 
 @dataclass(frozen=True)
 class Path:
-    """The states of a run that a figure shows.
+    """The computed states of one run.
 
-    Each row of ``states`` is the state at one of the output times ``times``. For a sweep over a parameter or
-    the step size, ``states`` contains the final states, and ``times`` the swept values. ``failure`` is the
-    reason why the run ended early, or '' if all steps succeeded.
+    Each row of ``states`` is the state at one of the output times ``times``. A sweep repeats the run with
+    different parameter values or step sizes. Then ``times`` contains these values, and ``states`` contains
+    the final states. ``failure`` is the reason why the run ended early, or '' if all steps succeeded.
     """
 
     times: numpy.ndarray
@@ -56,7 +56,7 @@ class Source:
         self._paths: dict[Run, Path] = {}
 
     def problem_of(self, run: Run) -> Problem:
-        """Return the scene that a run names. The default is the scene of the figures."""
+        """Return the scene that ``run`` names. The default is ``self.problem``."""
         if run.scene not in self._problems:
             own = run.scene == scenes.EXTENDED
             self._problems[run.scene] = extended(self.problem) if own else scenes.load(run.scene)
@@ -101,7 +101,7 @@ class Source:
     def end(self, run: Run, value: float | None = None) -> list[float]:
         """Return the final state of a run.
 
-        ``value`` is one value of the parameter or step size that a sweep varies. Raises
+        If the run has a sweep, ``value`` is the value of the varied parameter or step size. Raises
         :class:`codegen.integrator.StepFailed` if a step fails.
         """
         integrator = self.integrator(run)
@@ -202,7 +202,7 @@ def _key(run: Run) -> tuple[object, ...]:
 
 
 def sweep_values(run: Run) -> list[float]:
-    """Return the values of the parameter or of the step size with which a sweep repeats a run.
+    """Return the parameter values or step sizes for the repetitions of a run.
 
     If the run has no sweep, the result is [].
     """

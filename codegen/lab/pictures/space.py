@@ -1,4 +1,4 @@
-"""Draws curves in space in orthogonal projection, and the edges of the box that contains all curves."""
+"""Draws orthogonal projections of space curves, and the edges of the box around all curves."""
 
 from __future__ import annotations
 

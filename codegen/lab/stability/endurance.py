@@ -47,7 +47,7 @@ class Endurance:
 
     @property
     def held(self) -> bool:
-        """True if the run passes the test."""
+        """False if the run reports no failure, but ``defect`` is large or ``returned`` is not finite."""
         explained = self.defect is None or self.defect <= 64 * self.steps * 2.0**-53
         return bool(self.failure) or (explained and math.isfinite(self.returned or 0.0))
 

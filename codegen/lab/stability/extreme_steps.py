@@ -49,9 +49,9 @@ TINY = 2.0**-1022
 """The smallest normal double, below which the absolute value of a result counts as zero."""
 
 ROUNDINGS = 256.0
-"""If an error is above about ROUNDINGS times the largest error of a probe, rounding cannot cause it.
+"""A result is wrong if its error exceeds about ROUNDINGS times the largest error of a probe.
 
-A probe repeats the step with many digits and with simulated rounding errors.
+A probe is a step with a random rounding error in each operation.
 """
 
 LEAST = 3

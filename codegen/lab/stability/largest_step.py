@@ -32,7 +32,7 @@ class Limit:
     """The largest usable step size ``h``, and the number ``steps`` of steps of size ``h`` in the time span.
 
     ``reason`` explains why longer steps are not usable. If no usable step size is found, ``h`` and ``steps``
-    are None, and ``reason`` explains why.
+    are None, and ``reason`` describes the last failure.
     """
 
     h: float | None
@@ -51,7 +51,7 @@ def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit
     not usable.
     """
     span = compiled.scene.span[1] - compiled.scene.span[0]
-    reason, failing, steps = "the length of the time span; a single step over the whole span is usable", 0, 1
+    reason, failing, steps = "a longer step would exceed the time span", 0, 1
     while (failure := _failure(compiled, runner, exact, steps)) is not None:
         reason, failing, steps = failure, steps, 2 * steps
         if steps > MOST:

@@ -1,4 +1,4 @@
-"""Measures order reduction: the observed order of long steps on stiff variants of a scene.
+"""Measures the observed order of methods on stiff variants of a scene (order reduction).
 
 A stiff variant of a scene has a fast motion with a known rate. In each further run, the step size h is half
 that of the run before. A run is in the stiff regime if the product of h and the rate is above one. The slope

@@ -27,7 +27,7 @@ class Findings:
     """The results of the stability tests that execute steps of the method.
 
     - ``limit``: the largest usable step size.
-    - ``answers``: for each step with extreme input, the verdict on its result.
+    - ``answers``: for each step with extreme input, the error and the verdict.
     - ``stiff``: for each stiff variant of the scene, the errors of the runs and the observed order.
     - ``endurance``: the results of the runs of many steps.
     - ``notes``: for each stiff variant that was not tested, the reason.
@@ -55,7 +55,7 @@ class Stability:
 
     @property
     def wrong(self) -> tuple[Answer, ...]:
-        """The steps with extreme input that have a wrong result.
+        """The entries of ``findings.answers`` with a wrong result.
 
         A result is wrong if rounding errors cannot explain its error.
         """
