@@ -10,7 +10,7 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
-"""The headers and modules that emitted files or their examples include.
+"""Emitted files and their examples use these C headers and Python modules.
 
 An emitted file must not have one of these names.
 """
@@ -37,7 +37,7 @@ def prefix_of(name: str, hint: str = "") -> str:
     """Return ``name`` with exactly one underscore at its end.
 
     InputError is raised if ``name`` is not an identifier that starts with a letter. InputError is also raised
-    if the prefix without the underscore is a Python keyword or in :data:`HEADERS`.
+    if the prefix without the underscore is a Python keyword or a name in :data:`HEADERS`.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(

@@ -1,7 +1,6 @@
 """Compute a sum as the negative of an earlier sum, if possible. A change of sign costs nothing.
 
-The pass is exact. The pass runs last, because other passes multiply factors into sums and would undo the
-change.
+The pass is exact. The pass runs last, because other passes would multiply the factor -1 into the sum again.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ def run(program: Program) -> Program:
     """Return the program in which a sum is computed as the negative of an earlier sum, if possible."""
     outside: dict[Terms, Var] = {}
     body = [
-        # Each block begins with an empty table, so it reads no sums of other blocks.
+        # Each block has its own table of earlier sums.
         replace(s, body=_signed(s.body, {})) if isinstance(s, Solve) else _signed((s,), outside)[0]
         for s in program.body
     ]

@@ -15,16 +15,16 @@ Key = tuple[Operation, tuple[Var, ...]]
 """An operation and all its arguments except the last. The operation is linear in the last argument."""
 
 Share = tuple[tuple[Var, Coefficient], ...]
-"""A linear combination of values L(x_k) of one linear map L, as pairs (value, coefficient).
+"""A linear combination sum_k a_k L(x_k) for one linear map L, as pairs (L(x_k), a_k).
 
-The pairs are sorted by the power of h and then by name, and the first coefficient is one.
+The pairs have a fixed order, and the first a_k is 1.
 """
 
 
 def run(program: Program) -> Program:
     """Return the program with sum_k a_k L(x_k) replaced by L(sum_k a_k x_k). L is a linear map."""
     while True:
-        # The search is repeated, because the new values can form common combinations again.
+        # The search is repeated, because each replacement may allow further replacements.
         wanted = _worthwhile(program)
         if not wanted:
             return program
@@ -52,7 +52,7 @@ def _rule(
         if share not in wanted:
             continue
         members = dict(share)
-        # L(sum_k a_k x_k) is emitted before the first sum that contains it.
+        # Each combination is emitted once, and its value is stored in ``values``.
         if share not in values:
             first = rewriter.definitions[share[0][0]]
             inner = [(c, rewriter.definitions[v].args[-1]) for v, c in share]

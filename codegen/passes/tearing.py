@@ -40,9 +40,9 @@ def run(program: Program) -> Program:
 
 
 def _without(block: Solve, unknown: Var) -> Solve | None:
-    """Return the block with an unknown replaced by its image, or None if the unknown cannot be replaced.
+    """Return the block without ``unknown``, or None if the unknown cannot be removed.
 
-    The image is the right-hand side of the equation of the unknown.
+    The unknown is replaced by its image, the right-hand side of its equation.
     """
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     # A block needs at least one unknown.
@@ -53,7 +53,7 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         return tuple(image if v == unknown else v for v in variables)
 
     body = ordered(tuple(replace(a, args=now(a.args)) for a in block.body))
-    # ``body`` is None if the image depends on the unknown.
+    # ``body`` is None if ``image`` depends on ``unknown``.
     if body is None:
         return None
     kept = [
@@ -71,14 +71,14 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     """
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # ``state[k]`` is False while ``place(k)`` runs, so a nested call of ``place(k)`` finds a cycle.
+    # ``state[k]`` is False while ``place(k)`` runs. In a cycle, a nested call of ``place(k)`` returns False.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:
         if k in state:
             return state[k]
         state[k] = False
-        # If ``body`` is already sorted, all these arguments are already in ``result``.
+        # The assignments that compute the arguments come first.
         if not all(place(maker[a]) for a in body[k].args if a in maker):
             return False
         state[k] = True

@@ -27,7 +27,7 @@ LEVELS = {
 
 @dataclass(frozen=True)
 class Text:
-    """The text of a term and its precedence. A line may break between two segments of the text."""
+    """The text of a term and its precedence. A line can end after each string in ``segments``."""
 
     segments: tuple[str, ...]
     level: int = ATOM

@@ -95,12 +95,12 @@ class Interface:
             precision=precision,
             inputs=kernel.inputs,
             adaptive=kernel.adaptive,
-            # ``kernel.vary`` computes a column of the Jacobian, one output for each row.
+            # The outputs of ``kernel.vary`` are the entries of one column of the Jacobian.
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
             batch=kernel.batch,
             integrated=kernel.observed is not None,
-            # In runs to a given end time, step-size control needs an error estimate.
+            # Runs to a given end time control the step size if there is an error estimate.
             controlled=kernel.observed is not None and kernel.estimate is not None,
             events=0 if kernel.observed is None else kernel.observed.events,
             dense=_order_of_extension(kernel),
@@ -111,7 +111,7 @@ class Interface:
 
     @property
     def format(self) -> Precision:
-        """The floating-point format with the name ``precision``."""
+        """The floating-point format. Its name is ``self.precision``."""
         return precision(self.precision)
 
     @property

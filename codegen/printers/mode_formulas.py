@@ -38,7 +38,7 @@ class ModeFormulas:
     reserved: Collection[str]
 
     def lines(self, kernel: Kernel, **more: str) -> Lines:
-        """Return the formulas of a kernel as text. ``more`` is added to ``names``."""
+        """Return the formulas of a kernel as text. ``more`` extends the dictionary ``self.names``."""
         arranged = arrange(kernel)
         names = {**self.names, **more}
         taken = {*self.reserved, *names.values()}
@@ -51,7 +51,7 @@ class ModeFormulas:
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
             names[statement.name] = own
-        # The loop has added all assigned variables to ``names``.
+        # ``names`` now contains all assigned variables.
         outputs = tuple(" ".join(render(x, names, self.style)) for x in arranged.outputs)
         return Lines(tuple(assignments), outputs)
 

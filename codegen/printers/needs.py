@@ -15,7 +15,7 @@ def functions_of(unit: Unit) -> tuple[str, ...]:
     for function in unit.functions:
         for term in terms(function.body):
             if term.value is not None:
-                # The payload of a function call is the function name.
+                # If ``n`` is a function call, ``n.payload`` is the name of the function.
                 names |= {n.payload for n in walk([term.value]) if n.op == "call"}
         # The module itself defines the functions in ``unit.parts``. The caller of the module supplies the
         # functions in ``LANGUAGE``.

@@ -20,7 +20,7 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return one line with the run-time inputs and the times at which a step evaluates them.
+    """Return a tuple with one line: the run-time inputs and the times of their evaluation.
 
     If the kernel has no inputs, the tuple is empty.
     """

@@ -107,7 +107,7 @@ class Target:
     def solutions(self) -> Solutions:
         """The function that makes one step and returns the solved unknowns of each substep.
 
-        ValueError is raised if the target has no ``observer``.
+        ValueError is raised if ``self.observer`` is empty.
         """
         return cast("Solutions", resolve_name(self.observer))
 

@@ -79,12 +79,12 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     The sample times of a method are, for example, t and t + h/2.
     """
     sequence: list[Statement] = []
-    # Inputs do not depend on the unknowns, so they are evaluated before the first loop.
+    # Run-time inputs are functions of time, so they are evaluated before the first solver loop.
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
         sequence += [Array(values), Call("sample", (inputs, value(sample.time)), (values,))]
-        # An input has different values at different sample times, so each value has its own variable.
+        # Each input has one variable for each sample time.
         sequence += loaded(sample.symbols, values, read)
     return sequence
 

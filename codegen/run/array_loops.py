@@ -124,8 +124,8 @@ class ArrayLoops:
         """Yield the statements that compute the entries of the target in the given rows and columns.
 
         Each entry is the sum of ``factor(row, k) * other(k, column)`` over k = 0, ..., ``inner`` - 1. If
-        ``added`` is True, the sum is added to the old entry. For each k, the statements ``before`` precede
-        the products.
+        ``added`` is True, the sum is added to the old entry. The statements ``before`` are executed once for
+        each k.
         """
         # The sums are scalar variables, so a compiler can keep them in registers.
         totals: list[tuple[Term, Index, Index]] = []
@@ -264,7 +264,7 @@ class ArrayLoops:
                 *(a.target, [_ROW], [_shifted(first, n) for n in range(columns)], a.matrix.rows),
                 lambda row, k: entry,
                 lambda k, column: self.entry(a.matrix, k, column),
-                # The statements ``before`` convert the index _TERM, so they are in the loop over _TERM.
+                # The statements ``before`` can depend on _TERM, so the loop over _TERM contains them.
                 before=before,
             )
 
@@ -427,7 +427,8 @@ def _sign(c: Expr) -> int:
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
     """Return the sum of ``total`` and a product: the coefficient of ``term`` times ``entry``.
 
-    If ``total`` is None, return only the product. If the coefficient is 1 or -1, ``weight`` is None.
+    If ``total`` is None, return only the product. ``weight`` is the emitted coefficient, or None for the
+    coefficients 1 and -1.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

@@ -93,7 +93,7 @@ def _name(move: Move) -> str:
 def _sizes(move: Move) -> tuple[tuple[int, int] | None, ...]:
     """Return the numbers of rows and columns of the matrices of a move.
 
-    The order is ``core``, ``gram``, ``target``, ``start``.
+    The order of the matrices is ``core``, ``gram``, ``target``, ``start``.
     """
     matrices = (move.core, move.gram, move.target, move.start)
     return tuple(None if x is None else (x.rows, x.columns) for x in matrices)
@@ -158,7 +158,7 @@ def _call(move: Move, loops: ArrayLoops) -> Call:
 
 @dataclass
 class _Exponential:
-    """Builds the function that multiplies a matrix exponential by a point (an n x k matrix)."""
+    """Builds the function that multiplies a matrix exponential by an n x k matrix."""
 
     name: str
     move: Move
@@ -169,10 +169,10 @@ class _Exponential:
 
         B is the basis of the step, S is the core, and G = B^T B is the Gram matrix
         (:mod:`codegen.ir.array_step`). Let the n x k matrix X_0 be the state at the beginning of the step.
-        The point X = X_0 + B D is stored as its displacement D.
+        The function stores the displacement D in place of X = X_0 + B D.
 
-        The first k columns of B are X_0. Let C be the sum of D and the first k columns of the unit matrix.
-        Then X = B C. The displacement of the product is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
+        The first k columns of B are X_0. Let C be D with 1 added to each diagonal entry. Then X = B C.
+        The displacement of the product is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
@@ -204,7 +204,7 @@ class _Exponential:
         square, norm, scale = real("square"), real("norm"), real("scale")
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
-        # Only the first m rows and columns of the Gram matrix are multiplied by the m x m core.
+        # ``self.matrix`` is the leading m x m block of the Gram matrix times the core.
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
@@ -269,8 +269,8 @@ class _Exponential:
         terms, order, factor = count("terms"), count("order"), real("ratio")
         first = self.gram.part(0, 0, m, k)
         entry = loops.entry(self.total, _ROW, _COLUMN)
-        # The next statements compute the first m rows of B^T X = B^T X_0 + G D, where X = X_0 + B D and G =
-        # B^T B. The first k columns of B are X_0, so the first k columns of G are B^T X_0.
+        # The current point is X = X_0 + B D. Let G = B^T B. The next statements compute the first m rows of
+        # B^T X = B^T X_0 + G D. The first k columns of B are X_0, so the first k columns of G are B^T X_0.
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
         moved_by = Multiplication(

@@ -67,7 +67,7 @@ During all steps, the states of a block stay in the cache.
 """
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
-"""The names of functions, besides the Stumpff functions, that can be computed without branches."""
+"""These functions can be computed without branches. The same is true for all Stumpff functions."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
 # In a loop over a block of lanes, ``_LANE`` is the index in the block, ``_PLACE`` the index in the batch.
@@ -95,7 +95,7 @@ def functions(plan: Plan) -> list[Function]:
 def obstacle(plan: Plan) -> str:
     """Return '' if one loop can advance all lanes. Otherwise return the reason why this is not possible."""
     kernel = plan.kernel
-    # Equations are solved by iteration.
+    # The loops in ``kernel.loops`` solve equations by iteration.
     if kernel.loops:
         return "the lanes need different numbers of iterations to solve their equations"
     if kernel.deferred is not None or plan.parts or kernel.carried is not None:
@@ -137,7 +137,7 @@ def near(name: str) -> str:
 
 
 def complete(name: str) -> str:
-    """Return the name of the variant of the function ``name`` that accepts every argument.
+    """Return the name of a variant of the function ``name``. The variant accepts every argument.
 
     For arguments near zero, this variant returns the same number as the variant without branches
     (:func:`near`).
@@ -156,7 +156,7 @@ def _entry(array: Term, row: int, place: Term) -> Term:
 def _advance_lanes(plan: Plan) -> Function:
     """Return the emitted function that advances all lanes of a block by one step."""
     stopped, failed = real(_STOPPED, 0), real(_FAILED, 0)
-    # The statements ``before`` have the same results in all lanes, so they are executed once before the loop.
+    # The list ``before`` contains the statements with the same result for all lanes (systems).
     before, inside = _split(plan)
     loaded = [Assign(own(s), _entry(_STATE, k, _PLACE)) for k, s in enumerate(plan.symbols)]
     loaded += [Assign(p, _entry(_PARAMETERS, k, _PLACE)) for k, p in enumerate(plan.parameters)]
@@ -167,8 +167,8 @@ def _advance_lanes(plan: Plan) -> Function:
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
         ]
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # A NaN in a component that the kernel does not read would not appear in the new state, so these
-    # components of the old state are tested, too. The difference x - x is 0 only if x is finite.
+    # The kernel does not read the components in ``unread``, so their old values are tested, too. The
+    # difference x - x is 0 only if x is finite.
     unread = [own(s) for s in plan.symbols if s not in read]
     check = real("check")
     passed = check.equals(number(0.0))
@@ -308,7 +308,7 @@ def _blocks(plan: Plan) -> list[Statement]:
     held = (real(_HELD, len(plan.kernel.inputs)),) if plan.kernel.inputs else ()
     alone = real(_ALONE, plan.size)
     scalar = (alone, *plan.moment(later), *_values(plan), *held)
-    # If the scalar step fails, the lane stops after ``_DONE`` completed steps.
+    # If the scalar step fails, the lane (one system) stops after ``_DONE`` completed steps.
     stop: tuple[Statement, ...] = (
         Assign(statuses[_PLACE], STATUS),
         Assign(ended[_PLACE], _DONE),

@@ -1,4 +1,4 @@
-"""Find out whether the step size or the state is the cause if the result of a step is not finite.
+"""Find out why the result of a step is not finite: the step size or the state.
 
 After a failed step, the emitted function ``cause`` tries a step of size zero from the state before the failed
 step. If the step of size zero has a finite result, the failed step was too long, and the status is TOO_FAR.

@@ -48,12 +48,12 @@ LARGEST_FACTOR = 4.0
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
     """Return a list with the statement that calls the continuation if a step fails.
 
-    If steps have no warm start, the list is empty.
+    Failed steps without a warm start are not repeated: the list is empty.
     """
     # Steps without a warm start store no solutions.
     if plan.start is None:
         return []
-    # If the step size is infinite or a NaN (status BAD_STEP), a shorter step cannot succeed.
+    # The status BAD_STEP means that h is infinite or a NaN. Such a step is not repeated.
     failed = both(STATUS.differs(code(OK)), STATUS.differs(code(BAD_STEP)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
@@ -88,10 +88,9 @@ class _Continuation:
         """Return the emitted function that repeats a failed step."""
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
-        # The continuation stores its solution in ``memory``, because this solution is the initial guess of
-        # the next step.
+        # The solution is stored in ``memory`` as the initial guess of the next step.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
-        # A step of size zero leaves the state unchanged.
+        # A step of size zero succeeds if the state is finite.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
         # The loop ends if ``factor`` is near 1, because the step size would hardly grow.
         going_on = both(
@@ -114,8 +113,8 @@ class _Continuation:
             If(negated(self.done), (Return(self.cause()),)),
             # The state is changed only here, after an attempt with the full step size h has succeeded.
             Assign(state, self.trial),
-            # A polynomial through solutions of steps of different lengths would be a bad initial guess. With
-            # ``known`` = 1, the next step uses only the last solution.
+            # Extrapolation from steps of different lengths would be inaccurate. With ``known`` = 1, the
+            # next step uses only the last solution.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
@@ -168,11 +167,11 @@ class _Continuation:
         ]
 
     def adapted(self) -> list[Statement]:
-        """Return the statements that end the loop of attempts or choose the next fraction of h."""
+        """Return the statements after an attempt. They end the loop or choose the next step size."""
         plan, factor, part, solved = self.plan, self.factor, self.part, self.solved
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
-        # A successful attempt has stored its solution in row ``place`` of the memory.
+        # After a successful attempt, ``latest`` is its solution.
         latest = values[plan.memory.field("place", Kind.COUNT)]
         # A success squares ``factor``. Failures before the first success do not change ``factor``. Each later
         # failure replaces ``factor`` by its square root.
@@ -185,7 +184,7 @@ class _Continuation:
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
             # Before the first success, ``solved`` is 0, and each failure halves ``part``.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
-            # The fraction 1 is the full step.
+            # The next step size ``part`` * h must not exceed h.
             Assign(part, select(part < 1.0, part, 1.0)),
         )
         return [

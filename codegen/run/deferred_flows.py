@@ -162,12 +162,12 @@ class _Deferring:
         return Function("step", "", parameters, body, Kind.STATUS, public=True)
 
     def complete_step(self) -> Function:
-        """Return the function that makes one step and defers no flow."""
+        """Return the function that makes one step and applies all its flows."""
         plan, state, deferred = self.plan, self.plan.state(), self.deferred
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
-            # In a complete step, the duration of the last flow is ``last`` times h.
+            # The duration of the last flow is ``last`` times h.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -189,7 +189,7 @@ class _Deferring:
         )
 
     def run(self) -> Function:
-        """Return the public function for a run."""
+        """Return the emitted function ``run``."""
         plan, state = self.plan, self.plan.state()
         # A run of zero steps does not change the state, so it tests neither the step size nor the state.
         bad_step = both(STEPS > 0, negated(is_finite(STEP)))
@@ -197,7 +197,7 @@ class _Deferring:
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
-            # If a step fails, ``asked`` becomes the number of successful steps.
+            # A failure reduces ``asked`` to the number of successful steps.
             Assign(self.asked, STEPS),
             If(bad_step, (Assign(STATUS, code(BAD_STEP)), Assign(self.asked, whole(0)))),
             If(bad_state, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, whole(0)))),
@@ -205,8 +205,8 @@ class _Deferring:
             Array(self.complete),
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
-            # If the first attempt fails, the second attempt defers no flows and finds the failing step. The
-            # third attempt ends before the failing step.
+            # If the first attempt fails, the second attempt tests the state after every step. The third
+            # attempt makes only the successful steps.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
             # The failed step begins at the time ``t`` + ``asked`` * ``h``.
@@ -233,7 +233,7 @@ class _Deferring:
             *begun,
             *Rows(self.plan).begin(state),
             Assign(self.moving, state),
-            # ``complete`` is the last state that was complete and finite.
+            # ``complete`` is the last finite state without deferred flows.
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
@@ -277,6 +277,6 @@ class _Deferring:
             Assign(self.good, all_finite(self.moving)),
             If(self.good, taken),
         ]
-        # A state with deferred flows is incomplete and is not tested.
+        # Only a state without deferred flows is tested for infinities and NaNs.
         sequence += [If(self.stop, tuple(ended)), If(self.good, (Assign(DONE, DONE + 1),))]
         return tuple(sequence)

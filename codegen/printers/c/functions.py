@@ -41,7 +41,7 @@ from codegen.run.writes import written
 from codegen.snippets.graph import LIBRARY
 
 MANY = 20
-"""The largest number of consecutive short statements that are printed on separate lines."""
+"""More than ``MANY`` consecutive short statements share lines."""
 
 ONE_TEST = "All values x are finite if their sum is finite, or if all differences x - x are 0."
 
@@ -109,7 +109,7 @@ class FunctionPrinter:
             size = f"[{promised}{parameter.shape[0]}]" if parameter.shape else ""
             return f"{const}{of} {name}{size}" if size else f"{const}{of} *{name}"
         kind = self.type_of(parameter.kind)
-        # Scalars are passed by value, so callers do not need ``const``.
+        # A scalar is passed by value and needs no ``const``.
         if not parameter.shape:
             return f"{kind} {name}"
         # An optional array is declared as a pointer without a size, because the caller may pass NULL.
@@ -431,7 +431,7 @@ class _Body:
             yield from fill("event(", _arguments(given), ";", separator="")
             return
         if name == "sample":
-            # ``given[0]`` is the text ``input, context``. The emitted call is ``input(..., context)``.
+            # ``given[0]`` is two names: ``input, context``. The emitted call is ``input(..., context)``.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
@@ -454,7 +454,7 @@ class _Body:
         yield from fill(start, _arguments(given), ";", separator="")
 
     def packed_call(self, start: str, name: str, given: Sequence[str]) -> Iterator[str]:
-        """Yield the lines of a call of a function that receives scalars in one array."""
+        """Yield the lines of a call. The called function receives its scalars in one array."""
         together = self.printer.packed[name]
         parameters = next(f.parameters for f in self.printer.unit.functions if f.name == name)
         values = [x for p, x in zip(parameters, given, strict=False) if p in together]

@@ -12,7 +12,7 @@ SIDES = {1: 1000, 2: 64, 3: 16}
 
 
 def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of an example program. The initial state of the lattice is equal at all sites."""
+    """Return the lines of an example program. Initially, all sites have the same state."""
     real, prefix, n = interface.format, interface.prefix, interface.dimension
     # printf would convert float to double implicitly, and -Wdouble-promotion would warn.
     wide = "" if real is DOUBLE else "(double)"

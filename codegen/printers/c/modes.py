@@ -130,7 +130,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 def _local(step: ModeStep) -> set[str]:
-    """Return which of ``symbol``, ``initial`` and ``formulas`` depend on the wave number or position x."""
+    """Return the names of the kernels that depend on the position x or on the wave number."""
     kernels = {
         "symbol": (step.symbol, step.wave),
         "initial": (step.initial, step.space),

@@ -39,15 +39,13 @@ FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-
 
 # On x86-64 without AVX-512, gcc 12 needs -fno-trapping-math to vectorise ``a ? b : c``.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
-"""Flags for modules that loop over the systems of a batch, lattice sites or Fourier modes.
+"""Flags for modules with loops over lattice sites, Fourier modes, or the systems of a batch.
 
 These flags are added to :data:`FLAGS` and do not change the results.
 """
 
 FRAMES = 640
-"""The part of the stack bound (:func:`stack`) for return addresses, saved registers and calls of helper
-functions, in bytes.
-"""
+"""The assumed stack memory of return addresses, saved registers and calls of helper functions, in bytes."""
 
 EACH, EACH_SOLVING = 8, 10
 """The assumed stack memory of one number (a variable or an array entry), in bytes.
@@ -81,7 +79,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         # Stumpff functions are inline in implicit steps, because solvers call them often.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
-        # Arrays of variable size are optional in C11, so the arrays in ``invert`` have ``widest`` entries.
+        # ``widest`` is the size of the largest matrix that a step inverts.
         widest=max(inverted_sizes(kernel), default=0),
         chain=chain(kernel),
         prefix=interface.prefix,
@@ -203,7 +201,7 @@ def _forms(unit: Unit) -> set[str]:
 def inverted_sizes(kernel: Kernel) -> set[int]:
     """Return the sizes of the matrices that a step inverts by elimination."""
     blocks = () if kernel.sites is None else kernel.sites.blocks
-    # On a one-dimensional lattice (a chain of sites), Newton's method inverts one small matrix for each site.
+    # A chain is a one-dimensional lattice. Newton's method inverts a small matrix for each site of a chain.
     chains = {block.newton.size for block in blocks if block.newton is not None}
     loops = [loop for loop in kernel.loops if loop.newton is not None and not loop.newton.inverted]
     return {len(loop.unknowns) for loop in loops} | chains
@@ -314,7 +312,7 @@ def prototypes(interface: Interface) -> str:
 def _integrate(interface: Interface, passed: str, statistics: str) -> str:
     """Return the declaration of the function ``integrate``, or an empty text if the module does not have it.
 
-    ``passed`` and ``statistics`` declare the arguments for parameters and inputs, and for solver statistics.
+    ``passed`` declares the parameters and inputs. ``statistics`` declares the solver statistics.
     """
     if not interface.integrated:
         return ""
@@ -339,7 +337,7 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
 
 
 def example_input(interface: Interface) -> list[str]:
-    """Return the lines of a C function that sets all run-time inputs to zero in the usage example."""
+    """Return a C function for the usage example, as lines. The function sets all run-time inputs to zero."""
     real, several = interface.format, len(interface.inputs)
     return [
         f"static void constant({real.c_type} t, {real.c_type} inputs[{several}], void *context)",

@@ -48,8 +48,8 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
         # The prefix prevents a name clash of helper functions from two modules in one file.
         if name not in LIBRARY:
             return prefix + name
-        # ``isfinite`` is a macro for all number formats. In single precision, other names need the suffix,
-        # because ``sqrt`` would compute in double.
+        # ``isfinite`` is a macro for all number formats. In single precision, other names get a suffix, as in
+        # ``sqrtf``.
         return name + precision.suffix if name != "isfinite" else name
 
     return Style(lambda value: literal(precision, precision.round(value)), called)
@@ -90,7 +90,7 @@ class Terms(Infix):
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return the texts of two tests. All values are finite if and only if at least one test is true."""
+        """Return the texts of two tests. Each test is true only if all values are finite."""
         # The first test is fast, but it may fail for finite values, because their sum may overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         # The second test has no overflow: it adds the differences x - x. For an infinity or a NaN, x - x is a
@@ -157,7 +157,7 @@ class Terms(Infix):
         """Return the text of an access: an array entry, a part of an array, or a field of a record."""
         base = term.args[0]
         if term.op == "field":
-            # A record that is a parameter is a pointer, so its fields need ``->``.
+            # A record parameter is passed as a pointer, so its fields need ``->``.
             arrow = "->" if base.op == "name" and self.identifiers.of(base) in self.pointers else "."
             return Text((f"{self.line(base)}{arrow}{term.text}",))
         if term.op == "part":

@@ -60,14 +60,14 @@ def fill(
     """Return a statement (``start``, then the segments, then ``end``) as lines.
 
     ``separator`` is the text between ``start`` and the first segment. ``width`` limits the length of a line
-    after the caller has indented it.
+    plus 8 characters of indentation.
 
     >>> fill("x =", ("a", "+ b", "+ c"), ";", width=18)
     ['x = a + b', '    + c;']
     """
     lines = [start]
     for position, segment in enumerate(segments):
-        # ``end`` is on the line of the last segment, so this line must have space for both.
+        # The line with the last segment must also have space for ``end``.
         tail = end if position == len(segments) - 1 else ""
         # The caller indents the lines later, so 8 characters of the width stay free.
         if position and len(lines[-1]) + 1 + len(segment) + len(tail) > width - 8:
@@ -80,7 +80,7 @@ def fill(
 def together(statements: Sequence[str], width: int = WIDTH) -> list[str]:
     """Return the statements as lines, with as many statements on each line as fit.
 
-    ``width`` limits the length of a line after the caller has indented it.
+    ``width`` limits the length of a line plus 8 characters of indentation.
 
     >>> together(["a = 1;", "b = 2;", "c = 3;"], width=22)
     ['a = 1; b = 2;', 'c = 3;']

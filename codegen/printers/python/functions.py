@@ -3,7 +3,7 @@
 The printed functions change lists in place.
 
 Python raises an arithmetic error where C computes an infinity or a NaN. A guard is a ``try`` statement that
-catches this error in a printed function. The result of the function is then a status code or NaNs.
+catches this error in a printed function. After an error, the result of the function is a status code or NaNs.
 """
 
 from __future__ import annotations
@@ -314,7 +314,7 @@ class _Body:
 
 def _entry(term: Term) -> int | None:
     """Return the constant index of a scalar entry of a list, or None for other terms."""
-    # With a variable index, consecutive entries cannot be recognised.
+    # The value of a variable index is not known here.
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None
     return int(term.args[1].number)

@@ -66,8 +66,8 @@ class _Module:
     @cached_property
     def identifiers(self) -> dict[str, Identifiers]:
         """A map from the name of each function to the identifiers in this function."""
-        # The printer puts an underscore before the name of each function. Variables must not have the
-        # resulting names.
+        # The printer puts an underscore before the name of each function. Variables must not have the names
+        # in ``underscored``.
         underscored = {f"_{f.name}" for f in self.unit.functions}
         classes = {class_of(record) for record in self.unit.records}
         own = INTEGRATION if self.interface.integrated else frozenset[str]()
@@ -126,7 +126,7 @@ class _Module:
         plain |= self.called & {"nan", "copysign"}
         if not self.single:
             return sorted(names | plain), []
-        # For a float32 argument, NumPy's functions return float32. The functions of ``math`` return doubles.
+        # Single precision needs NumPy's functions, because the functions of ``math`` return doubles.
         return sorted(plain), ["errstate", "float32", *sorted(names - {"isfinite"})]
 
     def parts(self) -> list[list[str]]:
@@ -144,8 +144,8 @@ class _Module:
         If the recipe has default values for all parameters, the argument list contains these values.
         """
         known = self.recipe.defaults
-        # Python allows no parameter without a default after one with a default. Therefore all parameters get
-        # defaults, or none does.
+        # In Python, parameters with default values must come last. Therefore all parameters get defaults, or
+        # none does.
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
         pairs = zip(self.interface.parameters, self.parameters, strict=True)

@@ -142,7 +142,7 @@ class Terms(Infix):
         return Text((*first, *closed("if ", joined(condition), ""), *closed("else ", last, "")), CHOICE)
 
     def called(self, term: Term) -> tuple[str, ...]:
-        """Return the text, in segments, of a call of a library function."""
+        """Return the call of a library function, split into the segments of a :class:`Text`."""
         given = [self.line(x) for x in term.args]
         # Python has no function for the largest absolute value, so two functions are combined.
         if term.text == "largest":
