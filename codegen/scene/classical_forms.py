@@ -28,7 +28,7 @@ from codegen.scene.problem import TIME, Problem, StateField
 from codegen.scene.values import Bindings
 
 PRINTED = "printed"
-"""The key (:attr:`ClassicalForm.key`) of the classical form in the coordinates of the scene."""
+"""The key (:attr:`ClassicalForm.key`) of the form that uses the coordinates of the scene."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class ClassicalForm:
 
     @property
     def printed(self) -> bool:
-        """True if the form contains the equations of the scene in the coordinates of the scene."""
+        """True if the form uses the coordinates of the scene."""
         return self.key == PRINTED
 
     def scene_state(self, domain: Domain, state: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -96,7 +96,7 @@ def find_form(problem: Problem, key: str) -> ClassicalForm:
 
 
 def operations(roots: Sequence[Expr]) -> int:
-    """Return the number of operations of straight-line code for the formulas ``roots``.
+    """Return the number of operations in the formulas ``roots``. A common subexpression counts once.
 
     >>> from codegen.ir.expr import Space
     >>> x, y = map(Space().sym, "xx")
@@ -119,7 +119,7 @@ def _changes(problem: Problem) -> Iterator[_Change]:
 
 @dataclass(frozen=True)
 class _Leaf:
-    """A factor of the group that is not itself a product of groups, with its coordinates.
+    """A factor of the group, with its coordinates. The factor is not a product of groups.
 
     ``symbols`` are the coordinates of the factor in the scene. ``own`` are the coordinates of the factor in
     the classical form. ``at`` is the index of the first component of the factor in a vector of the Lie
@@ -232,7 +232,7 @@ class _Change:
 
     @cached_property
     def momenta(self) -> tuple[str, ...]:
-        """The symbols of the momentum in the classical form. A field scene has no momentum."""
+        """The symbols of the momentum in the classical form."""
         if not self.problem.paired:
             return ()
         taken = {s for leaf in self.leaves for s in leaf.own}
@@ -282,7 +282,7 @@ class _Change:
         return short if self.covered else f"body-{short}"
 
     def name(self) -> str:
-        """Return the name of the form: the frame of the velocity or momentum, and the coordinates."""
+        """Return a name that states the coordinates and the frame of the velocity or momentum."""
         nouns = [leaf.noun for leaf in self.leaves if not leaf.group.abelian]
         frame = "body" if self.body else "space"
         what = "momentum" if self.problem.paired else "velocity"
@@ -366,9 +366,10 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of the factor ``leaf`` in the body frame. ``roots`` are in the space frame.
+        """Return the velocity of the factor ``leaf`` in the body frame.
 
-        If the factor has no left translations, return the velocity in the space frame.
+        ``roots`` contains the velocities of all factors in the space frame. If the factor has no left
+        translations, return the velocity in the space frame.
         """
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])
         group = leaf.group.offers(LeftTranslation)

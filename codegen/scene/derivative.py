@@ -26,7 +26,7 @@ class Dx(sympy.Function):  # type: ignore[misc]
     def eval(cls, formula: sympy.Expr, order: object = 1) -> Any:
         """Return the simplified derivative, or None if SymPy must keep ``Dx(formula, order)`` as it is.
 
-        The derivative of Dx(u, m) is Dx(u, m + order).
+        For example, Dx(Dx(u, 2), 1) is Dx(u, 3).
         """
         number = next((m for m in range(1, MOST_DERIVATIVES + 1) if m == order), 0)
         if not number:

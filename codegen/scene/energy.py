@@ -4,8 +4,8 @@ the discrete gradient (secant), and the bivector (section 2.6 of H. Marthinsen's
 Let gamma be the trivialised differential of the energy H (:func:`differential`). The bivector omega is a skew
 bilinear form on the dual g* of the Lie algebra g. A field that preserves H has the form x' = f(x).x with
 f = omega(gamma, .). For Hamilton's equations on T*G, omega is the canonical bivector. For all other
-equations, omega is (gamma wedge f)/|gamma|^2. This formula identifies gamma with the element of g that
-has the same coordinates. The formula requires that f is zero wherever gamma is zero.
+equations, f is given, and omega is (gamma wedge f)/|gamma|^2. This formula identifies gamma with the element
+of g that has the same coordinates. The formula requires that f is zero wherever gamma is zero.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from codegen.scene.sites import Sites
 
 ENERGY = "energy"
-"""The name of the invariant that is the energy of a problem without a Hamiltonian."""
+"""If a problem has no Hamiltonian, its energy is the invariant with this name."""
 
 OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 """The names of the operations that :func:`apply` evaluates."""
@@ -58,7 +58,7 @@ class Conservative(Protocol):
 
     @property
     def sites(self) -> Sites | None:
-        """The lattice if the problem is the equation of one lattice site, otherwise None."""
+        """The lattice of a problem for one lattice site. None for other problems."""
 
     @property
     def symbols(self) -> tuple[str, ...]:

@@ -70,8 +70,9 @@ class Evolution:
     ) -> Vector[S]:
         """Convert the coordinates ``moved`` after a step to a state, and project the state onto the manifold.
 
-        ``y`` is the state before the step. Pass the group of q as ``frame`` if and only if y and the result
-        contain the momentum in the body frame.
+        - ``y``: the state before the step.
+        - ``frame``: the group of q if y and the result contain the momentum in the body frame, otherwise
+          None.
         """
         z = self._completed(domain, moved)
         if self.body is None:
@@ -116,7 +117,7 @@ class Evolution:
         return self.recurrence(domain, start, t, scale).extend(degree)
 
     def recurrence(self, domain: Domain, start: Sequence[S], t: S | None, scale: S) -> Recurrence:
-        """Return the recurrence for the Taylor coefficients (:meth:`coefficients`)."""
+        """Return the recurrence that computes the result of :meth:`coefficients`."""
         inner = self.inner
         values = inner.values(domain, start, t)
         return Recurrence(inner.roots, domain, inner.symbols, start, values, scale)
@@ -133,7 +134,7 @@ class Evolution:
         return tuple(y[: self.body.size]), tuple(y[self.body.size :])
 
     def _completed(self, domain: Domain, moved: Vector[S]) -> Vector[S]:
-        """Return the coordinates ``moved``, completed by the omitted coordinates of q."""
+        """Insert the coordinates with the indices ``missing`` into ``moved``, and return the result."""
         if not self.missing:
             return moved
         group, own = _of_element(self.outer.group), iter(moved)
@@ -168,7 +169,7 @@ def evolution(scene: Problem) -> Evolution:
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:
         forms.append(_flat(scene, outer, group, _in_body(scene, group)))
-    # The form in the coordinates of the scene is listed first, because min returns the first minimum.
+    # If several forms have the smallest number of products, min returns the first of these forms.
     return min((each for form in forms for each in (form, *_shorter(form))), key=lambda e: e.products())
 
 

@@ -142,7 +142,7 @@ class Motion(Figure):
     - ``bars``: a map from the label of each bar to the two ends of the bar.
     - ``trace``: a point whose path is shown.
     - ``fixed``: a map from labels to points that do not move.
-    - ``stills``: the number of equally spaced times at which the figure also shows still images of the bars.
+    - ``stills``: the number of additional still images of the bars, at equally spaced times.
     - ``seconds``: the duration of one cycle of the animation.
     - ``direction``: the direction from the origin to the viewer, as (azimuth, elevation) in degrees.
 
@@ -183,8 +183,8 @@ class TorusCurves(Figure):
 class TimeSeries(Figure):
     """Quantities, plotted against time, with one panel for each run.
 
-    The reference curve is the first quantity along the run ``reference``. If ``difference`` is True, the
-    reference curve is subtracted from all quantities. ``window`` is the interval of time that is shown.
+    The reference curve is the first of ``quantities`` in the run ``reference``. If ``difference`` is True,
+    the reference curve is subtracted from all quantities. ``window`` is the interval of time that is shown.
     """
 
     quantities: Mapping[str, Quantity] = field(default_factory=dict)

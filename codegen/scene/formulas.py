@@ -26,7 +26,7 @@ RESERVED = {
 
 
 class Reader:
-    """Converts the formulas of one scene to expressions, and records their parameters and signals."""
+    """Converts the formulas of a scene to expressions. Records their parameters and functions of time."""
 
     def __init__(self, name: str, coordinates: Sequence[sympy.Symbol]) -> None:
         self.name = name
@@ -69,7 +69,7 @@ class Reader:
             raise self._taken(f"the parameter {symbol.name} has two default values")
 
     def _admit_signal(self, symbol: Signal) -> None:
-        """Record the formula of a signal, which may contain only the time and parameters."""
+        """Record the formula of a signal. The formula may contain only the time and parameters."""
         self._allow(symbol.name)
         what = f"signal {symbol.name}"
         for inner in _free_symbols(symbol.formula):
@@ -152,7 +152,7 @@ class Reader:
 
 def _flat(formulas: Iterable[sympy.Expr]) -> Iterator[sympy.Expr]:
     """Yield the entries of a matrix row by row."""
-    # A matrix of sympy yields its entries, but an array of NumPy and a list of rows yield rows.
+    # Iteration over a sympy matrix yields entries. Iteration over a NumPy array or nested list yields rows.
     for entry in formulas:
         if isinstance(entry, list | tuple) or getattr(entry, "ndim", 0) > 0:
             yield from _flat(entry)

@@ -163,7 +163,7 @@ class _CanonicalSystem:
         parts: Mapping[str, sympy.Expr],
         wrench: Column | None,
     ) -> _CanonicalSystem:
-        """Read H, its parts and the wrench, and compute xi and n by differentiation of H."""
+        """Read H, its parts and the wrench. Compute the velocity and the force from the gradient of H."""
         hamiltonian = reader.scalar(H, "H")
         summands = {key: reader.scalar(part, f"part {key}") for key, part in parts.items()}
         qs, mus = tuple(s.name for s in q), tuple(s.name for s in mu)
@@ -194,7 +194,7 @@ class _CanonicalSystem:
         return known | {key: self.reader.scalar(x, f"invariant {key}") for key, x in declared.items()}
 
     def derived(self, key: str, column: Column) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-        """Return two tuples of components: the formulas in ``column``, and the formulas computed from H.
+        """Return two tuples of formulas: the entries of ``column``, and the same entries computed from H.
 
         ``key`` is "xi" or "n".
         """

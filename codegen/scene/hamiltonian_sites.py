@@ -61,7 +61,7 @@ def HamiltonianSiteScene(
     - ``boundary``: "periodic" or "open".
     - ``outside``: the group element that replaces q of a missing neighbour at an open boundary. Give a column
       of ``group.size`` formulas in q, t and parameters, or a mapping from offsets to columns. For a
-      free end, the element must give zero force; often ``q`` does.
+      free end, choose an element that gives zero force, often ``q`` itself.
     - ``parts``: named summands of ``H``.
 
     :class:`SceneError` is raised for the errors that :func:`codegen.scene.HamiltonianScene` and

@@ -66,7 +66,7 @@ def without_momentum_rate(problem: Problem) -> Problem:
 def _hamiltonian(problem: Problem) -> Expr:
     """Return the Hamiltonian of a linear problem.
 
-    SceneError is raised for a problem that is not Hamiltonian, and for a constant matrix A.
+    SceneError is raised if the Hamiltonian does not exist or does not depend on time.
     """
     refusal = f"the linear problem {problem.name} has no momentum u conjugate to the time"
     if not problem.roots:
@@ -87,7 +87,7 @@ def _hamiltonian(problem: Problem) -> Expr:
     hamiltonian = _constant(space, Fraction(1, 2)) * total
     slopes = gradient(hamiltonian, symbols)
     normal = NormalForms(space)
-    # The matrix A(t) is in sp(2n) if and only if Hamilton's equations q' = dH/dp and p' = -dH/dq hold.
+    # If A(t) is not in sp(2n), y' = A(t).y differs from Hamilton's equations for ``hamiltonian``.
     canonical = (*slopes[n:], *(-s for s in slopes[:n]))
     if not all(normal(a - b).is_zero for a, b in zip(rates, canonical, strict=True)):
         raise SceneError(

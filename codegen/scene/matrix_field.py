@@ -33,7 +33,7 @@ class MatrixField:
         return self.program.argument.columns
 
     def reads(self, symbol: str) -> bool:
-        """Return True if a scalar coefficient of V or an entry of a matrix in V contains ``symbol``."""
+        """Return True if the scalar ``symbol`` occurs in the formula of V(X)."""
         nodes = walk(self.program.expressions())
         return any(node.op == "sym" and node.payload == symbol for node in nodes)
 

@@ -264,7 +264,7 @@ class _Compiler:
         """
         assert factor.constant is not None
         constant = self.constant(factor.constant)
-        # Z C^T is computed in place of C Z^T, because the statement Apply cannot transpose the array Z.
+        # The product C Z^T is stored as its transpose Z C^T, because the statement Apply cannot transpose Z.
         transposed = factor.transposed is not other.transposed
         right = from_right is not other.transposed
         rows = other.rows if from_right else factor.rows
@@ -330,9 +330,10 @@ def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
 
 
 def _cost(left: tuple[_Factor, ...], right: tuple[_Factor, ...]) -> float:
-    """Return the number of scalar multiplications for (product of ``left``) times (product of ``right``).
+    """Return the number of scalar multiplications for the product of two matrices.
 
-    Return infinity if both matrices are constant, because the program does not multiply constant matrices.
+    ``left`` and ``right`` contain the factors of the two matrices. The result is infinity for two constant
+    matrices, to exclude their product.
     """
     rows, inner, columns = left[0].rows, right[0].rows, right[-1].columns
     first, second = (side[0].constant if len(side) == 1 else None for side in (left, right))
@@ -398,7 +399,7 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
 
 
 def _entry(reader: Reader, given: EntryFormula, indices: tuple[object, ...], size: int, what: str) -> Entry:
-    """Return the entries of a matrix, or of a diagonal, as a formula in the indices or as a tuple of numbers.
+    """Return the entries of a matrix or diagonal: a formula in the indices, or a tuple of numbers.
 
     SceneError is raised if a list ``given`` does not contain ``size`` rational numbers.
     """

@@ -232,7 +232,7 @@ class Commutator(Binary):
 
 @dataclass(frozen=True)
 class Unary(MatrixFormula):
-    """A formula with one operand: the formula ``of``."""
+    """A formula with one operand. The attribute ``of`` is the operand."""
 
     of: MatrixFormula
 
@@ -278,7 +278,7 @@ class Projected(Unary):
 
     @property
     def place(self) -> Place:
-        """The type is ALGEBRA, because the projection of a matrix is in the Lie algebra."""
+        """ALGEBRA, because the value of this formula is in the Lie algebra."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -309,7 +309,7 @@ class Exponential(Unary):
     def closed_forms(self) -> Iterator[MatrixFormula]:
         """Yield the exponentials and logarithms in this formula that are computed by closed forms.
 
-        The exponential of an algebra element needs no closed form, because the group computes it.
+        Exponentials of elements of the Lie algebra are omitted, because the group computes them.
         """
         if self.of.place is not Place.ALGEBRA:
             yield self
@@ -390,7 +390,7 @@ class MatrixStep:
 
     @property
     def canonical(self) -> bool:
-        """True if the type of the formula is GROUP. The matrix M is then an element of the group."""
+        """True if the type of the formula is GROUP. The value of the formula is then in the group."""
         return self.formula.place is Place.GROUP
 
 

@@ -1,4 +1,4 @@
-"""Two tests of the orbit of the initial state: Is the orbit open? Does the action project onto the orbit?
+"""Two tests of the orbit of the initial state: Is the orbit open? Is the projection of a point on the orbit?
 
 The projection is :meth:`Action.to_orbit`. An open orbit needs no projection, because all points near a point
 of the orbit are on the orbit.

@@ -41,7 +41,7 @@ class Signal(sympy.Symbol):  # type: ignore[misc]
     __slots__ = ("formula",)
 
     def __new__(cls, name: str, formula: sympy.Expr) -> Signal:
-        """Return a new symbol with the default ``formula``."""
+        """Return a new real symbol. Its default formula is ``formula``."""
         symbol: Signal = sympy.Symbol.__xnew__(cls, name, real=True)
         symbol.formula = formula
         return symbol

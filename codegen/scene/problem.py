@@ -135,8 +135,7 @@ class Problem:
     def autonomous(self) -> bool:
         """True if the field depends neither on the time nor on signals that are read at run time.
 
-        If a lattice has an open boundary, the given states outside the lattice must not depend on the time
-        either.
+        The value is also False if a formula in ``sites.outside`` depends on the time.
         """
         if self.matrices is not None:
             return not self.matrices.reads(TIME)
@@ -305,7 +304,7 @@ class Problem:
         return tuple(evaluate(roots, domain, self.values(domain, (*q, *P), *time)))
 
     def _field(self, domain: Domain, args: Values) -> Values:
-        """Return the pair (xi, n) if the state is (q, mu), otherwise f (:class:`Problem`).
+        """Return the field (:class:`Problem`): the pair (xi, n) if the state is (q, mu), otherwise f.
 
         ``args`` contains the blocks of the state, and optionally the time, which is 0 by default.
         """

@@ -82,7 +82,7 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
     """Raise SceneError if the parts of the field violate one of the following conditions.
 
     - No part depends on time.
-    - The axis of each pair is an axis of the lattice.
+    - Each :class:`Pair` couples neighbours along an axis of the lattice.
     - The generators of each part are constant along the flow of this part.
     - The velocities of all parts add up to the velocity of the field.
     """
@@ -127,8 +127,8 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
                     f"generator {k} of the part {part.name} is not constant along the flow of the part",
                     where=scene.name,
                     expected="generators f(y) for which the exact flow over a time tau is exp(tau f(y)).y",
-                    hint="split the part, or write the same velocity with other generators; for spins S "
-                    "and S' with the coupling J, write J (S + S') in place of J S'",
+                    hint="split the part, or use other generators for the same velocity; for two spins S "
+                    "and S', an example is J (S + S') x S = J S' x S",
                 )
 
 
@@ -207,7 +207,7 @@ def _summed(
 ) -> list[mpmath.mpf]:
     """Return the velocity of a site as the sum of the velocities of all parts.
 
-    ``states`` contains only the neighbours that exist.
+    ``states`` contains the states of the neighbours inside the lattice.
     """
     total = [orbit.domain.rational(0)] * len(scene.symbols)
     own = tuple(point[s] for s in scene.symbols)

@@ -165,7 +165,7 @@ def with_frozen_neighbours(scene: Problem) -> Problem:
     start = [Fraction(float(x)).limit_denominator(1000) for x in scene.initial(FloatDomain(0.0))]
     values = dict(scene.parameters)
     for number, column in enumerate(sites.symbols, 1):
-        # All states differ, because a formula with the difference of two equal states could be singular.
+        # The states of all neighbours differ, because a formula may be singular for equal states.
         shifted = [x + Fraction((7 * k + 3 * number) % 11 - 5, 97) for k, x in enumerate(start)]
         values |= {
             s: Number.rational(x.numerator, x.denominator) for s, x in zip(column, shifted, strict=True)
@@ -205,7 +205,7 @@ def outside_states(
     outside: Sequence[sympy.Expr] | Outside | None,
     offsets: tuple[Offset, ...],
 ) -> tuple[tuple[Expr, ...], ...]:
-    """Return a column of formulas for each offset: the state that replaces a missing neighbour.
+    """For each offset, return the formulas of the state that replaces a missing neighbour.
 
     For a periodic lattice, return (), or raise SceneError if ``outside`` is given. SceneError is also raised
     if an open lattice has no column for an offset, or has a column for an offset that the field does not
@@ -216,7 +216,7 @@ def outside_states(
     if boundary == PERIODIC:
         if outside is not None:
             raise SceneError(
-                'the argument "outside" for a periodic lattice, which has no boundary',
+                'the argument "outside" is not allowed for a periodic lattice',
                 where=reader.name,
                 expected=f'boundary="{OPEN}", or a scene without the argument "outside"',
             )

@@ -50,7 +50,7 @@ def offset_of(symbol: str, coordinates: Collection[str]) -> Offset | None:
 
 
 def neighbour(y: Iterable[sympy.Symbol], offset: Sequence[int]) -> sympy.Matrix:
-    """Return a column with the coordinates of a neighbour of the site with the coordinates ``y``.
+    """Return a column of symbols for the state of a neighbour. ``y`` contains the symbols of one site.
 
     ``offset`` is the position of the neighbour relative to the site: one integer for each dimension of the
     lattice. :class:`SceneError` is raised in four cases:
@@ -95,7 +95,7 @@ class SitePart:
 
     If the part acts on single sites, ``roots`` contains the generators of one site. If the part couples two
     neighbours along ``axis``, ``roots`` contains the generators of the first site and then those of the
-    second. ``symbols`` contains the names of the coordinates of the second site.
+    second. In this case, ``symbols`` contains the names of the coordinates of the second site.
     """
 
     name: str

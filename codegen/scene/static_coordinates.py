@@ -1,4 +1,4 @@
-"""Static coordinates: coordinates of the state that do not change, like parameters.
+"""Static coordinates: coordinates of the state that are constant in time.
 
 Let y0 be the initial state, and assume that the field f reads only the time and static coordinates. The
 solution then satisfies a linear equation y' = A(t).y. Here A(t) = f(y0, t) is an element of the Lie algebra,

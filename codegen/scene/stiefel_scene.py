@@ -57,8 +57,8 @@ def StiefelScene(
     - ``y0``: the initial matrix row by row. By default its columns are the first k unit vectors.
     - ``span``: the ends of the time interval, two rational numbers.
 
-    The equation is X' = A X with the skew-symmetric generator A = W X^T - X W^T, where W = V - X (X^T V)/2. A
-    step of a method of the families rkmk, cf and cg costs O(n k^2) operations and the evaluations of V.
+    The equation is X' = A X with the skew-symmetric generator A = W X^T - X W^T, where W = V - X (X^T V)/2.
+    The families rkmk, cf and cg need O(n k^2) operations per step, in addition to the evaluations of V.
 
     :class:`SceneError` is raised for a wrong size, an initial matrix without orthonormal columns, and a
     velocity that is not tangent.
@@ -158,7 +158,7 @@ def _largest(gram: Sequence[float], unit: bool) -> float:
 
 
 def _elsewhere(start: Sequence[float], k: int) -> list[float]:
-    """Return a second matrix with orthonormal columns, at which the velocity is tested."""
+    """Return a matrix with orthonormal columns, different from the matrix ``start``."""
     columns: list[list[float]] = []
     for j in range(k):
         column = [x + 0.3 * math.sin(7.0 * i + 3.0 * j + 1.0) for i, x in enumerate(start[j::k])]

@@ -79,8 +79,7 @@ def table(
     :class:`SceneError` is raised for lists of different lengths, for fewer than 2 or more than LARGEST
     points, for numbers in ``xs`` that do not increase, and for an unknown ``smoothness`` or ``outside``.
 
-    At the points ``xs``, the third derivative of a cubic spline and the first derivative of a linear
-    interpolant jump.
+    A derivative is discontinuous at the points ``xs``: the third for ``cubic``, the first for ``linear``.
 
     >>> from codegen.ir.domain import FloatDomain
     >>> thrust = table([0, 1, 2], [0.0, 0.5, 0.2], sympy.Symbol("t"), "linear")

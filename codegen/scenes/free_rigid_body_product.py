@@ -21,7 +21,7 @@ space = g * P
 
 
 def hat(w: Matrix) -> Matrix:
-    """Return the matrix of the linear map v -> w x v."""
+    """Return the matrix that maps v to the cross product w x v."""
     return Matrix([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
 
 

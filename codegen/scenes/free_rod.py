@@ -3,17 +3,17 @@
 The model is the rod of J. C. Simo (Comput. Methods Appl. Mech. Engrg. 49 (1985) 55-70) with the strains of
 shear, extension, bending and torsion. A site is a cross section with the frame R = (d1, d2, d3) and the
 centre x. The director d3 is normal to the section. A rod of length L consists of L/ds equal pieces, and the
-mass of each piece is concentrated in its cross section. P. Betsch and P. Steinmann (Int. J. Numer. Methods
-Eng. 54 (2002) 1775-1788) form the strains from the mean directors (d_a + d_a')/2 of two neighbouring
-sections. For two neighbouring sections, the strains Gamma_a and the elastic energy V are
+mass of each piece is concentrated in its cross section. The strains contain the mean directors
+(d_a + d_a')/2 of two neighbouring sections (P. Betsch and P. Steinmann, Int. J. Numer. Methods Eng. 54 (2002)
+1775-1788). For two neighbouring sections, the strains Gamma_a and the elastic energy V are
 
     Gamma_a = (d_a + d_a').(x' - x)/(2 ds) - delta_a3,
     V = ds/2 sum_a S_a Gamma_a^2 + 1/(2 ds) sum_a D_a |d_a' - d_a|^2.
 
 A prime denotes the second section, and delta_a3 is the Kronecker delta. S = (GA, GA, EA) contains the
-stiffnesses of shear and extension. The numbers D_1 = D_2 = GJ/2 and D_3 = EI - GJ/2 follow from the
-stiffnesses K = (EI, EI, GJ) of bending and torsion: for a small rotation theta between the sections, the
-second sum is sum_a K_a theta_a^2.
+stiffnesses of shear and extension. K = (EI, EI, GJ) contains the stiffnesses of bending and torsion. The
+numbers D_a are D_1 = D_2 = GJ/2 and D_3 = EI - GJ/2. For a small rotation theta between the sections,
+sum_a D_a |d_a' - d_a|^2 is then sum_a K_a theta_a^2.
 
 The code divides all energies and momenta by ds.
 """
@@ -83,7 +83,7 @@ def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str 
 
 
 def straight(number: int, spacing: float) -> list[list[float]]:
-    """Return the states of the sections of a straight rod at rest along e3.
+    """Return the state of each section. The rod is straight, parallel to e3, and at rest.
 
     The first section is at ``spacing`` e3.
     """

@@ -1,8 +1,8 @@
 """Heavy top of H. Marthinsen's thesis, section 2.5, on T*SO(3). The kinetic energy is right-invariant.
 
-The kinetic energy is mu.I^-1 mu/2, where mu is the right-trivialised momentum. The components of mu are
-components in space, so the inertia tensor I is fixed in space. `orderconds longrun heavy_top --properties`
-measures the properties in Table 2.1 of the thesis.
+The kinetic energy is mu.I^-1 mu/2, where mu is the right-trivialised momentum. The inertia tensor I is
+fixed in space, not in the body. `orderconds longrun heavy_top --properties` measures the properties in
+Table 2.1 of the thesis.
 """
 
 from sympy import Matrix, diag, eye

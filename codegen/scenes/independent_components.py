@@ -29,7 +29,7 @@ mixed = [[sum(map(mul, row, sample)) for sample in zip(*sources, strict=True)] f
 
 
 def mean(*factors: list[float]) -> float:
-    """Return the mean over all samples of the product of the given signals."""
+    """Multiply the given signals sample by sample, and return the mean of the products."""
     return fsum(map(prod, zip(*factors, strict=True))) / SAMPLES
 
 

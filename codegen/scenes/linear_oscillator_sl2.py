@@ -52,7 +52,7 @@ strong, matrices, canonical = (
 figures = [
     TimeSeries(
         name="energies",
-        title="The energies H and −u of Lie-Gauss minus the exact energy",
+        title="Lie-Gauss: errors of the energies H and −u",
         caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
         "eps = 0.3, alpha = 0.1, h = 0.3. "
         "Lie-Gauss with h = 0.03 approximates the exact energy.",

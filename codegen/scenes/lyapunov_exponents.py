@@ -2,7 +2,7 @@
 
 The scene is from section 2.4.4 of H. Marthinsen's thesis (the method of L. Dieci and E. Van Vleck). The
 trajectory satisfies x' = F(x), and A is the Jacobian of F. The frame Q, an element of St(3, k), has k
-orthonormal columns. With P = Q Q^T the generator of the frame is (1 - P) A P - P A^T (1 - P) + Q S Q^T. Here
+orthonormal columns. Let P = Q Q^T. The generator of the frame is (1 - P) A P - P A^T (1 - P) + Q S Q^T. Here
 S is the skew matrix that equals Q^T A Q below the diagonal. In equation (2.24) the thesis prints the
 generator as A - P A + Q S Q^T, but this matrix is not skew for k < 3. The state also contains the integrals
 of the k diagonal entries of Q^T A Q over time. Each integral, divided by the time, tends to an exponent:

@@ -17,7 +17,7 @@ from pathlib import Path
 from types import ModuleType
 
 OWN = frozenset({"codegen", "orderconds"})
-"""The packages of this program, which are never neighbours."""
+"""The packages of this program. A module with one of these names in the folder of a scene is ignored."""
 
 
 class Neighbours(MetaPathFinder):
@@ -68,7 +68,7 @@ def _modules(folder: Path) -> Iterator[str]:
 
 
 def _installed(name: str) -> bool:
-    """Return True if this program, the standard library or an installed package has a module ``name``."""
+    """Return True if ``name`` is an installed module, or a module of this program or the standard library."""
     if name in OWN or name in sys.stdlib_module_names:
         return True
     places = [p for p in sys.path if Path(p).name in ("site-packages", "dist-packages")]

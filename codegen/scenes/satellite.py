@@ -4,8 +4,9 @@ The matrix g rotates vectors from the body frame to space. The total angular mom
 the wheels. The angular momentum of the wheels, in the body frame, is h = (h0, h1, h2). The angular velocity w
 and the inertia tensor J, in the body frame, satisfy J w = g^T mu - h.
 
-Let r be the unit vector from the Earth to the satellite, and let n be the angular speed of r. The torque of
-the gravity gradient is 3 n^2 r x J r (P. C. Hughes, Spacecraft Attitude Dynamics, 1986, chapters 6 and 8).
+Let r be the unit vector from the Earth to the satellite, and let n be the angular speed of r. In the body
+frame, the torque of the gravity gradient is 3 n^2 r x J r (P. C. Hughes, Spacecraft Attitude Dynamics, 1986,
+chapters 6 and 8).
 The unit of time is 1/n.
 """
 

@@ -9,8 +9,8 @@ above Im V. A plaquette is a square of four links. For each plaquette that conta
 other three links is a staple of V. Let X be the product of V and the sum of the staples of V. The generator
 -g0^2 dS(V) is the traceless anti-Hermitian part of -X.
 
-The variable ``energy`` is the density of the action, the sum of 2 Re tr(1 - P) over the plaquettes P of a
-site. Each site has one plaquette for each pair of axes.
+The variable ``energy`` is the density of the action at a site: the sum of 2 Re tr(1 - P) over the plaquettes
+P of the site. Each site has one plaquette for each pair of axes.
 """
 
 from collections.abc import Sequence

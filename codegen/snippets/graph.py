@@ -172,8 +172,7 @@ def needed(
 
     - ``functions``: the functions that the module calls.
     - ``sweeps``: True if the module solves equations by iteration.
-    - ``wide``: the number of rows of each inverted matrix if all inverted matrices have the same small size,
-      else 0.
+    - ``wide``: the number of rows of the inverted matrices if all have the same small size, else 0.
     - ``widest``: the number of rows of the largest inverted matrix.
     - ``chain``: the number of angles in the longest sequence of rotations in a step
       (:func:`codegen.snippets.stumpff.limit`).

@@ -354,7 +354,7 @@ def site_scene(**options):
         ({"f": neighbour(S, (1,)) + neighbour(S, (1, 0))}, "offsets with different numbers of entries: 1, 2"),
         ({"f": 1}, "f is 1"),
         ({"boundary": "closed"}, "the boundary 'closed'"),
-        ({"outside": [0, 0, 0]}, 'the argument "outside" for a periodic lattice'),
+        ({"outside": [0, 0, 0]}, 'the argument "outside" is not allowed for a periodic lattice'),
         ({"boundary": "open"}, r"no state for the neighbour \(1,\) outside the open boundary"),
         ({"boundary": "open", "outside": {(-1,): [0, 0, 0]}}, r"no state for the neighbour \(1,\)"),
         ({"boundary": "open", "outside": {(1,): S, (2,): S}}, r"the neighbour \(2,\), which the field"),
