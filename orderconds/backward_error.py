@@ -1,8 +1,8 @@
 """Modified equations of numerical methods.
 
-As a formal series in the step size h, one step of a method for y' = f(y) is the exact flow of the modified
-field f~ = f + h f_2 + h^2 f_3 + ... If the method is symplectic and f is Hamiltonian, f~ is the vector field
-of a modified Hamiltonian (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Chapter IX).
+One step of a method for y' = f(y) is the exact flow of the modified field f~ = f + h f_2 + h^2 f_3 + ..., a
+formal series in the step size h. If the method is symplectic and f is Hamiltonian, f~ is the vector field of
+a modified Hamiltonian (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Chapter IX).
 
 On a Lie group, the field y -> f(p).y is called the field frozen at the point p. For a Lie group method, the
 fields f_2, f_3, ... are sums of elementary differentials of f and of commutators of elementary differentials.
@@ -72,7 +72,7 @@ class ModifiedEquation:
     """The modified or modifying field of a method, and its Hamiltonian if the Hamiltonian is known.
 
     - ``family`` is the label of the method's family.
-    - ``terms`` contains the non-zero terms of the field up to the power h^(order - 1) of the step size h.
+    - ``terms`` contains the non-zero terms of the field up to h^(``order`` - 1), where h is the step size.
     - ``hamiltonian`` contains the terms of the Hamiltonian. The value is None if the method has no B-series,
       or if the field is not proved to be Hamiltonian.
     """

@@ -86,7 +86,7 @@ class Program(click.Group):
         if name in BUILT_IN:
             module, summary = BUILT_IN[name]
             command = importlib.import_module(module).command
-            # Some shells show the summary of a command next to the completed name.
+            # A shell that completes command names may show this text.
             command.short_help = summary
         else:
             entries = [entry for entry in _offered() if entry.name == name]

@@ -3,11 +3,10 @@
 A C compiler can vectorise loops that call these functions.
 
 The reduced angle of an angle x is r = x - k pi/2, where k is the integer nearest to 2x/pi. To compute k
-without a branch, the large constant ``round`` is added to 2x/pi, and is subtracted from the sum. The sum is
-an integer, because floating-point numbers as large as ``round`` have no fraction. The number pi/2 is stored
-as a sum of parts. All parts except the last have few bits, so their products with k are exact. Polynomials
-for the Stumpff functions c_0 and c_1 (:func:`codegen.snippets.stumpff.economised`) give sin r = r c_1(r^2)
-and cos r = c_0(r^2).
+without a branch, the large constant ``round`` is added to 2x/pi, and is subtracted from the sum. ``round`` is
+so large that the sum is rounded to an integer. The number pi/2 is stored as a sum of parts. All parts except
+the last have few bits, so their products with k are exact. Polynomials for the Stumpff functions c_0 and c_1
+(:func:`codegen.snippets.stumpff.economised`) give sin r = r c_1(r^2) and cos r = c_0(r^2).
 """
 
 from __future__ import annotations

@@ -6,9 +6,9 @@ The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. T
     c_2 = (1 - cos sqrt z)/z,   c_3 = (sqrt z - sin sqrt z)/z^(3/2).
 
 If z <= SWITCH[k], c_k is evaluated by a polynomial. If z > SWITCH[k], c_0 and c_1 are evaluated by their
-closed forms. The closed forms of c_2 and c_3 suffer from cancellation, so the formulas c_2 = c_1(z/4)^2/2 and
-c_3 = (1 - c_1)/z are used. The error is at most two units in the last place, apart from the effect of the
-rounding error in sqrt z. For z above :func:`limit` the value is NaN.
+closed forms. The closed forms of c_2 and c_3 suffer from cancellation. Instead, the formulas c_2(z) =
+c_1(z/4)^2/2 and c_3(z) = (1 - c_1(z))/z are used. The error is at most two units in the last place, apart
+from the effect of the rounding error in sqrt z. For z above :func:`limit` the value is NaN.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ PI = Fraction("3.14159265358979323846264338327950288")
 
 
 SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n))
-"""All non-empty sets of indices k of c_0, ..., c_3, with one helper for each set."""
+"""All non-empty sets of the indices 0, 1, 2 and 3 of the functions c_k."""
 
 
 LEFT = 10

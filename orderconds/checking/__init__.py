@@ -7,8 +7,9 @@ the residual is a ball: an approximate value with an error bound. The certificat
 established:
 
 - ``exact``: every residual up to the order is zero in an exact ring.
-- ``ball``: interval arithmetic proves that a method of the computed order exists within one unit of the last
-  digit of each decimal (:mod:`orderconds.proof`).
+- ``ball``: interval arithmetic proves that exact coefficients with the computed order exist
+  (:mod:`orderconds.proof`). Each decimal differs from the exact coefficient by at most one unit of the last
+  digit.
 - ``decimal``: every residual up to the order is zero or a narrow ball that contains zero. The order is not
   proved.
 - ``double``: as ``decimal``, but the coefficients are doubles.

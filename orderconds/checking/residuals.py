@@ -1,7 +1,8 @@
 """The residuals of the conditions of one order, and a verdict on each residual.
 
 A ball is an approximate value with an error bound. In a number field, balls are much cheaper than exact
-arithmetic. An exact residual is computed if the ball contains zero, or if the residual is printed.
+arithmetic. The exact residual is computed if the ball of the residual contains zero, or if the residual is
+printed.
 """
 
 from __future__ import annotations

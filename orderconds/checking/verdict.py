@@ -176,7 +176,7 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
-    """Prove that the equations in the table ``[proof]`` have a solution near the decimals of the file.
+    """Prove that the equations in the table ``[proof]`` have a solution near the rounded coefficients.
 
     Return the proof and a list of error messages.
     """
@@ -254,7 +254,7 @@ def _beyond(
 ) -> FamilyOrder:
     """Derive the order in ``family`` from the orders in other families.
 
-    If the order cannot be derived, return ``ended``, the result of a search that ended at a limit.
+    If the order cannot be derived, return ``ended``.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]

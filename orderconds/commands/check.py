@@ -65,8 +65,8 @@ WIDTH = 200
 @click.option(
     "--complete",
     is_flag=True,
-    help="Require a claim in every family to which the method belongs. A family needs no claim if its "
-    "order follows from the order in another family.",
+    help="Require a claim in every family to which the method belongs. No claim is needed in a "
+    "family if the order in this family follows from the order in another family.",
 )
 @click.option(
     "--certified",
@@ -178,7 +178,7 @@ def command(
 
 
 def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
-    """Write the number of tableaux without a claim to stderr, if there are such tableaux."""
+    """If tableaux claim no order, write the number of these tableaux to stderr."""
     if count := verdicts.count(UNCLAIMED):
         click.echo(
             f"--require-claims: {count} of {len(verdicts)} tableaux claim no order; {HOW_TO_CLAIM}",
@@ -244,7 +244,7 @@ class _Job(Struct, frozen=True):
 
 
 class _Outcome(Struct, frozen=True):
-    """A verdict, or None after an InputError, and the text to print."""
+    """The verdict of one check, and the text to print. After an InputError, the verdict is None."""
 
     verdict: str | None
     text: str

@@ -1,4 +1,4 @@
-"""The output of commands as JSON or as tables. On a terminal, the library rich draws the tables."""
+"""The output of commands as JSON or as tables."""
 
 from __future__ import annotations
 

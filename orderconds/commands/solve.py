@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     "-s",
     type=click.IntRange(*SOLVED_STAGES),
     required=True,
-    help="The number of stages. For the family composition: the number of steps of the base method. For the "
-    "family splitting, with the vector field T + V: the number of flows of V.",
+    help="The number of stages. If FAMILY is composition: the number of steps of the base method. If FAMILY "
+    "is splitting: the number of flows of V for the vector field T + V.",
 )
 @click.option(
     "--order", "-p", type=click.IntRange(*SOLVED_ORDER), required=True, help="The order of the method."

@@ -34,9 +34,10 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
     "--json", "as_json", is_flag=True, help="Print the rows of the table as JSON on stdout and nothing else."
 )
 def command(methods: tuple[str, ...], write: str | None, against: str | None, as_json: bool) -> int:
-    """Print a table with one line for each tableau of the library. The last three columns concern the
-    family with the highest claimed order: the number of exponentials, the norm of the leading error and the
-    certificate of the order. With --check FILE, the command exits with 1 if the table in FILE is out of date.
+    """Print a table with one line for each tableau of the library. The last three columns contain the number
+    of exponentials, the norm of the leading error and the certificate of the order. These values belong to
+    the family in which the tableau claims the highest order. With --check FILE, the command exits with 1 if
+    the table in FILE is out of date.
 
     For each given METHOD, print its order and its Butcher tableau. METHOD is the name of a tableau, or
     FAMILY:NAME. FAMILY is the family in which the order is computed. On a vector space, a commutator-free

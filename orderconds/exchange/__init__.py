@@ -78,7 +78,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Add ``name`` to a tableau without a name, and compute a missing embedded order."""
+    """Add ``name`` to a tableau without a name. Compute a missing order of the embedded method."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:

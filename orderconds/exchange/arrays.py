@@ -5,10 +5,11 @@ The names of the arrays depend on the family:
 - ``rk``: A and b. An embedded method also has embedded_b, and the number embedded_order.
 - ``prk``: A, b, A_hat and b_hat.
 - ``composition``: gamma, or alpha and beta.
-- ``cf``: exponentials, count and start. The products of exponentials are in this sequence: one for each
-  stage, one for the update, and one for the embedded update. Each row of ``exponentials`` contains the
-  coefficients of one exponential. For each product, ``count`` contains the number of exponentials. ``start``
-  contains 0 if the product acts on y0, and i if the product acts on the value of stage i.
+- ``cf``: exponentials, count and start. The arrays first list the product of exponentials of each stage, then
+  the product of the update, and then the product of the embedded update. Each row of ``exponentials``
+  contains the coefficients of one exponential. For each product, ``count`` contains the number of
+  exponentials. ``start`` contains 0 if the product acts on y0, and i if the product acts on the value of
+  stage i.
 
 The table ``proof`` of a tableau file is omitted.
 """
@@ -263,7 +264,7 @@ def _integer(text: str, where: str) -> int:
 def coefficient(text: str) -> str:
     """Convert a number from another program's file to a coefficient of a tableau file.
 
-    If the decimal was probably printed from a double, the result is this double (see
+    If ``text`` was probably printed from a double, the result is this double (see
     :func:`~orderconds.tableau.doubles.is_printed`). Other decimals with at least 12 significant digits become
     rounded decimals (suffix ``~``).
 

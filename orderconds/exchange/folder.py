@@ -136,7 +136,7 @@ def _is_matrix(value: object) -> bool:
 
 
 def _of_csv(content: bytes) -> Reason | None:
-    """Return the reason to skip a CSV file, or None if the file must be read as a tableau."""
+    """Return the reason to skip a CSV file, or None if the file is not skipped."""
     try:
         table = rows.read(content.decode(), csv_table.NAMES)
     except (csv.Error, UnicodeDecodeError):
@@ -186,4 +186,4 @@ _REASONS: dict[str | None, Callable[[bytes], Reason | None]] = {
     "latex": _of_latex,
     "c": _of_c,
 }
-"""For each format, a function that returns the reason to skip a file, or None if the file must be read."""
+"""For each format, a function that returns the reason to skip a file, or None if the file is not skipped."""

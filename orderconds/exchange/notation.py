@@ -1,4 +1,4 @@
-"""Convert coefficients of tableau files to SymPy source, and SymPy source or LaTeX to coefficients.
+"""Convert coefficients of tableau files to SymPy source. Convert SymPy source and LaTeX to coefficients.
 
 The conversion of a coefficient to LaTeX is in the module :mod:`orderconds.tableau.coefficient_latex`.
 """

@@ -82,7 +82,7 @@ def write(data: Data) -> bytes:
 def floats(value: Cells, roots: str = "{}") -> Floats:
     """Convert a coefficient, or nested lists of coefficients, to the nearest doubles.
 
-    ``roots`` is the JSON text that defines names of polynomial roots.
+    ``roots`` maps the names of polynomial roots to their definitions, as JSON text.
 
     >>> floats([["1/2", "1/3"]])
     [[0.5, 0.3333333333333333]]
@@ -96,7 +96,7 @@ def floats(value: Cells, roots: str = "{}") -> Floats:
 def nearest(text: str, roots: str = "{}") -> float:
     """Return the double nearest to a coefficient.
 
-    ``roots`` is the JSON text that defines names of polynomial roots.
+    ``roots`` maps the names of polynomial roots to their definitions, as JSON text.
 
     >>> nearest("1/3 - sqrt(3)/6")
     0.04465819873852045
@@ -178,7 +178,7 @@ def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndar
 
 
 def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> None:
-    """Raise an error if an array is not a vector or a matrix of integers or doubles."""
+    """Require a vector or a matrix. The entries must be integers or doubles."""
     if axes not in (1, 2) and kind in "fiu":
         raise TableauError(f"the array {name} has {axes} axes", where=where, expected=EXPECTED)
     if kind == "c":

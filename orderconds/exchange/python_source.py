@@ -208,7 +208,7 @@ def _define(statement: Definition, values: Values) -> None:
 
     A call of the function may change these variables.
     """
-    # The body of a class is executed at once, but the bodies of its methods are not.
+    # Python executes the body of a class immediately, but not the bodies of its methods.
     parts: list[ast.AST] = []
     called: list[ast.expr] = []
     waiting: list[ast.stmt] = [statement]
@@ -244,7 +244,7 @@ def _activate(names: Iterable[str], node: ast.AST, values: Values) -> None:
 
 
 def _doubt(nodes: Sequence[ast.AST], values: Values, scoped: bool = False) -> None:
-    """Mark each variable as unknown that ``nodes`` may change.
+    """Mark a variable as unknown if ``nodes`` may change its value.
 
     If ``scoped`` is true, assignments in ``nodes`` define variables of a class, not of the module.
     """
@@ -405,7 +405,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
                 raise TableauError(f"two arrays {name}", where=where, expected="one")
             cells = texts(value, f"{where}: {name}")
             entries[name] = _row(cells) if name in ROWS else cells
-        elif isinstance(value, Computed) and name != "c":  # c may be unknown, because A determines c.
+        elif isinstance(value, Computed) and name != "c":  # c is computed from A.
             raise TableauError(
                 f"the value is not known without executing the file: {value.reason}",
                 where=f"{where}: {name}: line {value.line}",

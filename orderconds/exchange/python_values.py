@@ -31,8 +31,8 @@ TYPED_CALLS = ("array", "asarray", "matrix")
 """Constructors of arrays whose entries have one common type. In an array of integers, for example, no entry
 can be 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""Parts of the names of types such as ``float32`` and ``int64``. An array of such a type is not evaluated,
-because the type is complex or cannot store all doubles."""
+"""Parts of the names of types such as ``float32`` and ``int64``. Arrays of these types are not evaluated: the
+types are complex or cannot store all doubles."""
 COPYING_CALLS = ("array", "Matrix", "ImmutableMatrix", "matrix")
 """Constructors of arrays that copy their argument and its rows. ``list`` and ``tuple`` do not copy the
 rows. ``asarray`` may return its argument without a copy."""
@@ -383,7 +383,9 @@ def _zeros(shape: Value, node: ast.Call) -> Array:
     sizes = shape.items if isinstance(shape, Array) else [shape]
     lengths = [x.value for x in sizes if isinstance(x, Constant) and x.value.denominator == 1]
     if len(lengths) != len(sizes) or len(sizes) not in (1, 2) or not all(1 <= n <= 200 for n in lengths):
-        raise _NotLiteral(node, "a call of zeros with a shape other than one or two integers from 1 to 200")
+        raise _NotLiteral(
+            node, "a call zeros(shape); write n or (m, n) as shape, with integers from 1 to 200"
+        )
     if len(lengths) == 1:
         return Array([ZERO] * int(lengths[0]))
     return Array([Array([ZERO] * int(lengths[1])) for _ in range(int(lengths[0]))])

@@ -97,7 +97,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return ``data`` with new names for numbers whose names are reserved, such as ``sqrt_`` for ``sqrt``."""
+    """Return ``data`` with reserved names of numbers replaced, for example ``sqrt`` by ``sqrt_``."""
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()

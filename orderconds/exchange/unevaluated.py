@@ -115,8 +115,8 @@ class UnevaluatedNumbers:
     def named_root(
         self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
     ) -> Unevaluated:
-        """Store the root of ``minpoly`` in [near - unit, near + unit]. Return an expression that consists of
-        the name of the root."""
+        """Store the polynomial ``minpoly`` and the interval [near - unit, near + unit] of its root. Return an
+        expression that consists of the name of the root."""
         self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
         return Unevaluated(Name(name))
 

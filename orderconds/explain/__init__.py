@@ -1,1 +1,1 @@
-"""Explanations of conditions: drawings of trees, and their elementary differentials or Hamiltonians."""
+"""Explanations of conditions: tree drawings, elementary differentials and elementary Hamiltonians."""

@@ -136,7 +136,7 @@ class ExponentialsFormula(ActionFormula):
 
     @abstractmethod
     def place(self) -> str:
-        """Return an unused name for the summation index that numbers the exponentials."""
+        """Return an unused name for the index of an exponential."""
 
     @abstractmethod
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
@@ -161,9 +161,9 @@ class ExponentialsFormula(ActionFormula):
         return index_sum((place,), (), self.exponent(row, place, tree))
 
     def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
-        """Return the coefficient of a word in a part of a product of exponentials.
+        """Return the coefficient of a word in a product of consecutive exponentials.
 
-        The part contains the exponentials whose index j satisfies ``above < j < below``. For ``above`` and
+        The product contains the exponentials whose index j satisfies ``above < j < below``. For ``above`` and
         ``below``, None means no bound.
         """
         if not word:
@@ -219,7 +219,7 @@ class CrouchGrossmanFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return an unused name for the summation index that numbers the exponentials."""
+        """Return an unused name for the index of an exponential."""
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
@@ -254,7 +254,7 @@ class CommutatorFreeFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return an unused name for the summation index that numbers the exponentials."""
+        """Return an unused name for the index of an exponential."""
         return fresh("J")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:

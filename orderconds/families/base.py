@@ -51,7 +51,7 @@ class Family(ABC):
     has_tableau: ClassVar[bool] = True
     """False if each method of the family is defined by a label such as ``taylor(12)``, not by a tableau."""
     source: ClassVar[str] = ""
-    """The publication that defines the methods if ``has_tableau`` is false, else an empty text."""
+    """The publication that defines the methods. The text is empty if ``has_tableau`` is true."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
@@ -61,7 +61,7 @@ class Family(ABC):
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
-    """True if the module :mod:`orderconds.ring.nodal` can evaluate the order conditions of this family."""
+    """True if :mod:`orderconds.ring.nodal` can evaluate the conditions with rational polynomials."""
     trees: ClassVar[str | None] = None
     """The kind of trees that index the conditions (a name in :mod:`orderconds.explain.kinds`), or None."""
     illustrates: ClassVar[tuple[str, ...]] = ()
@@ -160,7 +160,7 @@ class Family(ABC):
         return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all trees or words of the given order, with dependent conditions.
+        """Return the independent and the dependent conditions of the given order.
 
         By default, all conditions are independent, and the result is that of :meth:`conditions`.
         """
@@ -317,7 +317,7 @@ class Family(ABC):
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order that follows from properties of the coefficients.
+        """Return a lower bound of the order, derived from properties of the coefficients.
 
         The bound is 0 if no theorem applies.
         """
@@ -328,7 +328,7 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a family with fewer conditions, and ``method`` in a format that this other family accepts.
+        """Return another family with fewer conditions, and ``method`` in a format of the other family.
 
         If ``method`` satisfies the conditions of the other family, ``method`` satisfies the conditions of
         this family. Return None if no such family is known.

@@ -90,7 +90,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as an index sum.
+        """Return an index sum: the left-hand side of the condition of a word.
 
         The indices I, J, ... number the exponentials, and i, j, ... number the nodes.
         """

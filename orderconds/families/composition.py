@@ -4,9 +4,9 @@ The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector 
 is symmetric, X_2, X_4, ... are zero. The logarithm of Phi_{alpha h} is the sum of alpha^k h^k X_k over k. The
 logarithm of the adjoint Phi*_{beta h} is the sum of -(-beta)^k h^k X_k over k.
 
-The letter k of a word denotes X_k and has the weight k. The condition of a word states that the word has the
-same coefficient in the series of one step as in the series of the exact flow (HLW III.3.1; Murua and
-Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+A word is a product of letters. The letter k denotes X_k and has the weight k. The condition of a word states
+that the word has the same coefficient in the series of one step as in the series of the exact flow (HLW
+III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -192,8 +192,8 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
 
 
 def _pair(letters: Word, i: str) -> tuple[Formula, int]:
-    """Return the pair (r! x, r!), where x is the coefficient of a word with r letters in the series of
-    Phi_{alpha_i h} Phi*_{beta_i h}."""
+    """Return the pair (r! x, r!), where r is the number of letters. Here x is the coefficient of the word
+    ``letters`` in Phi_{alpha_i h} Phi*_{beta_i h}."""
     r, terms = len(letters), []
     for m in range(r, -1, -1):
         late, early = sum(letters[r - m :]), letters[: r - m]

@@ -29,7 +29,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which ``orderconds solve`` can write the order of a method to its file."""
+"""The values of ``cutoff`` for which ``orderconds solve`` may write an order to the tableau file."""
 
 
 class DexpinvCut(Family):
@@ -59,7 +59,7 @@ class DexpinvCut(Family):
         return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the entry of a tableau file for a method of order ``order`` in this family."""
+        """Return the claim that a method has the order ``order`` in this family."""
         return OrderClaim(self.name, self.cutoff, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:

@@ -59,8 +59,8 @@ def elementary_weight(
 ) -> Formula:
     r"""Return the elementary weight of a tree as an index sum.
 
-    A tree with n vertices is a bytes object of length n. The function ``below`` returns a pair (kind,
-    subtree) for each edge at the root of a tree.
+    A tree with n vertices is a bytes object of length n. ``below(tree)`` contains a pair (kind, subtree) for
+    each edge at the root of the tree.
 
     >>> from orderconds.formula import named
     >>> from orderconds.trees.levels import children

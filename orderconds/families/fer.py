@@ -89,8 +89,8 @@ class FerFamily(MagnusFamily):
         """Return the left-hand side of the condition of a word as a sum over nodes.
 
         For a word that consists of one letter k, the terms of the sum are b_i c_i^(k-1). For a longer word
-        with the letters k_1, k_2, ..., the terms are phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ... (see the module
-        docstring).
+        with the letters k_1, k_2, ..., the terms are phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) .... The module
+        docstring defines phi.
         """
         return node_sum("b" if len(word) == 1 else "phi", word)
 

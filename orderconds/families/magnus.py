@@ -71,7 +71,7 @@ class MagnusFamily(WordFamily):
 
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` if the map of the method differs from the map of
-        this family, :attr:`transform`. A map is the string "exp" or "cay"."""
+        this family, :attr:`transform`. The possible maps are "exp" and "cay"."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:
             raise InputError(
@@ -87,7 +87,7 @@ class MagnusFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a Magnus method with the map :attr:`transform`, else None.
+        """Return this family if the method is a Magnus method and its map is :attr:`transform`, else None.
 
         If this family is returned, the tableau file should state up to which order the method satisfies the
         conditions of this family.
@@ -96,7 +96,7 @@ class MagnusFamily(WordFamily):
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of nodes, different exponents and commutators of a Magnus method. If ``tableau``
+        """Return the numbers of nodes, commutators and different exponents of a Magnus method. If ``tableau``
         contains no Magnus method, return None."""
         return magnus_work(tableau)
 
@@ -127,7 +127,7 @@ class MagnusFamily(WordFamily):
 
 
 def node_sum(name: str, word: Word) -> Formula:
-    """Return the coefficient of a word as a sum over the nodes i, j, ....
+    """Return the sum over the nodes i, j, ... for a word.
 
     Let p, q, ... be the letters of the word. If ``name`` is "omega", the terms of the sum are
     omega_{ij...} c_i^(p - 1) c_j^(q - 1) ....

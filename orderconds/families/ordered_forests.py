@@ -44,7 +44,7 @@ class OrderedForestFamily(Family):
 
     @abstractmethod
     def formula(self, forest: Forest) -> Formula:
-        """Return the left-hand side of the condition of a forest as an index sum.
+        """Return an index sum: the left-hand side of the condition of a forest.
 
         The left-hand side is ``scale(forest)`` times the coefficient of the forest in the Lie-Butcher series.
         """
@@ -54,8 +54,8 @@ class OrderedForestFamily(Family):
         return self._of(lyndon_forests(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of the given order, one for each ordered forest. The conditions of forests
-        that are not Lyndon words store a relation (:mod:`orderconds.families.relations`)."""
+        """Return the conditions of the given order, one for each ordered forest. In each dependent condition,
+        the attribute ``relation`` is set (:mod:`orderconds.families.relations`)."""
         return with_relations(
             self._of(tuple(ordered_forests(order))), lambda forest: in_lyndon_words(forest, scale), text
         )
@@ -88,8 +88,8 @@ class OrderedForestFamily(Family):
 
 @lru_cache(maxsize=1 << 16)
 def scale(forest: Forest) -> int:
-    r"""Return the product of the factorials of the lengths of all words in a forest. The words are the forest
-    itself, and the branches at each vertex.
+    r"""Return the product of k! and of n! for each vertex. Here k is the number of trees in the forest, and n
+    is the number of branches at the vertex.
 
     >>> scale(b"\0\1\1\0")
     4

@@ -56,7 +56,7 @@ class PartitionedFamily(Family):
     search_limit = 7
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {
-        "rk": "a system without a partition is a partitioned system with one empty group of variables"
+        "rk": "y' = f(y) is a partitioned system with all variables in the first group"
     }
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:

@@ -41,7 +41,7 @@ class SameWeightsFamily(PartitionedFamily):
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each rooted tree with two kinds of edges. In the
-        elementary weight, an edge of one kind gives a factor a_ij, and an edge of the other kind ahat_ij."""
+        elementary weight, the two kinds of edges give the factors a_ij and ahat_ij."""
         return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[DirectedTree, Callable[[], OrderCondition]]]:
