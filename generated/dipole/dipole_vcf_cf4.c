@@ -333,7 +333,7 @@ struct dipole_vcf_cf4_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[12]; /* initial guess for the next step */
-    double values[32][12]; /* ring buffer; each solution is in two rows, and the latest solutions are contiguous */
+    double values[32][12]; /* ring buffer with two copies of each solution */
     double rate_1;
     size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[144];
@@ -483,7 +483,7 @@ static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree of the extrapolation; if the ring buffer is full, once in 8 steps */
+    /* adapt the degree, or only once in 8 steps if the ring buffer is full */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcf_cf4_difference_size(memory, memory->degree);
         int grows = 0;
@@ -500,7 +500,7 @@ static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
             }
         }
     }
-    /* the guess for which the backward difference of order degree + 1 is zero */
+    /* compute the guess for which a backward difference is zero; its order is degree + 1 */
     dipole_vcf_cf4_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
@@ -1443,8 +1443,8 @@ static inline void dipole_vcf_cf4_to_space(const double state[static 12],
 }
 
 /*
- * Begin: moving = the state with the body momentum. before = this body momentum, converted back to the
- * space frame.
+ * Write the state with the momentum in the body frame into 'moving'. Convert this momentum back to the
+ * space frame, and write it into 'before'.
  */
 static void dipole_vcf_cf4_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])
@@ -1456,8 +1456,8 @@ static void dipole_vcf_cf4_enter_body(const double state[static 12],
 }
 
 /*
- * End: update the state. The increase of the space momentum during the run is added to the old space
- * momentum.
+ * Update the state at the end of a run. In the space frame, the increase of the momentum is added to
+ * the old momentum.
  */
 static int dipole_vcf_cf4_leave_body(const double moving[static 12],
     const double before[static 3], double state[static 12])

@@ -98,7 +98,7 @@ class _Memory:
         self.degree = 0  # degree of the extrapolation
         self.place = 0  # row of the latest solution
         self.guess = [0.0] * 3  # initial guess for the next step
-        self.values = [[0.0] * 3 for _ in range(32)]  # ring buffer; each solution is in two rows, and the latest solutions are contiguous
+        self.values = [[0.0] * 3 for _ in range(32)]  # ring buffer with two copies of each solution
         self.rate_1 = 0.0
         self.age_1 = 0  # age of the stored inverse of the Newton matrix; 0 if none is stored
         self.inverse_1 = [0.0] * 9
@@ -368,8 +368,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree of the extrapolation; if the ring buffer is full, once in 8
-    # steps
+    # adapt the degree, or only once in 8 steps if the ring buffer is full
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
         grows = False
@@ -382,7 +381,8 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # the guess for which the backward difference of order degree + 1 is zero
+    # compute the guess for which a backward difference is zero; its order is degree
+    # + 1
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
@@ -637,8 +637,8 @@ def _to_space(state, momentum):
 
 
 def _enter_body(state, moving, before):
-    """Begin: moving = the state with the body momentum. before = this body momentum,
-    converted back to the space frame.
+    """Write the state with the momentum in the body frame into 'moving'. Convert
+    this momentum back to the space frame, and write it into 'before'.
     """
     _to_body(state, before)
     moving[0:9] = state[0:9]
@@ -647,8 +647,8 @@ def _enter_body(state, moving, before):
 
 
 def _leave_body(moving, before, state):
-    """End: update the state. The increase of the space momentum during the run is
-    added to the old space momentum.
+    """Update the state at the end of a run. In the space frame, the increase of the
+    momentum is added to the old momentum.
     """
     momentum = [0.0] * 3
     _to_space(moving, momentum)

@@ -275,7 +275,7 @@ struct free_rigid_body_s3_discrete_gradient_midpoint_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[3]; /* initial guess for the next step */
-    double values[32][3]; /* ring buffer; each solution is in two rows, and the latest solutions are contiguous */
+    double values[32][3]; /* ring buffer with two copies of each solution */
     double rate_1;
     size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[9];
@@ -389,7 +389,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree of the extrapolation; if the ring buffer is full, once in 8 steps */
+    /* adapt the degree, or only once in 8 steps if the ring buffer is full */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = free_rigid_body_s3_discrete_gradient_midpoint_difference_size(memory,
             memory->degree);
@@ -409,7 +409,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
             }
         }
     }
-    /* the guess for which the backward difference of order degree + 1 is zero */
+    /* compute the guess for which a backward difference is zero; its order is degree + 1 */
     free_rigid_body_s3_discrete_gradient_midpoint_difference(memory, memory->degree + 1, 1,
         -1.0, memory->guess);
 }

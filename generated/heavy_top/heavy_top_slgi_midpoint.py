@@ -477,8 +477,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree of the extrapolation; if the ring buffer is full, once in 8
-    # steps
+    # adapt the degree, or only once in 8 steps if the ring buffer is full
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
         grows = False
@@ -491,7 +490,8 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # the guess for which the backward difference of order degree + 1 is zero
+    # compute the guess for which a backward difference is zero; its order is degree
+    # + 1
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
