@@ -13,7 +13,7 @@ from pathlib import Path
 from orderconds.errors import InputError
 
 MAX_BYTES = 1_000_000
-"""Maximal size in bytes of a file that a person writes."""
+"""Default limit for the size of an input file, in bytes."""
 
 MAX_WRITTEN_BYTES = 100_000_000
 """Maximal size in bytes of a file that a program of this project has written."""

@@ -1,5 +1,5 @@
-"""Packages with fast import. A module of such a package is imported when an object from the module is first
-used (PEP 562)."""
+"""Packages that delay the imports of their modules. A module of such a package is imported when an object
+from the module is first used (PEP 562)."""
 
 from __future__ import annotations
 

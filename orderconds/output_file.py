@@ -33,7 +33,8 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
     written: dict[Path, Path] = {}
     try:
         for path, content in contents.items():
-            # A name that contains the full final name could be longer than the file system allows.
+            # The temporary name contains only 40 characters of ``path.name``. File systems limit the length
+            # of names.
             name = f".{path.name[:40]}.{secrets.token_hex(4)}{SUFFIX}"
             # The name is recorded before the file is created, because a signal may arrive between the
             # creation of the file and the next statement.

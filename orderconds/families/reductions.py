@@ -57,8 +57,8 @@ class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
     ``even`` is true if the method is symmetric. ``substitute`` contains a family whose conditions imply the
-    conditions of the original family, or is None. ``cut`` describes which conditions the truncation of
-    dexpinv does not change, or is None.
+    conditions of the original family, or is None. If ``cut`` is not None, it finds conditions that the method
+    certainly satisfies.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]
@@ -84,10 +84,10 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Return True if the method is known to satisfy the condition of order ``n`` of the tree or forest
-        ``key``.
+        """Return True if ``cut`` proves the condition of the tree or forest ``key``. The order of the
+        condition is ``n``.
 
-        A condition is known to hold if the truncation of dexpinv does not change it and ``n`` is at most
-        ``cut.order``.
+        Without truncation of dexpinv, the method has at least order ``cut.order``. If ``cut.length(key)`` is
+        at most ``cut.longest``, the truncation does not change the left-hand side.
         """
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

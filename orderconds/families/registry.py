@@ -188,7 +188,7 @@ def family_class(name: str) -> type[Family]:
 
 
 def _installed(name: str) -> type[Family] | None:
-    """Register and return the class of the family ``name`` of an installed package, or return None."""
+    """Find the family ``name`` in the installed packages. Register and return its class, or return None."""
     from importlib import metadata
 
     for entry in metadata.entry_points(group=ENTRY_POINT_GROUP, name=name):

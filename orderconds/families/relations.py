@@ -5,9 +5,9 @@ Two laws make conditions dependent.
 
 - For trees u and v, let u o v be the tree u with v as an additional branch of the root. The elementary
   weights phi of a symplectic method satisfy phi(u o v) + phi(v o u) = phi(u) phi(v) (HLW VI.7.1).
-- The coefficients a(w) of the words w in a group-like series satisfy a(u) a(v) = a(u sh v), where a is linear
-  and sh is the shuffle product. The series of a Lie group method is group-like. Therefore the coefficients of
-  Lyndon words determine all other coefficients (Reutenauer, Free Lie Algebras, Thm 6.1).
+- Let a(w) be the coefficient of the word w in a group-like series. Then a(u) a(v) is the sum of a(w) over all
+  shuffles w of u and v. The series of a Lie group method is group-like. Therefore the coefficients of Lyndon
+  words determine all other coefficients (Reutenauer, Free Lie Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions, with a relation in each dependent condition.
+    """Return the conditions. The attribute ``relation`` of each dependent condition is set.
 
     The relation is the text of a polynomial in left-hand sides of independent conditions. The function
     ``polynomial`` maps the key of a condition to the polynomial, and ``text`` converts a key to text.

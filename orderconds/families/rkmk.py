@@ -83,10 +83,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a Runge-Kutta tableau or a composition, else None.
-
-        The tableau file of such a method should state the order of the method in this family.
-        """
+        """Return this family for a Runge-Kutta tableau or a composition, else None."""
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
@@ -161,7 +158,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
 
 class _Words:
-    """Sums over stage indices: the coefficients of words in the series of u_i and exp(u_i).
+    """Formulas for the coefficients of the series u_i and exp(u_i).
 
     Let u_i be the exponent of stage i, and let k_j be the value of the vector field at stage j. Then
     u_i = sum_j a_ij dexpinv_{u_j}(k_j). If the index ``i`` is None, u_i is the exponent of the whole step,
@@ -201,7 +198,7 @@ class _Words:
         )
 
     def _argument(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in u_i, the exponent of stage ``i``."""
+        """Return the coefficient of ``word`` in the series u_i, the exponent of stage ``i``."""
         if i is not None and word == (b"\0",):
             return coefficient("c", i)
         j = fresh()
@@ -231,8 +228,8 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # As functions of a tableau with n = ``order`` stages, the elementary weights of the trees with n
-        # vertices are linearly independent.
+        # For n = ``order`` stages, the elementary weights of the trees with n vertices are linearly
+        # independent.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 

@@ -120,9 +120,9 @@ class NystroemFamily(Family):
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return pairs (label, bound), where ``label`` is the label of a family. If a symmetric method
-        satisfies the conditions of this family up to ``order``, it satisfies the conditions of the family
-        ``label`` up to the order ``bound``.
+        """Return pairs (label, bound), where ``label`` is the label of a family. If a symmetric method has at
+        least the order ``order`` in the family ``rkn``, its order in the family ``label`` is at least
+        ``bound``.
 
         The bound for this family is ``order``. The bound for the family ``splitting`` is min(``order``, 4).
 
@@ -191,8 +191,8 @@ def _scale(functional: Functional) -> int:
 
 @lru_cache(maxsize=32)
 def functionals(order: int) -> tuple[Functional, ...]:
-    """Return a basis of the functionals over words of length ``order`` that are zero on the ideal. The module
-    docstring defines the ideal.
+    """Return a basis of the functionals with words of length ``order``. All functionals in the basis are zero
+    on the ideal of the module docstring.
 
     >>> [len(functionals(n)) for n in (1, 2, 3, 4)]
     [2, 4, 8, 15]

@@ -47,8 +47,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: tableau files do not state the order in the family ``slgi``. They state the order in
-        the family ``vrkmk(0)``, and the two orders are equal."""
+        """Return None. Tableau files state the order in the family ``vrkmk(0)``, and the order in the family
+        ``slgi`` is equal."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:

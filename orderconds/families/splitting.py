@@ -41,8 +41,8 @@ MAX_PARTS = 6
 
 @register
 class SplittingFamily(WordFamily):
-    """Splittings of a vector field into a sum of ``parts`` vector fields, called parts. A word is a sequence
-    of indices 0, 1, ... of parts, printed as letters A, B, ....
+    """Splittings of a vector field into a sum of vector fields, called parts. The number of parts is
+    ``parts``. A word is a sequence of indices 0, 1, ... of parts, printed as letters A, B, ....
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -109,7 +109,7 @@ class SplittingFamily(WordFamily):
         """Return the product of the factorials of the run lengths of ``word``. A run is a maximal block of
         equal letters.
 
-        Both sides of the condition of ``word`` are multiplied by the product.
+        Both sides of the order condition are multiplied by this product.
         """
         return prod(factorial(len(list(run))) for _, run in groupby(word))
 
@@ -174,7 +174,7 @@ class SplittingFamily(WordFamily):
 
 
 def splitting_formula(word: Word) -> Formula:
-    """Return the left-hand side of the condition of a word as an index sum.
+    """Return a sum over stage indices: the left-hand side of the condition of ``word``.
 
     The left-hand side is the coefficient of the word in the series of one step, times
     :meth:`SplittingFamily.scale`.

@@ -34,7 +34,7 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. The independent trees are the free trees, each with one chosen root."""
+of independent trees. The independent trees contain one rooted version of each free tree."""
 
 
 @register

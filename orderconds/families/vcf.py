@@ -79,8 +79,8 @@ class VariationalCommutatorFree(ActionFamily):
         )
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of a method with random coefficients in ``ring``. Each exponential
-        combines the velocities of all stages."""
+        """Return the action series of a method with random coefficients in ``ring``. Each exponential of the
+        method combines the velocities of all stages."""
         stages = max(order - 1, 2)
         numbers = [self.stage or max(2, order - 3)] * stages + [self.update or max(3, order - 2)]
         rows = [

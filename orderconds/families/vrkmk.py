@@ -2,12 +2,11 @@
 differential of exp. The methods truncate this series after the term with ad^r.
 
 Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncation. For even r >= 2, the
-Bernoulli number B_(r+1) is zero, so r and r + 1 define the same method. Let R = r + 1 for even r >= 2, and
-R = r for all other r.
+Bernoulli number B_(r+1) is zero, so r and r + 1 define the same method.
 
-Let p be the order of the symplectic partitioned Runge-Kutta method with the same tableau. The order of the
-method of ``vrkmk(r)`` is min(p, R + 2). For some r, this number is larger than the bound in Theorem 3.5.3 of
-Bogfjellmo and Marthinsen.
+Let p be the order of the symplectic partitioned Runge-Kutta method with the same tableau. Let R = r + 1 for
+even r >= 2, and R = r for all other r. The order of the method of ``vrkmk(r)`` is min(p, R + 2). For some r,
+this number is larger than the bound in Theorem 3.5.3 of Bogfjellmo and Marthinsen.
 """
 
 from __future__ import annotations

@@ -75,8 +75,8 @@ class Certificate:
 
 
 def certify(tableau: Tableau, bits: int = 256) -> Certificate:
-    """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near the
-    decimals of ``tableau``.
+    """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near the decimal
+    values of the unknowns.
 
     The proof uses ball arithmetic with at least ``bits`` bits. Raises
     :class:`~orderconds.proof.krawczyk.NotProved` if the proof fails.
@@ -151,7 +151,7 @@ def _certify(key: _Key, least: int) -> Certificate:
 def _mismatch(conditions: int, unknowns: int) -> str:
     advice = (
         f'add {unknowns - conditions} of the unknowns, by name, to the list "pins" in [proof]; '
-        "the decimals of the names in this list count as exact numbers"
+        "the decimal values of these unknowns count as exact numbers"
         if unknowns > conditions
         else "name a reduction: a theorem by which some of the equations follow from the others"
     )

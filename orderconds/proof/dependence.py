@@ -42,9 +42,9 @@ MAX_PRIMES = 24
 """Conditions are evaluated modulo at most this number of primes."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""A map from each dependent condition to a polynomial that is equal to its left-hand side modulo one prime. A
-pair (x, y) of residues denotes the coefficient x + y sqrt(d), where sqrt(d) is the only square root in the
-tableau file. If there is no such square root, y is zero."""
+"""A map from each dependent condition to a polynomial. Modulo one prime, the polynomial is equal to the
+left-hand side of the condition. A pair (x, y) of residues denotes the coefficient x + y sqrt(d), where
+sqrt(d) is the only square root in the tableau file. If there is no such square root, y is zero."""
 
 
 @dataclass(frozen=True)

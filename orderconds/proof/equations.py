@@ -61,8 +61,8 @@ class Equations:
     """If the value is an integer s, only conditions for words in the letters 1, ..., s are used. This
     reduction is for Magnus methods on s Gauss nodes. It requires ``proof.order`` <= 2s."""
     kept: tuple[OrderCondition, ...] | None = None
-    """The conditions that remain after the reduction ``spelling`` or ``low-storage``, or None without these
-    reductions."""
+    """The conditions that remain after the reduction ``spelling`` or ``low-storage``. The value is None for
+    all other reductions."""
     lower: tuple[OrderCondition, ...] = ()
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
     conditions follow the conditions of the scheme."""
@@ -193,8 +193,9 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions of the embedded method of a low-storage (2N) scheme. The result is empty unless
-    the embedded update consists of the exponentials of the method and one additional exponential."""
+    """Return the conditions of the embedded method of a low-storage (2N) scheme. The embedded update must
+    consist of the exponentials of the method and one additional exponential. Otherwise the result is
+    empty."""
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
         return ()

@@ -4,8 +4,9 @@ other conditions.
 The left-hand sides are evaluated in exact arithmetic for one random method. A wrong polynomial passes the
 verification only with negligible probability.
 
-A *member* of a sub-family is a method whose coefficients satisfy the formulas in a tableau file. The
-coefficients of a random member are in Q(sqrt(d)) if sqrt(d) is the only radical in the file, else in Q.
+The formulas in a tableau file define a sub-family of methods. The random method is a *member* of the
+sub-family. The coefficients of a random member are in Q(sqrt(d)) if sqrt(d) is the only radical in the file,
+else in Q.
 """
 
 from __future__ import annotations
@@ -125,7 +126,7 @@ def exact_member(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> ExactMember | None:
-    """Return the left-hand sides of ``conditions`` for a random member of the sub-family ``symbolic``.
+    """Evaluate the left-hand sides of ``conditions`` for a random method of the sub-family ``symbolic``.
 
     ``surd`` is the result of :func:`lone_square_root`. Return None if the numbers become too large or a
     divisor is zero.

@@ -27,8 +27,8 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
 
 
 def least_order(facts: Iterable[Fact], family: Family) -> int:
-    """Return the largest n such that every method with the orders in ``facts`` has at least order n in
-    ``family``. If ``facts`` imply no order, return 0.
+    """Return a lower bound of the order in ``family`` for all methods with the orders in ``facts``. If
+    ``facts`` imply no order, return 0.
 
     >>> least_order([("sprk", 6), ("rk", 6)], families.get("vrkmk(2)"))
     5

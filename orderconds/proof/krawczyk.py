@@ -20,8 +20,8 @@ from orderconds.ring.jets import Jet, Jets
 from orderconds.ring.precision import precision
 
 System = Callable[[Sequence[Jet], Jets], Sequence[Jet]]
-"""A system of n functions of n variables. The arguments are one jet (a value with its gradient) for each
-variable, and the ring of the jets."""
+"""A system of n functions of n variables. The first argument contains one jet (a value with its gradient) for
+each variable. The second argument is the ring of the jets."""
 
 MAX_SWEEPS = 40
 
@@ -86,7 +86,7 @@ def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
 
 
 def inverse(matrix: arb_mat) -> arb_mat:
-    """Return an approximate inverse, with entries of radius zero, of a square matrix of balls.
+    """Return an approximate inverse of a square matrix of balls. The entries of the result have radius zero.
 
     Raises :class:`NotProved` if the balls may contain a singular matrix.
 

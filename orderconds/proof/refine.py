@@ -1,7 +1,7 @@
 """Newton's method in high precision, starting from the digits in a tableau file.
 
-If there are more decimals than equations, Newton's method changes only some of the decimals. Gaussian
-elimination with complete pivoting, applied to the Jacobian matrix, selects the decimals that change.
+If there are more unknowns than equations, Newton's method changes only some of the unknowns. Gaussian
+elimination with complete pivoting, applied to the Jacobian matrix, selects these unknowns.
 """
 
 from __future__ import annotations
@@ -25,8 +25,7 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""A bound on the absolute difference between a value in Newton's method and the decimal in the file. A larger
-difference would lead to a different method."""
+"""A bound on the total change of each unknown in Newton's method."""
 
 
 @dataclass(frozen=True)
@@ -68,8 +67,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # The second argument of ``independent`` encloses the values of the equations over a box around the
-        # decimals.
+        # ``wide`` represents a box: each unknown varies by at most 1e-6.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -86,8 +84,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
     """Select one unknown for each equation, and return their indices in ascending order.
 
-    Each row of ``jacobian`` contains the derivatives of one equation. Gaussian elimination with complete
-    pivoting selects the unknowns, after each row is divided by its largest entry. Raises
+    Each row of ``jacobian`` contains the derivatives of one equation. Each row is divided by its largest
+    entry. Then Gaussian elimination with complete pivoting selects the unknowns. Raises
     :class:`~orderconds.proof.krawczyk.NotProved` if a pivot is smaller than 1e-8.
 
     >>> determined([[arb(0), arb(2), arb(1)]])

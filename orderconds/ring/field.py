@@ -1,8 +1,8 @@
 """Real number fields, whose elements are exact algebraic numbers.
 
-A field Q(a) is defined by the minimal polynomial of a real number a and by a function that computes balls
-around a. An element of the field is represented by a polynomial in a, of smaller degree than the minimal
-polynomial.
+A field Q(a) is defined by the minimal polynomial of a real number a and by a function. The function computes
+balls that contain a. An element of the field is represented by a polynomial in a, of smaller degree than the
+minimal polynomial.
 
 If an operation combines elements of two fields of a tower (:class:`orderconds.ring.tower.Tower`), the result
 lies in the larger field.

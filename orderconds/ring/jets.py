@@ -39,7 +39,7 @@ class Jets:
         return self.name
 
     def variable(self, place: int, value: arb) -> Jet:
-        """Return the variable with index ``place``, enclosed by the ball ``value``."""
+        """Return the jet of the variable with index ``place``. The ball ``value`` encloses the variable."""
         return Jet(value, self.width, arb_mat(1, self.width, [int(k == place) for k in range(self.width)]))
 
     def constant(self, value: arb) -> Jet:
@@ -80,7 +80,7 @@ class Jets:
         return True if x.value.is_zero() and flat else None
 
     def text(self, x: Jet) -> str:
-        """Return the enclosure of the value as text: the midpoint and the radius."""
+        """Return the ball ``x.value`` as text: the midpoint and the radius."""
         return str(x.value.str(15))
 
     def key(self, x: Jet) -> tuple[str, ...]:
@@ -106,7 +106,7 @@ class Jet:
 
     @property
     def gradient(self) -> tuple[arb, ...]:
-        """The partial derivatives."""
+        """The partial derivatives with respect to all variables."""
         return (arb(0),) * self.width if self.slopes is None else tuple(self.slopes.entries())
 
     def __repr__(self) -> str:

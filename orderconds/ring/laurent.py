@@ -1,7 +1,7 @@
 """Laurent polynomials over Q: polynomials in which negative powers of the variables are allowed.
 
-The formulas of some families (``sprk``, ``vcg``) contain divisions by the weights b_i. An element is a flint
-polynomial divided by a monomial, in lowest terms.
+The formulas of some families (``sprk``, ``vcg``) contain divisions by the weights b_i. An element is stored
+as a polynomial divided by a monomial, in lowest terms.
 """
 
 from __future__ import annotations

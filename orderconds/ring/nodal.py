@@ -92,8 +92,7 @@ class NodalAlgebra:
         return image
 
     def weigh(self, x: fmpq_poly) -> fmpq:
-        """Return the number b^T v. Here b is the vector of the weights, and v is the vector that x
-        represents."""
+        """Return the sum of b_i x(c_i), with the weights b_i and the nodes c_i."""
         total = x.integral()(1)
         for k, correction in self.moments:
             total = total + correction * x[k]
@@ -189,7 +188,7 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """A function from the values of a polynomial at the nodes to rational candidates for the coefficients."""
+    """Guess the rational coefficients of a polynomial from its values at the nodes."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)

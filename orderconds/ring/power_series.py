@@ -81,7 +81,7 @@ class PowerSeries:
         return "[" + ", ".join(self.base.approximate(c, digits) for c in x.coefficients) + "]"
 
     def valuation(self, x: Series) -> int:
-        """Return the smallest k for which the coefficient of h^k is not proved to be zero.
+        """Return the smallest power k of h whose coefficient may be non-zero.
 
         Return order + 1 if all coefficients are proved to be zero.
         """

@@ -59,7 +59,7 @@ class Residues:
         return Residue(self, generator.integers(0, self.prime, self.samples, dtype=np.int64))
 
     def is_zero(self, x: Residue) -> bool:
-        """Return True if all entries of the vector x are zero."""
+        """Return True if all residues in x are zero."""
         return not x.values.any()
 
     def text(self, x: Residue) -> str:
@@ -114,8 +114,8 @@ class Residue:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Residue:
-        """Return 1/x for this vector x, by Fermat's formula 1/x = x^(p-2) for the prime p. Raises
-        ZeroDivisionError if an entry of x is zero."""
+        """Return 1/x for each entry x, by Fermat's formula 1/x = x^(p-2) for the prime p. Raises
+        ZeroDivisionError if an entry is zero."""
         if not self.values.all():
             raise ZeroDivisionError(f"a sample of the divisor is zero modulo {self.ring.prime}")
         result, square, n = self.ring.one, self, self.ring.prime - 2

@@ -68,9 +68,8 @@ class Tower:
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the field of this tower with all roots that were adjoined so far, and a function that
-        converts the elements of this tower to elements of the returned field. If the degree is 1, the
-        returned field is QQ."""
+        """Return the largest field of this tower, and a function that converts elements of the tower to
+        elements of this field. If the degree is 1, the returned field is QQ."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -247,8 +246,8 @@ def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
 
 
 def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
-    """Return the monic irreducible factor of ``characteristic`` with the real root that lies in the
-    balls of ``enclosure``."""
+    """Return a monic irreducible factor of ``characteristic``. The balls of ``enclosure`` contain a real root
+    of this factor."""
     factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
     bits = 64
     while len(factors) > 1:
@@ -260,8 +259,8 @@ def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
 
 
 def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    """Return the polynomial in ``a`` that is equal to ``b`` in the field Q[x]/(modulus), where ``a``
-    generates this field."""
+    """Return the polynomial p with p(a) = b in the field Q[x]/(modulus). The element ``a`` must generate this
+    field."""
     degree, power, powers = int(modulus.degree()), fmpq_poly([1]) % modulus, []
     for _ in range(degree):
         powers.append(power)

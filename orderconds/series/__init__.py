@@ -1,4 +1,5 @@
-"""Series of methods and of exact flows over any ring. Each series is truncated at an order.
+"""Series of methods and of exact flows. The coefficients are elements of any ring. Each series is truncated
+at an order.
 
 - ``b_series``: series over rooted trees, with or without colours.
 - ``lie_butcher``: series over ordered forests, for products of exponentials and for the exact flow.

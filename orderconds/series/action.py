@@ -242,8 +242,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._inverse_factorial[n]
 
     def _before(self, row: int, word: Word) -> Stages:
-        """Return a list: entry k is the coefficient of ``word`` in the product of the first k exponentials of
-        the group element ``row``."""
+        """Return a list: entry k is the coefficient of ``word`` in a product of exponentials. The factors are
+        the first k exponentials in ``self.rows[row]``."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known

@@ -46,7 +46,7 @@ def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
 
 @cache
 def velocities(vertices: int) -> tuple[Velocity, ...]:
-    """Return all g-valued trees with ``vertices`` vertices, simplest first.
+    """Return all g-valued trees with ``vertices`` vertices, sorted by the attribute ``key``.
 
     >>> [len(velocities(n)) for n in range(1, 5)]
     [1, 3, 17, 111]
@@ -102,8 +102,8 @@ def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
 
 @cache
 def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
-    """Return pairs (cost, word), sorted by cost, for all words with ``vertices`` vertices and cost at most
-    ``limit``."""
+    """Return pairs (cost, word), sorted by cost. The trees in a word have ``vertices`` vertices in total. The
+    cost is at most ``limit``."""
     if vertices == 0:
         return ((0, ()),)
     words = []

@@ -1,15 +1,15 @@
 """The action series of the exact flow: iterated integrals over [0, 1] of univariate polynomials over Q.
 
 In the formulas of :mod:`orderconds.series.action`, a time s replaces the index i of a stage, and integrals
-over times replace sums over stages:
+over times replace sums over stages. The function :func:`tau` returns ``tau_t(s)`` for a tree t. Let w be a
+word with the letters t_1, ..., t_k:
 
-- ``Phi_w(s)``, for a word w with the letters t_1, ..., t_k, is the integral of the product ``tau_{t_1}(s_1)
-  ... tau_{t_k}(s_k)`` over all times with 0 <= s_1 <= ... <= s_k <= s. The integral of the same product over
-  all times with s <= s_1 <= ... <= s_k <= s' is ``Phi_w(s, s')``.
-- ``psi_{L(w)}(s)``, for the tree L(w), is the integral of the product ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)``
-  over all times with 1 >= s_1 >= ... >= s_k >= s.
-- ``psi_{H(u*v|M)}(s)``, for the tree H(u*v|M) with words u and v and a multiset M, is the integral of
-  ``Phi_u(s) Phi_v(s, s') prod_{p in M} psi_p(s')`` over the times s' from s to 1.
+- ``Phi_w(s)`` is the integral of the product ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)`` over all times with 0 <=
+  s_1 <= ... <= s_k <= s. The integral of the same product over all times with s <= s_1 <= ... <= s_k <= s' is
+  ``Phi_w(s, s')``.
+- ``psi_{L(w)}(s)`` is the integral of the same product over all times with 1 >= s_1 >= ... >= s_k >= s.
+- ``psi_{H(u*v|M)}(s)``, for words u and v and a multiset M of trees, is the integral of ``Phi_u(s) Phi_v(s,
+  s') prod_{p in M} psi_p(s')`` over the times s' from s to 1.
 
 Let r_k be the first k letters of v in reverse order, and let v_k be the remaining letters of v. The integral
 ``Phi_v(s, s')`` is equal to ``sum_k (-1)^k Phi_{r_k}(s) Phi_{v_k}(s')``.
@@ -46,8 +46,8 @@ def tau(tree: Velocity) -> UnivariatePolynomial:
 
 @cache
 def phi(word: Word) -> UnivariatePolynomial:
-    """Return the coefficient Phi_w(s) of a word w in the group element of the exact flow at time s.
-    The output of the example shows s as x.
+    """Return the polynomial Phi_w(s) for w = ``word``. The module docstring defines it. The output of the
+    example shows s as x.
 
     >>> from orderconds.series.action_trees import velocity
     >>> phi((velocity(), velocity()))
@@ -108,7 +108,7 @@ def condition(tree: Velocity) -> Fraction:
 
 
 def update(word: Word) -> Fraction:
-    """Return the coefficient of a word in the group element of the exact flow at time 1.
+    """Return Phi_w(1) for w = ``word``. It is the coefficient of the word in the exact flow.
 
     >>> from orderconds.series.action_trees import velocity
     >>> print(update((velocity(), velocity(), velocity())))

@@ -1,5 +1,5 @@
-"""The vectors and covectors that action trees denote, and the local error of a method, for one Hamiltonian
-H(q, mu).
+"""Action trees for a given Hamiltonian H(q, mu): their vectors and covectors, and the local error of a
+method.
 
 A derivative of H along k directions is computed exactly, by automatic differentiation. The point (q, mu) is
 moved along each direction i by a variable distance eps_i, where eps_i^2 = 0. The derivative is the
@@ -69,8 +69,8 @@ def _parts(x: Element) -> dict[int, Element]:
 
 
 class ActionFields:
-    """The elementary velocities xi_t of g-valued trees t and the covectors m_p of g*-valued trees p, for one
-    Hamiltonian at one point (q, mu).
+    """The values of action trees for one Hamiltonian at one point (q, mu). The value of a g-valued tree t is
+    a vector xi_t in g, the elementary velocity. The value of a g*-valued tree p is a covector m_p.
 
     - ``hamiltonian(q, mu)``: a function of a matrix (a tuple of rows) and of the coordinates of mu. The
       function must use only the operations ``+``, ``-`` and ``*``.
@@ -197,8 +197,8 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # ``defects`` give the error of the initial momentum for a given final momentum. The error of the
-            # final momentum for a given initial momentum has the opposite sign.
+            # The sum of all ``weight * change`` is the error of the initial momentum. The error of the final
+            # momentum has the opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 

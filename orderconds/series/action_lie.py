@@ -68,7 +68,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(update, word)[place] if word else self.ring.one
 
     def stage_coefficients(self, word: Word) -> Stages:
-        """Return the coefficient of a word in the group element of each stage."""
+        """Return the coefficient of ``word`` in exp(X_i) for each stage i."""
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
@@ -142,8 +142,8 @@ class MuntheKaasActionSeries(ActionSeries):
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
         """Add the result of :meth:`_varied_power` to ``totals``. The power n must be at least 2."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # The word (before, x, after) is divided after ``cut`` letters. If ``rest`` is negative, the
-            # second part contains x.
+            # The word (before, x, after) is divided after ``cut`` letters. If the first part contains x, it
+            # also contains ``rest`` letters of ``after``.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])

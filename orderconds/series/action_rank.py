@@ -39,9 +39,9 @@ BLOCK = 256
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
     """Return the trees with independent conditions, as one tuple for each of the orders 1, ..., ``order``.
 
-    The conditions of the selected trees are independent over Q. The selection is very probably complete. If,
-    for each order, the number of selected trees is equal to the upper bound of
-    :func:`~orderconds.series.action_counts.tree_counts`, the selection is certainly complete.
+    The conditions of the selected trees are independent over Q. The selection is very probably complete. The
+    function :func:`~orderconds.series.action_counts.tree_counts` returns an upper bound for each order. If
+    the selection reaches all bounds, it is certainly complete.
 
     >>> from functools import partial
     >>> from orderconds.families import get

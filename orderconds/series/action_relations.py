@@ -32,8 +32,8 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial. A pair (coefficient, trees) represents the product of the coefficient and the
-left-hand sides of the conditions of the trees."""
+"""The terms of a polynomial. Each term is a pair (coefficient, trees). Each tree represents a factor: the
+left-hand side of its condition."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
@@ -75,7 +75,7 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
 
 
 SEED = 61
-"""The seed of the generator that draws a method with random coefficients in Q."""
+"""The seed of the random numbers in :func:`hold_over_rationals`."""
 
 
 class _Drawn(Rationals):

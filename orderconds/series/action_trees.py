@@ -8,17 +8,18 @@ right-invariant vector field on G. There are three kinds of trees:
 - A :class:`Velocity` is a g-valued tree with a word w and a multiset M, written (w, M) or ``o(w | M)``. The
   tree denotes a mixed derivative of the vector dH/dmu. To differentiate in q, move q along the field of the
   first letter of w, then along the field of the second letter, and so on. The directions in mu are the
-  covectors of M.
+  covectors of the trees in M.
 - A :class:`Force` is a g*-valued tree with two words u and v and a multiset M, written ``H(u * v | M)`` or
   ``f(u * v | M)``. The tree denotes a covector, which maps an element x of g to a mixed derivative of H. To
-  differentiate in q, move q along the fields of the letters of u, then of x, and then of the letters of v.
-  The directions in mu are the covectors of M.
+  differentiate in q, move q along the field of each element of (u, x, v), from left to right. The directions
+  in mu are the covectors of the trees in M.
 - A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. The tree denotes the covector that
   maps an element x of g to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here
   ``<mu, y>`` is the pairing of mu with y.
 
-A velocity also denotes an elementary Hamiltonian (:func:`hamiltonian`). The elementary Hamiltonians are the
-terms of the generating function of a step of a method. Equal trees are identical objects.
+Each :class:`Velocity` also defines an elementary Hamiltonian (:func:`hamiltonian`). The elementary
+Hamiltonians are the terms of the generating function of a step of a method. Equal trees are identical
+objects.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ class _Node:
 
     @property
     def key(self) -> tuple[int, int, int, str]:
-        """The sort key of a tree: its number of vertices, its cost, the length of its text, and its text."""
+        """The sort key: the attributes ``vertices`` and ``cost``, the length of ``text``, and ``text``."""
         if self._key is None:
             text = self.text
             self._key = (self.vertices, self.cost, len(text), text)
@@ -99,14 +100,15 @@ class Velocity(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. The group permutes equal trees in the multisets of the
-        tree and its subtrees."""
+        """The order of the symmetry group of the tree. Each multiset M in the tree contributes a factor n!
+        for n equal elements."""
         return _symmetry(self.word, self.momenta)
 
 
 class Force(_Node):
-    """The g*-valued tree H(u * v | M) of the module docstring. Here u and v are words of g-valued trees, and
-    M is a multiset of g*-valued trees. Use :func:`force` to create trees.
+    """A g*-valued tree, written H(u * v | M), with ``before`` = u, ``after`` = v and ``momenta`` = M. Here u
+    and v are words of g-valued trees, and M is a multiset of g*-valued trees. Use :func:`force` to create
+    trees.
 
     >>> tree = force((), (velocity(),))
     >>> tree, tree.vertices
@@ -126,14 +128,14 @@ class Force(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. The group permutes equal trees in the multisets of the
-        tree and its subtrees."""
+        """The order of the symmetry group of the tree. Each multiset M in the tree contributes a factor n!
+        for n equal elements."""
         return _symmetry(self.before + self.after, self.momenta)
 
 
 class Transport(_Node):
-    """The g*-valued tree L(w) of the module docstring. Here w is a non-empty word of g-valued trees. Use
-    :func:`transport` to create trees.
+    """A g*-valued tree, written L(w). Here w is a non-empty word of g-valued trees. Use :func:`transport` to
+    create trees.
 
     >>> tree = transport((velocity(), velocity()))
     >>> tree, tree.vertices
@@ -151,8 +153,8 @@ class Transport(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. It is the product of the orders of the symmetry groups
-        of the letters."""
+        """The order of the symmetry group of the tree. It is the product of ``letter.symmetry`` over all
+        letters of ``word``."""
         return _symmetry(self.word, ())
 
 

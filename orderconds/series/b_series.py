@@ -153,7 +153,7 @@ class Sums:
         return len(self._ends)
 
     def __call__(self, x: Sequence[Element]) -> list[Element]:
-        """Return one number for each row: the sum of weight_j x_j over the pairs (j, weight_j) of the row."""
+        """Return the sum of weight_j x_j for each row. The row contains the pairs (j, weight_j)."""
         values = [self._zero]
         for before, place, weight in self._steps:
             values.append(values[before] + weight * x[place])

@@ -17,8 +17,8 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 
 
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
-    """Return a program that computes the same arguments u_1, ..., u_s and u of the exponentials as
-    ``program``. If possible, the returned program has fewer terms.
+    """Return a program with the same results u_1, ..., u_s and u as ``program``. If possible, the returned
+    program has fewer terms.
 
     The ring must have division and a test for zero.
 
@@ -68,7 +68,7 @@ def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
     """Return a program in which the bracket B_r + t B_q replaces the bracket B_r. ``names`` contains the
-    names of B_q and B_r, which must have the same left factor."""
+    names of the brackets B_q and B_r. The two brackets must have the same left factor."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:
