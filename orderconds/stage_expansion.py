@@ -26,8 +26,8 @@ MAX_COMPUTED = 5_000_000
 MAX_COMPUTED terms needs about 500 MB of memory."""
 
 MAX_TERMS = 500_000
-"""The largest number of terms of all expanded conditions together. Writing the text of MAX_TERMS terms needs
-1.5 GB of memory."""
+"""The expanded conditions may have at most MAX_TERMS terms in total. Writing the text of MAX_TERMS terms
+needs 1.5 GB of memory."""
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
@@ -64,8 +64,8 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
 def _terms_at_most(derivation: Derivation, stages: int, *, explicit: bool) -> int:
     """Return an estimate of the total number of terms of the expanded conditions.
 
-    For explicit methods, the estimate assumes (stages - 1)/2 values of the stage index at each vertex except
-    the root. This is the mean number of stages that precede a stage.
+    In explicit methods, the sum of a_ij over j has (stages - 1)/2 terms on average. The estimate uses this
+    average.
     """
     factor = Fraction(stages - 1, 2) if explicit else Fraction(stages)
     sizes = enumerate(derivation.counts)

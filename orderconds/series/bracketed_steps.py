@@ -1,6 +1,7 @@
 """The Lie-Butcher series of a step in which the arguments of exponentials contain brackets.
 
-The first letter of a word acts first. In the product x y of two series, the factor y acts first.
+In a word of ordered trees, the leftmost letter acts first. In a product of series, the rightmost factor acts
+first.
 """
 
 from __future__ import annotations

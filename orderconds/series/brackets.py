@@ -143,8 +143,8 @@ def _graded_bases(
 def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
-    """Return the arguments u_1, ..., u_s of the stages and the argument u of the step, as polynomials in the
-    elements h q_j (module docstring)."""
+    """Return the arguments u_1, ..., u_s and u in :class:`BracketProgram`, as polynomials in the elements h
+    q_j (module docstring)."""
     ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
@@ -204,7 +204,7 @@ class _Shape:
 
     @property
     def brackets(self) -> int:
-        """Return the number of brackets that a program with this shape adds."""
+        """Return the total number of brackets in the shape."""
         return self.outer + self.inner + len(self.extra)
 
 

@@ -20,16 +20,16 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""A cut, as a pair (components, rest). If a cut removes a whole tree or forest, this tree or forest is the
-only component."""
+"""A pair of the removed parts (components) and the remaining part (rest). If a cut removes a whole tree or
+forest, this tree or forest is the only component."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 
 
 @lru_cache(maxsize=1 << 14)
 def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
-    r"""Return every cut of a canonical rooted tree. If the tree has equal branches, equal cuts are returned
-    several times. The last cut removes the whole tree.
+    r"""Return every admissible cut of a canonical rooted tree. If the tree has equal branches, equal cuts are
+    returned several times. The last cut removes the whole tree.
 
     >>> tree_cuts(b"\0\1")
     (((), b'\x00\x01'), ((b'\x00',), b'\x00'), ((b'\x00\x01',), b''))

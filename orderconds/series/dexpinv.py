@@ -5,7 +5,7 @@ is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=
 x = [u, x]. The numbers B_k are the Bernoulli numbers with B_1 = -1/2 (Hairer, Lubich and Wanner, *Geometric
 Numerical Integration*, IV.8.3).
 
-The first letter of a word of ordered trees acts first. In the product x y of two series, the factor y acts
+In a word of ordered trees, the leftmost letter acts first. In a product of series, the rightmost factor acts
 first.
 """
 
@@ -39,7 +39,7 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        # ``_rows[0]`` gives the arguments of the stages, and ``_rows[1]`` gives the argument of the step.
+        # ``_rows[0]`` contains the rows of A, and ``_rows[1]`` contains b.
         self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
@@ -58,8 +58,8 @@ class DexpinvSeries:
         return self._exponential(0, forest)[i]
 
     def argument(self, i: int, word: Forest) -> Element:
-        """Return the coefficient of a word in the argument u_i of stage i. If i is the number of stages, u_i
-        is the argument of the step."""
+        """Return the coefficient of a word in the argument u_i of stage i. Stages are counted from 0. The
+        index i = ``len(b)`` denotes the argument of the step."""
         if not word:
             return self._ring.zero
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
@@ -183,6 +183,6 @@ def _cuts(word: Forest) -> list[int]:
 
 
 def _pointed(word: Forest) -> list[tuple[int, Tree, int]]:
-    """Return a triple (start, letter, end) for each letter ``word[start:end]`` of a word."""
+    """Divide a word into letters (ordered trees). Return a triple (start, letter, end) for each letter."""
     cuts = [0, *_cuts(word), len(word)]
     return [(start, word[start:end], end) for start, end in pairwise(cuts)]

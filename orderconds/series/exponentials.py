@@ -66,7 +66,7 @@ class ProductOfExponentials:
         return values
 
     def _letters(self, k: int) -> list[Element | None]:
-        """Return the coefficient of the letter k in each exponent X_J, for J = 0, ..., ``count`` - 1."""
+        """Return ``self._letter(J, k)`` for J = 0, ..., ``self._count`` - 1."""
         coefficients = self._known.get(k)
         if coefficients is None:
             coefficients = self._known[k] = [self._letter(J, k) for J in range(self._count)]

@@ -19,8 +19,8 @@ Key = TypeVar("Key", bound=Hashable)
 
 
 class GradedAlgebra:
-    """The algebra of polynomials in letters with the given ``grades``. Words whose grade is greater than
-    ``largest`` are set to zero.
+    """The algebra of non-commutative polynomials in letters with the given ``grades``. Words whose grade is
+    greater than ``largest`` are set to zero.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)

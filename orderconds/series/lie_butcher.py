@@ -124,8 +124,7 @@ class ExponentialsSeries:
         entries of products that are not in ``places`` are zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # The coefficient of the word is a sum over r, where the last r letters come from the last
-        # exponential.
+        # In summand r, the last r letters of the word come from the exponential number ``row``.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
@@ -193,8 +192,8 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
 
 def forest_residuals(series: ForestSeries, ring: Ring, order: int) -> dict[Forest, Element]:
     """Return the coefficients in a series minus the coefficients in the exact flow, for all ordered forests
-    with ``order`` vertices. For a method of order p, the differences with p + 1 vertices are the leading
-    terms of the local error.
+    with ``order`` vertices. For a method of order ``order`` - 1, the differences are the leading coefficients
+    of the local error.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)

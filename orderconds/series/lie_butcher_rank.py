@@ -3,8 +3,8 @@ forest.
 
 The left-hand sides for random methods form a matrix with one row for each method and one column for each
 condition. A condition is omitted if its left-hand side is a linear combination of earlier left-hand sides and
-of products of left-hand sides of lower order. The linear relation must also hold for the right-hand sides,
-which are the coefficients of the forests in the exact flow.
+of products of left-hand sides of lower order. The same relation must hold for the right-hand sides
+(coefficients of the exact flow).
 """
 
 from __future__ import annotations

@@ -111,13 +111,13 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
     is the coefficient of t in the field, and sigma(t) is the order of the symmetry group of t.
 
     For a tree t with the branches t_1, ..., t_m, the elementary Hamiltonian is H(t) = H^(m)(F(t_1), ...,
-    F(t_m)). Here H^(m) is the m-th derivative of the Hamiltonian, and F denotes elementary differentials. If
-    t consists of two equal trees and an edge between their roots, then H(t) is zero, and t is omitted (HLW
-    IX.9.2).
+    F(t_m)). Here H^(m) is the m-th derivative of the Hamiltonian, and F denotes elementary differentials.
 
-    Let u o v be the tree u with the additional branch v at its root. Raises
-    :class:`~orderconds.errors.InputError` if the field is a Lie-Butcher series, or if one of the equations
-    b(u o v) + b(v o u) = 0 cannot be proved.
+    Let u o v be the tree u with the additional branch v at its root. The trees u o u are omitted, because
+    H(u o u) is zero (HLW IX.9.2).
+
+    Raises :class:`~orderconds.errors.InputError` if the field is a Lie-Butcher series, or if one of the
+    equations b(u o v) + b(v o u) = 0 cannot be proved.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

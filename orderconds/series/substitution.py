@@ -30,8 +30,8 @@ Combination = dict[Forest, Element]
 
 
 def substituted(field: VectorField, step: Character) -> Character:
-    """Return the series of the method ``step``, applied to the vector field ``field`` instead of f. The
-    coefficients of ``step`` and ``field`` must be elements of one ring.
+    """Return the series that results from ``step`` if ``field`` replaces the vector field f. The coefficients
+    of ``step`` and ``field`` must be elements of one ring.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.characters import exact_flow

@@ -38,8 +38,8 @@ Combination = dict[Operator, int]
 
 
 def words(order: int) -> tuple[str, ...]:
-    """Return all words with ``order`` letters K (kick), ``order`` letters D (drift) and the following
-    property: no suffix of the word contains more letters K than letters D.
+    """Return all words in the letters K (kick) and D (drift) with two properties: each letter occurs
+    ``order`` times, and no suffix contains more letters K than letters D.
 
     >>> words(2)
     ('KKDD', 'KDKD')
@@ -116,8 +116,7 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
     """Return a selection of the rooted trees with ``order`` vertices. In two-register (2N) schemes, the
-    elementary weights of the selected trees and of all smaller trees determine the elementary weights of all
-    trees with ``order`` vertices.
+    elementary weights of the omitted trees depend only on those of the selected trees and of smaller trees.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)
@@ -175,7 +174,7 @@ def _symmetry(forest: Forest) -> int:
 @lru_cache(maxsize=1 << 12)
 def _applied(word: str, ordered: bool) -> Combination:
     """Return the operator that ``word`` denotes, as a linear combination of products of derivatives.
-    ``ordered`` is true on a group and false on a vector space."""
+    ``ordered`` is false if the derivatives commute, as on a vector space."""
     result: dict[Operator, int] = defaultdict(int)
     if not word:
         return {(): 1}

@@ -1,9 +1,8 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
-Coefficients that the order conditions do not determine are rounded to short decimals. Lattice reduction tries
-to find closed forms of all other coefficients in one number field. If exact arithmetic does not prove the
-order, interval arithmetic proves that a solution of the order conditions exists near the decimals in the
-file.
+Undetermined coefficients are rounded to short decimals. Lattice reduction tries to find closed forms of all
+other coefficients in one number field. If exact arithmetic does not prove the order, interval arithmetic
+proves that a solution of the order conditions exists near the decimals in the file.
 """
 
 from __future__ import annotations
@@ -305,7 +304,8 @@ def _proved(
 
 
 def _signed(x: arb, places: int) -> str:
-    """Return x as a decimal with ``places`` decimal places and the suffix ``~`` of rounded numbers."""
+    """Return x as a decimal with ``places`` decimal places, followed by ``~``. In tableau files, ``~`` marks
+    rounded numbers."""
     return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 

@@ -85,7 +85,8 @@ def closed_forms(
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
 ) -> dict[str, ClosedForm] | None:
-    """Return the numbers in the first or second basis of :func:`closed_forms`, or None."""
+    """Compute closed forms in the first basis of :func:`closed_forms`, or else in the second basis. Return
+    None if no closed forms are found."""
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:
@@ -159,7 +160,8 @@ def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
         rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
     reduced = fmpz_mat(rows).lll()
     shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
-    # Without a relation, the entries of the shortest lattice vector have about ``known / len(values)`` bits.
+    # If the values are linearly independent over Q, the entries of the shortest lattice vector have about
+    # ``known / len(values)`` bits.
     longest = max(abs(c) for c in shortest).bit_length()
     if 2 * longest * (len(values) + 1) > known:
         return None

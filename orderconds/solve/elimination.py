@@ -40,7 +40,7 @@ MAX_UNKNOWNS, MAX_ORDER = 16, 5
 limits keep the number of terms in the polynomials small."""
 
 MAX_DEGREE = 8
-"""The degree of a multiplier in a proof (:class:`Infeasible`) is below MAX_DEGREE."""
+"""Elimination multiplies equations by polynomials whose degree is below MAX_DEGREE."""
 
 
 @dataclass(frozen=True)
@@ -74,8 +74,8 @@ class Infeasible:
             return f"{self.consequence} = 0 is false"
         if self.weight:
             return (
-                f"{self.consequence} = 0 has only the real root {self.weight} = 0 (Sturm), but the formulas "
-                f"of the family divide by {self.weight}"
+                f"{self.consequence} = 0 implies {self.weight} = 0 for real {self.weight} (Sturm), but no "
+                f"method of the family has {self.weight} = 0"
             )
         return f"{self.consequence} = 0 has no real root (Sturm)"
 

@@ -78,7 +78,7 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
 
 
 def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:
-    """Return the coefficients of an extension of order q, or None if there is no such extension. The p-th row
+    """Return the coefficients of a continuous extension of order q, or None if there is none. The p-th row
     contains the coefficients of theta^p in the weights b_i(theta)."""
     s, zero = len(method.b), (ring.zero,) * len(method.b)
     units = [tuple(ring.one if i == k else ring.zero for i in range(s)) for k in range(s)]
@@ -113,7 +113,7 @@ def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:
 
 
 def _least(matrix: Rows, sides: Sequence[Element], ring: Ring) -> list[Element] | None:
-    """Return the vector x of least norm that solves the linear system ``matrix`` x = ``sides``, or None."""
+    """Return the least-norm solution x of ``matrix`` x = ``sides``, or None if there is no solution."""
     rows = _reduced([[*row, side] for row, side in zip(matrix, sides, strict=True)], ring)
     width = len(matrix[0])
     if any(all(ring.is_zero(x) for x in row[:width]) for row in rows):

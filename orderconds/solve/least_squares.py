@@ -18,7 +18,7 @@ System = Callable[[Floats], tuple[Floats, Floats]]
 returns the residuals, an array of shape (k, m), and the Jacobians, an array of shape (k, m, n)."""
 
 SOLVED = 1e-13
-"""Iterations stop if the norm of the residual is at most SOLVED, the size of rounding errors."""
+"""Iterations stop if the norm of the residual is at most SOLVED."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:

@@ -19,7 +19,7 @@ CENTRE = {"A": -0.8, "B": 0.25}
 
 
 def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of low-storage schemes for the equation Y' = F(Y) Y with the step size h. Stage i
+    """Return the ansatz of low-storage schemes for the equation Y' = F(Y) Y. The step size is h. Stage i
     replaces the register K by A_i K + F(Y), and then Y by exp(h B_i K) Y. The coefficient A_1 is zero.
 
     >>> low_storage(families.get("cf"), Spec(stages=2, low_storage=True), "low-storage", "m").free
@@ -60,8 +60,8 @@ def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def solved_family(family: Family) -> Family:
-    """Return a family in which every low-storage (2N) scheme has the same order as in ``family``. The
-    returned family has fewer order conditions (:mod:`orderconds.proof.equations`).
+    """Return a family that gives every low-storage (2N) scheme the same order as ``family``. The returned
+    family has fewer order conditions (:mod:`orderconds.proof.equations`).
 
     Raises :class:`~orderconds.errors.InputError` if no such family is known for ``family``.
 

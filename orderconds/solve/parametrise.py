@@ -83,7 +83,7 @@ def _symplectic(
     (symplecticity).
 
     For a symmetric method with s stages, the equations for (i, j) and for (s + 1 - j, s + 1 - i) are
-    equivalent. If i + j = s + 1, the symmetry implies the equation.
+    equivalent. The equation for (i, s + 1 - i) follows from the symmetry.
     """
     cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
@@ -123,8 +123,8 @@ def _is_symplectic(elimination: Elimination, entries: tuple[str, str], weights: 
 
 
 def _fixed(A: Sequence[Sequence[str]], elimination: Elimination) -> dict[str, str]:
-    """Return the texts of the constant entries of A. Raises InputError if an entry depends on other
-    coefficients."""
+    """Return the texts of the constant entries of A. Raises InputError if an entry is neither constant nor
+    free."""
     values = {}
     for name in (x for line in A for x in line):
         form = elimination.cell(name)

@@ -26,7 +26,7 @@ from orderconds.solve.spec import Spec
 Path = list[list[str]]
 Paths = tuple[list[Path], Path, list[str], list[Constraint]]
 """A parametrised method: the stages, the update, the names of all coefficients, and the constraints. The
-exponentials of a stage or the update are in the order in which they act."""
+first exponential of a stage or of the update acts first."""
 
 
 def full_paths(spec: Spec) -> Paths:

@@ -42,7 +42,7 @@ class SearchResult:
     - ``error_norm``: the principal error of the method, or None if it was not computed
     - ``impossible``: a proof that no method exists, or None
     - ``best_residual``: the least residual norm of all random starts
-    - ``tried``: one line of text about each parametrisation of the coefficients in the search
+    - ``tried``: one line of text about each parametrisation that was tried
     - ``command``: the command line that repeats the search
     """
 
@@ -56,7 +56,7 @@ class SearchResult:
 
     @classmethod
     def of(cls, request: Order, outcome: Outcome) -> SearchResult:
-        """Combine the options ``request`` of a search with its ``outcome``."""
+        """Return the result of a search with the options ``request`` and the given ``outcome``."""
         solution = outcome.solution
         return cls(
             tableau=None if solution is None else Tableau.loads(solution.text, request.name),

@@ -32,7 +32,7 @@ POLISHED = 1e-11
 """A point counts as a solution if the residual norm is below this number."""
 
 KEPT = 4
-"""The largest number of solutions that a batch of random starts returns."""
+"""A batch of random starts returns at most KEPT solutions."""
 
 
 CHEAP = 4

@@ -57,7 +57,7 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        # If an output is a constant, ``placed`` appends an operation to the list ``operations``.
+        # The method ``placed`` may append a constant to the list ``operations``.
         wanted = [x.placed() for x in outputs]
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)

@@ -109,10 +109,10 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function that maps a term to a lower and an upper bound of the degrees in its expansion.
+    """Return a function that maps a term to a lower and an upper bound of the degrees of its products.
 
-    The expansion of a term is a sum of products of the vector fields at the nodes. ``elements`` contains the
-    definition of each name in the terms.
+    Each term expands to a sum of products of vector fields. The degree of a product is the number of its
+    factors. ``elements`` contains the definition of each name in the terms.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)

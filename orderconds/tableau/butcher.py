@@ -67,9 +67,8 @@ def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> 
 
 
 def tableau_html(tableau: Tableau) -> str:
-    """Return the Butcher array as an HTML table. The array is replaced by the ``repr`` of the tableau,
-    followed by equations in LaTeX, in two cases: the method has no Butcher array, or it has more than
-    :data:`WIDEST` stages.
+    """Return the Butcher array as an HTML table. Without a Butcher array, or with more than :data:`WIDEST`
+    stages, return the ``repr`` of the tableau and equations in LaTeX.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau_html(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])).count("<td")

@@ -171,8 +171,8 @@ class Kind:
     """A kind of method, such as Radau IIA. ``left`` is true if 0 is a node, and ``right`` is true if 1 is a
     node. ``matrix`` computes A from the nodes, and ``called`` is the name of the kind.
 
-    ``left_out`` maps the number of stages to the index of the node that the embedded method omits. Without an
-    embedded method, ``left_out`` is None.
+    For s stages, the embedded method omits the node with the index ``left_out(s)``. Without an embedded
+    method, ``left_out`` is None.
     """
 
     left: bool

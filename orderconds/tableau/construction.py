@@ -94,7 +94,7 @@ is a list of numbers, and a stage or an update is a list of exponentials
 
 
 def _starts(starts: object, stages: int) -> list[tuple[int, int]]:
-    """Check ``starts`` and return its items as pairs (stage, earlier stage)."""
+    """Return the items of ``starts``. Raises TableauError if ``starts`` does not map stages to stages."""
     if starts is None:
         return []
     if not isinstance(starts, Mapping):

@@ -28,7 +28,7 @@ SHORT = 26
 """A double counts as an exact number only if it has at most this number of significant bits."""
 
 PRINTED = 16
-"""A decimal counts as a printed double only if it has at least this number of significant digits."""
+"""A decimal is interpreted as a double only if it has at least this number of significant digits."""
 
 LARGE = 64
 """A double counts as an exact number only if its numerator and its denominator each have at most this number
@@ -41,7 +41,7 @@ _DOUBLE = re.compile(r"-?(?:\d+\.?\d*|\.\d+)d", re.ASCII)
 
 
 def radius(value: Fraction, units: Fraction | int = UNITS) -> Fraction:
-    """Return the radius of the ball that the double ``value`` denotes: ``units * 2^-53 * max(1, |value|)``.
+    """Return the radius of the ball around the double ``value``: ``units * 2^-53 * max(1, |value|)``.
 
     >>> float(radius(Fraction(1, 2))) == 8 * 2.0**-53, radius(Fraction(4)) == 4 * radius(Fraction(1))
     (True, True)

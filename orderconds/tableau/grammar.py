@@ -43,8 +43,8 @@ _TOKEN = re.compile(
 
 
 class Constant(Struct, frozen=True, cache_hash=True):
-    """An exact number or a ball. If ``unit`` is zero, the constant is the rational number ``value``.
-    Otherwise, it is the ball with the centre ``value`` and the radius ``unit``."""
+    """An exact number or a ball (interval). If ``unit`` is zero, the constant is the rational number
+    ``value``. Otherwise, it is the ball with the centre ``value`` and the radius ``unit``."""
 
     value: Fraction
     unit: Fraction = Fraction(0)

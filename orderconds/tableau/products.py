@@ -168,8 +168,8 @@ class Magnus:
         return int(sum(words)) <= MOST_WORDS
 
     def is_commutator_free(self, ring: Ring) -> bool:
-        """Return True if every exponent expands to a linear combination of the A_i, so that all brackets
-        cancel. Return False if the expansion is too long (:meth:`is_expandable`)."""
+        """Return True if every exponent expands to a linear combination of the A_i. Return False if the
+        expansion is too long (:meth:`is_expandable`)."""
         if not self.is_expandable():
             return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)

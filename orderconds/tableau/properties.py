@@ -27,8 +27,9 @@ from orderconds.tableau.two_registers import Rewriting, two_registers
 
 
 def properties(tableau: Tableau) -> dict[str, Verdict]:
-    """Decide each property that is defined for this tableau. The keys of the result are the names of the
-    properties, in the order of :data:`orderconds.tableau.method_properties.PROPERTIES`.
+    """Return a verdict (True, False or None) for each property that is defined for this tableau. The keys of
+    the result are the names of the properties, in the order of
+    :data:`orderconds.tableau.method_properties.PROPERTIES`.
 
     >>> from orderconds.tableau import Tableau
     >>> midpoint = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["1/2"]]\\nb = ["1"]')

@@ -70,7 +70,7 @@ def coefficient(x: object, where: str) -> Coefficient:
 
 
 def _of_a_package(x: object, where: str) -> Coefficient:
-    """Convert a number of NumPy, SymPy or python-flint to a coefficient."""
+    """Convert a NumPy, SymPy or python-flint number to a coefficient."""
     package = type(x).__module__.partition(".")[0]
     if isinstance(x, numbers.Complex) and not isinstance(x, numbers.Real):
         raise TableauError(f"the complex number {x}", where=where, expected="a real number")
@@ -87,8 +87,8 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 
 
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
-    """Convert a float of 16 or 32 bits to an exact number, or to a rounded decimal with ``digits``
-    significant digits."""
+    """Convert a float of 16 or 32 bits to a coefficient. If its denominator exceeds :data:`SMALL`, the result
+    is a rounded decimal with ``digits`` significant digits."""
     text = double_text(x, where)
     if Fraction(x).denominator <= SMALL:
         return text

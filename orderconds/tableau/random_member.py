@@ -37,8 +37,8 @@ OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 
 
 class RandomMember(Rationals):
-    """The ring Q for the evaluation of a tableau file. In the evaluation, random numbers replace the rounded
-    decimals and the radicals of the file."""
+    """The ring of rational numbers, with random numbers in place of the rounded decimals and the radicals of
+    a tableau file."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws | None = None) -> None:
         self._symbolic, self._draws = symbolic, draws or Draws(description(symbolic))
@@ -48,13 +48,13 @@ class RandomMember(Rationals):
         return self._drawn(f"decimal {constant.value} {constant.unit}")
 
     def root(self, x: fmpq, index: int) -> fmpq:
-        """Return a random number in place of x^(1/``index``), because this root is irrational in general. The
-        random number depends on x and ``index``."""
+        """Return the random number that replaces the root x^(1/``index``). The random number depends on x and
+        ``index``."""
         return self._drawn(f"root {index} {x}")
 
     def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> fmpq:
-        """Return a random number in place of the named root ``name``, because roots of polynomials are
-        irrational in general. The random number depends on ``name`` only."""
+        """Return the random number that replaces the root ``name`` of a polynomial. The random number depends
+        on ``name`` only."""
         return self._drawn(f"named {name}")
 
     def size(self, x: fmpq) -> int:
@@ -82,8 +82,8 @@ class RandomMember(Rationals):
 
 
 def description(symbolic: SymbolicCoefficients) -> str:
-    """Return all coefficients and named numbers of a file as one text. :class:`RandomMember` uses the text as
-    the seed of its random numbers.
+    """Return all coefficients of a file and its table ``numbers`` as one text. :class:`RandomMember` uses the
+    text as the seed of its random numbers.
 
     >>> from orderconds.tableau import Tableau
     >>> file = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]').file

@@ -77,8 +77,8 @@ class Tableau:
         """Return the Runge-Kutta method with s weights b and a matrix A of s rows.
 
         A and b are lists, NumPy arrays or SymPy matrices. The entries are integers, fractions, SymPy numbers,
-        floats, or texts such as ``"1/4 - sqrt(3)/6"``. A float with few significant bits is exact, for
-        example 0.5. All other floats count as rounded numbers.
+        floats, or texts such as ``"1/4 - sqrt(3)/6"``. Short binary fractions, such as the float 0.5, are
+        exact. All other floats count as rounded numbers.
 
         - ``bhat``: the s weights of an embedded method
         - ``c``: the abscissae, which must equal the row sums of A
@@ -126,7 +126,7 @@ from the table [numbers] (none)
 
     @staticmethod
     def load(path: str | PathLike[str]) -> Tableau:
-        """Read the tableau with the name ``path`` from the library, or the tableau file at ``path``.
+        """Read a tableau. ``path`` is the path of a tableau file, or the name of a tableau in the library.
 
         Raises :class:`orderconds.errors.TableauError` for a file that is not valid. Raises
         :class:`orderconds.errors.UnknownName` for a name that is not in the library.
@@ -165,8 +165,7 @@ from the table [numbers] (none)
         """The rows of A. Exact rational entries are Fractions. All other entries are floats if the tableau
         contains doubles, and :class:`~orderconds.tableau.real_number.RealNumber` objects otherwise.
 
-        For a commutator-free method, row i is the sum of the coefficient rows of the exponentials from y0 to
-        stage i.
+        On vector spaces, a commutator-free method reduces to the Runge-Kutta method with the matrix A.
         """
         return tuple(self._values(x) for x in self.abelian().A)
 

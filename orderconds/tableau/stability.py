@@ -153,7 +153,8 @@ def _bits(x: Element) -> int:
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
     """Subtract the estimated work of ``count`` multiplications from the work that is still allowed. The
-    estimate is quadratic in the number of bits if ``quadratic`` is true, and linear otherwise."""
+    estimate is quadratic in the number of bits of ``numbers`` if ``quadratic`` is true, and linear
+    otherwise."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1

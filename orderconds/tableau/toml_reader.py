@@ -9,7 +9,7 @@ import tomllib
 from orderconds.tableau.file_format import Data
 
 MAX_PARTS = 24
-"""The maximal number of parts of a dotted key. Keys of tableau files have at most two parts."""
+"""The maximal number of parts of a dotted key."""
 
 _PART = r"(?:[A-Za-z0-9_-]{1,99}+|\"[^\"\n]{0,99}+\"|'[^'\n]{0,99}+')"
 _LONG_KEY = re.compile(rf"(?<![\w.'\"-])(?>{_PART}[ \t]{{0,9}}+\.[ \t]{{0,9}}+){{{MAX_PARTS}}}")

@@ -87,7 +87,7 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
     >>> print(two_registers(kutta3.method, kutta3.ring).reason)
-    the increment of stage 3 is not B_3 K_3: the coefficient of k_1 is 7/6, but two registers require 1
+    in the increment of stage 3, k_1 has the coefficient 7/6, but a 2N scheme requires the coefficient 1
     >>> [str(x) for x in two_registers(heun.method, heun.ring).scheme.A]
     ['0', '-1']
     """
@@ -144,7 +144,8 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
                 f"A_{i + 1} has a zero denominator: in the increment of stage {m + 1}, k_{i} has the "
                 f"coefficient {ring.text(rows[m][i - 1])} and k_{i + 1} has the coefficient 0"
             )
-    # If all numerators and denominators are zero, A_i is arbitrary, and zero is chosen.
+    # All denominators are zero here. If a numerator is not zero, A_i does not exist. Otherwise, A_i is set to
+    # zero.
     return Rewriting(False, reason=above) if above else ring.zero
 
 
@@ -157,8 +158,8 @@ def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
             equal = True if x is y else ring.is_zero(x - y)
             if equal is False:
                 reason = (
-                    f"the increment of stage {i + 1} is not B_{i + 1} K_{i + 1}: the coefficient of "
-                    f"k_{j + 1} is {ring.text(x)}, but two registers require {ring.text(y)}"
+                    f"in the increment of stage {i + 1}, k_{j + 1} has the coefficient {ring.text(x)}, "
+                    f"but a 2N scheme requires the coefficient {ring.text(y)}"
                 )
                 return Rewriting(False, reason=reason)
             holds = None if equal is None else holds

@@ -43,7 +43,8 @@ class RootedRing(Ring, Protocol):
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal of a file. ``constant`` is the decimal without its sign."""
+    """A rounded decimal in a tableau file: a possible unknown of the equations in :class:`Proof`.
+    ``constant`` is the absolute value of the decimal."""
 
     name: str
     constant: Constant
@@ -55,7 +56,7 @@ class Proof:
 
     The equations are the order conditions of the family ``conditions`` up to order ``order``. The decimals in
     ``unknowns`` are the unknowns of the equations. The decimals in ``pinned`` count as exact numbers.
-    ``printed`` maps names of numbers to the decimals that the publication contains.
+    ``printed`` maps the names of numbers in the file to their decimals in the cited publication.
     """
 
     conditions: str
@@ -72,8 +73,8 @@ class Proof:
         return self.symbolic.method(ring, self._known(ring, values))
 
     def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
-        """Return a named number or a coefficient of the file for the given ``values`` of the unknowns. For a
-        coefficient, ``name`` is its position in the file, for example ``A[2][1]``."""
+        """Evaluate a named number or a coefficient of the file. ``values`` contains the values of the
+        unknowns. For a coefficient, ``name`` is its position in the file, for example ``A[2][1]``."""
         return self.symbolic.number(name, ring, self._known(ring, values))
 
     def _known(self, ring: RootedRing, values: Mapping[str, Element]) -> dict[Constant, Element]:
@@ -84,7 +85,7 @@ class Proof:
 
 
 class SymbolicCoefficients(Struct, frozen=True):
-    """The parsed coefficients of a file. The coefficients can be evaluated in a given ring, for given values
+    """The parsed coefficients of a file. They can be evaluated in a given ring, with other numbers in place
     of the rounded decimals."""
 
     expressions: Mapping[str, Expression]

@@ -73,8 +73,8 @@ def commutator_free_work(tableau: Tableau) -> Work | None:
 
 
 def crouch_grossman_work(tableau: Tableau) -> Work | None:
-    """Return the cost of a step of a Crouch-Grossman method. For a tableau of the format ``cf``, only field
-    evaluations are counted (:func:`evaluations`).
+    """Return the cost of a step of a Crouch-Grossman method. For a tableau of the format ``cf``, exponentials
+    and brackets are not counted.
 
     >>> from orderconds.tableau import find
     >>> crouch_grossman_work(Tableau.load(find("cg3")))
@@ -141,8 +141,7 @@ def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
     while waiting:
         stage = waiting.pop()
         rows += stage.exponentials
-        # ``stage`` depends on the stages in its exponents, and on the stage to which its exponentials are
-        # applied.
+        # ``stage`` depends on the stages in its exponents and on ``stage.start``.
         further = _used(stage.exponentials, ring) | ({stage.start} if stage.start is not None else set())
         waiting += [method.stages[j] for j in sorted(further - reached)]
         reached |= further

@@ -69,8 +69,8 @@ def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
     """Return the content of a tableau file without named numbers: each name in a coefficient is replaced by
     the number that it denotes.
 
-    Real roots that a polynomial (``minpoly``) defines keep their names. If ``name_radicals`` is true, nested
-    square roots receive the names r1, r2, ...
+    Real roots that a polynomial (``minpoly``) defines keep their names. If ``name_radicals`` is true, new
+    names r1, r2, ... denote the nested square roots.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'

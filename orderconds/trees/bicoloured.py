@@ -34,8 +34,8 @@ def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
 
 
 def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
-    """Return all free trees in which neighbours differ in colour, each tree once. The root of each tree is a
-    vertex for which the height is least.
+    """Return all free trees in which neighbours differ in colour, each tree once. The root is chosen to make
+    the height of the tree as small as possible.
 
     The trees with alternating colours index the order conditions of symplectic partitioned methods for
     separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2).

@@ -11,8 +11,8 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Return the numbers of multisets. Entry k - 1 of ``counts`` is the number of different elements of
-    weight k. Entry k - 1 of the result is the number of multisets of total weight k.
+    """Count the multisets of each total weight. Entry k - 1 of ``counts`` is the number of different elements
+    of weight k. Entry k - 1 of the result is the number of multisets of total weight k.
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)

@@ -79,7 +79,8 @@ def symmetry(tree: DirectedTree) -> int:
 
 @lru_cache(maxsize=1 << 16)
 def text(tree: DirectedTree) -> str:
-    r"""Return a tree as text in brackets. The sign ``^`` precedes each subtree below an edge of kind 1.
+    r"""Return a tree as text in brackets. The sign ``^`` precedes each subtree below an edge of kind 1
+    (module docstring).
 
     >>> text(b"\0\3\2")
     '[^..]'
@@ -177,8 +178,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        # ``hats[place]`` is the number of edges of kind 1 after a move of the root to the vertex ``place``. A
-        # move of the root across an edge changes the kind of this edge only.
+        # ``hats[place]`` is the number of edges of kind 1 if ``place`` is the root. A move of the root across
+        # an edge changes the kind of this edge only.
         hats[place] = hats[parents[place]] + 1 - 2 * kind
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)

@@ -54,7 +54,7 @@ def branches(tree: Tree) -> Forest:
 
 
 def rooted_at_new_vertex(forest: Forest) -> Tree:
-    r"""Return the tree with a new root and the trees of a forest as branches (Butcher's B+).
+    r"""Return the tree with the branches ``forest`` (Butcher's B+).
 
     >>> rooted_at_new_vertex(b"\0\1\0")
     b'\x00\x01\x02\x01'

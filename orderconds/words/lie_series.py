@@ -143,7 +143,7 @@ def _log_strang(word: Word) -> Fraction:
 
 
 def _magnus(word: Word) -> Fraction:
-    """Return the coefficient of a product of X1, X2, ... in the Magnus expansion."""
+    """Return the coefficient of ``word`` in the Magnus expansion."""
     return magnus(tuple(_number(letter) for letter in reversed(word)))
 
 

@@ -87,8 +87,8 @@ def _by_content(letters: Sequence[int], length: int) -> dict[Word, list[Word]]:
 def _ideal(
     generators: Sequence[Series], letters: Sequence[int], length: int, content: Word
 ) -> Iterator[Series]:
-    """Yield the products u g v of a word u, a generator g and a word v, for all u and v such that every word
-    in the product is a permutation of ``content``."""
+    """Yield all products u g v of a generator g and two words u and v, if the terms of u g v are permutations
+    of ``content``."""
     for generator in generators:
         some = next(iter(generator))
         left = list(content)

@@ -118,8 +118,8 @@ def test_products_from_the_start_value_are_recognised() -> None:
         ),
         (
             'family = "rk"\nA = [[], ["1/2"], ["0", "1/2"]]\nb = ["0", "0", "1"]\n',
-            "the increment of stage 3 is not B_3 K_3: the coefficient of k_1 is 0, but two registers "
-            "require 1/2",
+            "in the increment of stage 3, k_1 has the coefficient 0, but a 2N scheme requires the "
+            "coefficient 1/2",
         ),
     ],
 )
