@@ -17,7 +17,7 @@ from codegen.ir.selection import ABSOLUTE, CHOOSE, selects
 from codegen.ir.table import PiecewisePolynomial
 
 Sides = tuple[int, ...]
-"""The side of each selection, in the order of the list from :func:`selections`."""
+"""For each selection in a list, the index of the selected formula."""
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:

@@ -303,8 +303,8 @@ class _Translation:
         outlined: tuple[Function, ...] = ()
         # The number of assignments is a measure of the code size.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # Outlining needs the expressions that ``run`` recorded. With COMBINED or SHORTENED,
-        # ``ends`` contains other expressions.
+        # The modes COMBINED and SHORTENED rewrite the expressions in ``ends``. Outlining needs the
+        # original expressions, so these two modes exclude it.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)

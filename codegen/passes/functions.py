@@ -72,7 +72,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if source is not None and inner is not None:
         scale = ratio(rewriter.definitions, x, inner[0])
         if scale is not None:
-            # With x = scale y, f(ad_x) g(ad_y) = f(scale ad_y) g(ad_y), a function of ad_y.
+            # Since x = scale * y, the product f(ad_x) g(ad_y) is a function of ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
     # If v is a sum of terms g(ad_x) w, then f(ad_x) v is the sum of the terms (f g)(ad_x) w.

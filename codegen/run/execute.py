@@ -1,4 +1,4 @@
-"""Execution of emitted programs in Python, with many kinds of numbers (:mod:`codegen.ir.domain`).
+"""An interpreter for emitted programs. It computes with many kinds of numbers (:mod:`codegen.ir.domain`).
 
 The programs consist of the statements in :mod:`codegen.run.language`. The statements compare numbers, so the
 numbers must have an order.

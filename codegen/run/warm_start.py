@@ -243,7 +243,7 @@ class WarmStart:
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
         body += self.chosen(place)
         body += [
-            Note("compute the guess for which a backward difference is zero; its order is degree + 1"),
+            Note("compute a guess: the backward difference of order degree + 1 must be zero"),
             # For a polynomial of degree k, the backward difference of order k + 1 is zero. The value at the
             # next step has the coefficient 1 in that difference.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),

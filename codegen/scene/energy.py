@@ -58,7 +58,7 @@ class Conservative(Protocol):
 
     @property
     def sites(self) -> Sites | None:
-        """The lattice of a problem for one lattice site. None for other problems."""
+        """The lattice if the scene describes one site of a lattice. Otherwise the value is None."""
 
     @property
     def symbols(self) -> tuple[str, ...]:

@@ -85,8 +85,9 @@ class FrozenFields:
     def tree(self, tree: Tree) -> Vector:
         """Return the elementary differential F(t) of a tree t.
 
-        F(t) is a derivative of the field f. For each branch b of t, let x be F(b) at the initial point. Then
-        f is differentiated once along the vector field y -> x.y.
+        F(t) is a derivative of the field f. The field is differentiated once for each branch b of t. Let x be
+        the value of F(b) at the initial point. The direction of the derivative is the vector field y -> x.y,
+        where x.y is the action of x on the point y.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
@@ -97,8 +98,9 @@ class FrozenFields:
     def forest(self, forest: Forest) -> Vector:
         """Return the elementary differential of an ordered forest.
 
-        For each tree t of the forest, let x be F(t) at the initial point. Then the coordinates of y are
-        differentiated once along the vector field y -> x.y.
+        The coordinates of the point y are differentiated once for each tree t of the forest. Let x be the
+        value of F(t) at the initial point. The direction of the derivative is the vector field y -> x.y,
+        where x.y is the action of x on the point y.
         """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
