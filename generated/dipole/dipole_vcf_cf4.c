@@ -500,7 +500,7 @@ static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
             }
         }
     }
-    /* compute the guess for which a backward difference is zero; its order is degree + 1 */
+    /* compute a guess: the backward difference of order degree + 1 must be zero */
     dipole_vcf_cf4_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

@@ -365,7 +365,7 @@ static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memor
             }
         }
     }
-    /* compute the guess for which a backward difference is zero; its order is degree + 1 */
+    /* compute a guess: the backward difference of order degree + 1 must be zero */
     dipole_vcg_midpoint_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

@@ -374,7 +374,7 @@ static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump
             }
         }
     }
-    /* compute the guess for which a backward difference is zero; its order is degree + 1 */
+    /* compute a guess: the backward difference of order degree + 1 must be zero */
     dipole_vcg_triple_jump_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

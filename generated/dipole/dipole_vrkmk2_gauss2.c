@@ -470,7 +470,7 @@ static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_mem
             }
         }
     }
-    /* compute the guess for which a backward difference is zero; its order is degree + 1 */
+    /* compute a guess: the backward difference of order degree + 1 must be zero */
     dipole_vrkmk2_gauss2_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

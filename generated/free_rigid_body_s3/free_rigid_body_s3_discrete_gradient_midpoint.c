@@ -409,7 +409,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
             }
         }
     }
-    /* compute the guess for which a backward difference is zero; its order is degree + 1 */
+    /* compute a guess: the backward difference of order degree + 1 must be zero */
     free_rigid_body_s3_discrete_gradient_midpoint_difference(memory, memory->degree + 1, 1,
         -1.0, memory->guess);
 }

@@ -520,7 +520,7 @@ static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoi
             }
         }
     }
-    /* compute the guess for which a backward difference is zero; its order is degree + 1 */
+    /* compute a guess: the backward difference of order degree + 1 must be zero */
     heavy_top_slgi_midpoint_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

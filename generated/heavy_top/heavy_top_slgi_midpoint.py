@@ -490,8 +490,7 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # compute the guess for which a backward difference is zero; its order is degree
-    # + 1
+    # compute a guess: the backward difference of order degree + 1 must be zero
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
