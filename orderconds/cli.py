@@ -86,7 +86,7 @@ class Program(click.Group):
         if name in BUILT_IN:
             module, summary = BUILT_IN[name]
             command = importlib.import_module(module).command
-            # A shell that completes command names may show this text.
+            # Shell completion may show ``short_help`` next to the name of the command.
             command.short_help = summary
         else:
             entries = [entry for entry in _offered() if entry.name == name]

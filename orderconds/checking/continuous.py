@@ -50,9 +50,10 @@ def extension_order(tableau: Tableau) -> ExtensionOrder | None:
 def _judged(
     method: RungeKutta, extension: Extension, ring: Ring, n: int
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Judge the conditions of order n for the coefficients of theta^p in the weights, for p = 1, 2, ....
+    """Test whether the continuous extension satisfies the conditions of order n.
 
-    Stop at the first p with a condition that fails.
+    Both sides of each condition are polynomials in theta. For p = 1, 2, ..., compare the coefficients of
+    theta^p on both sides. Stop at the first p with a condition that fails.
     """
     family = families.get("rk")
     verdicts: set[str] = set()

@@ -137,7 +137,8 @@ def family_order(
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
     - ``brief``: if true, the search ends at ``bound.order``, and the result contains the failing conditions
-      of ``bound``. If false, the search ends there only if ``bound.order >= family.search_limit``.
+      of ``bound``. If false, the search ends at ``bound.order`` only if
+      ``bound.order >= family.search_limit``. Otherwise the search continues beyond ``bound.order``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get
@@ -158,8 +159,9 @@ def family_order(
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
     """Return a tuple with one condition of order ``order`` that the method of ``tableau`` violates.
 
-    The condition is ``family.first_unmet(order)``. Every method of the family violates it. The tuple is
-    empty if no such condition is known, or if the residual is a ball that contains zero.
+    The condition is ``family.first_unmet(order)``. No method of the family satisfies this condition. The
+    method of ``tableau`` is only needed for the residual. The tuple is empty if no such condition is known,
+    or if the residual is a ball that contains zero.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -231,7 +233,7 @@ class _Search:
         if self.spared.order_follows(n):
             return verdicts, failing, whole
         # If ``known`` is true, conditions that follow from others are skipped. In the ring ``Balls``, the
-        # certificate ``exact`` needs their evaluation.
+        # certificate ``exact`` requires the evaluation of all conditions.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):

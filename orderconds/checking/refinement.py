@@ -49,8 +49,8 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
 
     ``tableau`` is a tableau, a file, or a name of the library.
 
-    - If the file has a table ``[proof]``, the equations of the table give decimals with ``digits`` correct
-      places. ``digits`` may be 10 to 1000.
+    - If the file has a table ``[proof]``, the equations of the table are solved. The solution is returned as
+      decimals with ``digits`` correct places. ``digits`` may be 10 to 1000.
     - Without this table, each double or rounded decimal becomes a fraction or a number p + q sqrt(d) with
       rational p and q. The exact method has at least the order of the given method.
 

@@ -224,9 +224,11 @@ Reading = tuple[Tableau, Family, int | None]
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return additional families. Their orders can give bounds of the orders in the wanted families.
+    """Return additional families. The order in an additional family can be a bound of the order in a wanted
+    family.
 
-    The result is empty if no claimed or required order reaches the ``search_limit`` of its family.
+    If all claimed and required orders are below the ``search_limit`` of the family, no bounds are needed, and
+    the result is empty.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []

@@ -82,7 +82,7 @@ def write(data: Data) -> bytes:
 def floats(value: Cells, roots: str = "{}") -> Floats:
     """Convert a coefficient, or nested lists of coefficients, to the nearest doubles.
 
-    ``roots`` maps the names of polynomial roots to their definitions, as JSON text.
+    ``roots`` is a JSON text that maps the names of polynomial roots to their definitions.
 
     >>> floats([["1/2", "1/3"]])
     [[0.5, 0.3333333333333333]]

@@ -57,7 +57,8 @@ class Array:
     """If this integer is equal for two arrays, a change of one array may change the other."""
 
     def parts(self) -> set[int]:
-        """Return the values of the attribute :attr:`memory` for this array and its rows."""
+        """The parts of an array are the array itself and the rows of the array. Return :attr:`memory` of each
+        part."""
         return {self.memory}.union(*(x.parts() for x in self.items if isinstance(x, Array)))
 
 
@@ -101,8 +102,9 @@ class Values:
     functions: dict[str, str] = field(default_factory=dict)
     """A map from the imported name of a function to its original name."""
     sources: dict[str, tuple[frozenset[str], frozenset[int]]] = field(default_factory=dict)
-    """A map from a variable to two sets: names of variables, and values of :attr:`Array.memory`. An unknown
-    value may refer to these variables and arrays. Both sets are empty for an evaluated variable.
+    """A map from a variable to two sets: names of variables, and values of :attr:`Array.memory`. If the value
+    of the variable is unknown, the value may refer to the variables in the first set, and to the arrays whose
+    ``memory`` is in the second set. Both sets are empty for an evaluated variable.
     """
     active: set[str] = field(default_factory=set)
     """Names of functions, classes and instances. The use of such a name may execute code of the module."""
@@ -139,7 +141,12 @@ class Values:
             self.sources[name] = traced
 
     def _traced(self, names: Collection[str]) -> tuple[frozenset[str], frozenset[int]]:
-        """Return ``names`` with their sources, and the values of :attr:`Array.memory` of their arrays."""
+        """Return two sets: the variables and the arrays to which the values of ``names`` may refer.
+
+        The first set contains ``names`` and the variables that :attr:`sources` lists for ``names``. The
+        second set contains values of :attr:`Array.memory`: the values that :attr:`sources` lists for
+        ``names``, and the values of all arrays that are values of variables in the first set.
+        """
         reached, memories = set(names), set[int]()
         for name in names:
             more, shared = self.sources.get(name, (frozenset(), frozenset()))
@@ -168,7 +175,9 @@ class Values:
     def _forget_others(self, changed: Array, line: int) -> None:
         """Mark arrays as unknown if they may share memory with ``changed``.
 
-        The array ``changed`` and all arrays with the row ``changed`` stay known.
+        The argument ``changed`` is an array with a new entry, or a row with a new entry. The array
+        ``changed`` stays known. If an array contains the object ``changed`` as a row, the array contains the
+        new entry and stays known.
         """
         for name, other in self.known.items():
             if isinstance(other, Array) and changed.memory in other.parts() and not _contains(other, changed):
@@ -334,8 +343,8 @@ def _require_digits(node: ast.Call) -> None:
     """Raise an error if a call such as ``Float('0.577', 2)`` drops digits of its text."""
     text = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
     digits = sum(x.isdigit() for x in text) if isinstance(text, str) else 17
-    # The keyword ``precision`` is in bits, and one bit corresponds to log10(2) = 0.30103 digits. A text
-    # with two more digits than this precision is accepted.
+    # The keyword ``precision`` is in bits, and one bit corresponds to log10(2) = 0.30103 digits. A text is
+    # accepted if the number of digits exceeds this precision by at most two.
     allowed = [(x, 1.0, 0) for x in node.args[1:]]
     allowed += [(k.value, 0.30103, 2) if k.arg == "precision" else (k.value, 1.0, 0) for k in node.keywords]
     for given, factor, more in allowed:
@@ -384,7 +393,9 @@ def _zeros(shape: Value, node: ast.Call) -> Array:
     lengths = [x.value for x in sizes if isinstance(x, Constant) and x.value.denominator == 1]
     if len(lengths) != len(sizes) or len(sizes) not in (1, 2) or not all(1 <= n <= 200 for n in lengths):
         raise _NotLiteral(
-            node, "a call zeros(shape); write n or (m, n) as shape, with integers from 1 to 200"
+            node,
+            "a call of zeros with an unsupported shape; write zeros(n) or zeros((m, n)), with "
+            "integers from 1 to 200",
         )
     if len(lengths) == 1:
         return Array([ZERO] * int(lengths[0]))

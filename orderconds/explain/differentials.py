@@ -41,7 +41,8 @@ def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
     ``f[x]`` is the derivative of the vector field f along the vector field x. ``f[x y]`` is the derivative of
-    ``f[y]`` along x. The components of y in a frame of invariant vector fields are treated as constants.
+    ``f[y]`` along x. In the differentiation along x, the components of y in a frame of invariant vector
+    fields are treated as constants.
 
     The operator of a forest is the product of the operators of its trees (Munthe-Kaas and Wright, Found.
     Comput. Math. 8 (2008) 227).

@@ -42,8 +42,9 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word whose letters are action trees. One letter can be the name of a stage. The coefficient of
-this letter is one in the velocity of the stage, and zero in all other velocities."""
+"""A word whose letters are action trees. One letter can be the name of a stage. In the series of the velocity
+of this stage, the letter has the coefficient one. In the series of all other velocities, the letter has the
+coefficient zero."""
 
 
 def multiplier(tree: Velocity) -> int:
@@ -89,10 +90,11 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return a coefficient in the group element of stage ``row``, or in the update if ``row`` is None.
+        """Return the coefficient of the word (``before``, x, ``after``) in a group element.
 
-        It is the coefficient of the word (``before``, x, ``after``). Here x is a new letter. Its coefficient
-        is one in the velocity of stage ``stage``, and zero in all other velocities.
+        The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
+        Here x is a new letter. The letter x has the coefficient one in the velocity of stage ``stage``, and
+        the coefficient zero in all other velocities.
         """
 
     def condition(self, tree: Velocity) -> Formula:
@@ -189,8 +191,10 @@ class ExponentialsFormula(ActionFormula):
         return Fraction(1, prod(map(factorial, lengths))), index_sum(places, relations, product(*factors))
 
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in the product of exponentials of
-        stage ``row``, or of the update if ``row`` is None.
+        """Return the coefficient of the word (``before``, x, ``after``) in a product of exponentials.
+
+        The product of exponentials belongs to stage ``row``. If ``row`` is None, the product of exponentials
+        belongs to the update.
 
         Here x is a new letter. Its coefficient is one in the exponent with index ``place``, and zero in all
         other exponents.
@@ -232,10 +236,11 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return a coefficient in the group element of stage ``row``, or in the update if ``row`` is None.
+        """Return the coefficient of the word (``before``, x, ``after``) in a group element.
 
-        It is the coefficient of the word (``before``, x, ``after``). Here x is a new letter. Its coefficient
-        is one in the velocity of stage ``stage``, and zero in all other velocities.
+        The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
+        Here x is a new letter. The letter x has the coefficient one in the velocity of stage ``stage``, and
+        the coefficient zero in all other velocities.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -268,10 +273,11 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return a coefficient in the group element of stage ``row``, or in the update if ``row`` is None.
+        """Return the coefficient of the word (``before``, x, ``after``) in a group element.
 
-        It is the coefficient of the word (``before``, x, ``after``). Here x is a new letter. Its coefficient
-        is one in the velocity of stage ``stage``, and zero in all other velocities.
+        The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
+        Here x is a new letter. The letter x has the coefficient one in the velocity of stage ``stage``, and
+        the coefficient zero in all other velocities.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -353,7 +359,9 @@ class MuntheKaasFormula(ActionFormula):
     def _argument(self, row: str | None, word: Marked) -> Formula:
         """Return the coefficient of ``word`` in X_i for i = ``row``, or in Y if ``row`` is None.
 
-        In each term of the result, one letter comes from a velocity xi_j, and the other letters from X_j.
+        The class docstring defines the exponents X_i and Y. Both exponents are linear combinations of
+        products ``X_j^n xi_j X_j^m``. Here xi_j is the velocity of stage j. The factor xi_j contributes one
+        letter of ``word``, and the powers of X_j contribute all other letters.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)

@@ -51,7 +51,8 @@ class Family(ABC):
     has_tableau: ClassVar[bool] = True
     """False if each method of the family is defined by a label such as ``taylor(12)``, not by a tableau."""
     source: ClassVar[str] = ""
-    """The publication that defines the methods. The text is empty if ``has_tableau`` is true."""
+    """The publication that defines the methods. A tableau file can name a publication, so the text is empty
+    if ``has_tableau`` is true."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
@@ -88,8 +89,9 @@ class Family(ABC):
     bounds_others: ClassVar[bool] = False
     """True if ``check`` uses the order in this family to find bounds of the orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of families. For a low-storage scheme, the order in the named families is at least the order
-    in this family."""
+    """The names of families with the following property. If a low-storage (2N) scheme satisfies the
+    conditions of this family up to order p, the scheme also satisfies the conditions of the named families up
+    to order p."""
 
     # Methods
     on_groups: ClassVar[bool] = False
@@ -106,8 +108,8 @@ class Family(ABC):
     takes_cutoff: ClassVar[bool] = False
     """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order at which the compiler can minimise the number of brackets. This requires the series
-    of dexpinv without truncation."""
+    """The highest order at which the compiler can minimise the number of brackets. The minimisation requires
+    that the series of dexpinv is not truncated."""
     cutoff: int | None = None
     """The power of ad after which the series of dexpinv or dexp is truncated. None means no truncation."""
 
@@ -328,7 +330,7 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return another family with fewer conditions, and ``method`` in a format of the other family.
+        """Return another family with fewer conditions, and ``method`` as a method of the other family.
 
         If ``method`` satisfies the conditions of the other family, ``method`` satisfies the conditions of
         this family. Return None if no such family is known.
@@ -343,7 +345,7 @@ class Family(ABC):
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return a test whether the truncation of dexpinv changes a condition.
+        """Return an object that tests whether the truncation of dexpinv changes a condition.
 
         Return None if no test is known.
         """

@@ -6,9 +6,10 @@ Omega is the matrix for which cay(Omega) is this product.
 Omega is a linear combination of the values A_i = h A(c_i h) at the nodes c_i, of commutators such as
 A_i A_j - A_j A_i, and of sums such as A_i A_j A_k + A_k A_j A_i.
 
-Let A(t) = X_1 + t X_2 + .... A word is a product of letters, and the letters are the matrices X_k. Reversing
-the n letters of a word multiplies its coefficient in Omega by (-1)^(n+1) (Iserles, Found. Comput. Math. 1
-(2001) 129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998) 317).
+Let A(t) = X_1 + t X_2 + .... A word is a product of letters, and the letters are the matrices X_k. If the n
+letters of a word are reversed, the coefficient of the new word in Omega is (-1)^(n+1) times the coefficient
+of the old word (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput. Math. 8
+(1998) 317).
 """
 
 from __future__ import annotations

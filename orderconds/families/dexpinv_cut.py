@@ -29,7 +29,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which ``orderconds solve`` may write an order to the tableau file."""
+"""``orderconds solve`` writes orders to the tableau file only for these values of ``cutoff``."""
 
 
 class DexpinvCut(Family):

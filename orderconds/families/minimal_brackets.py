@@ -20,8 +20,9 @@ from orderconds.tableau.products import Method
 
 
 class MinimalBrackets(MuntheKaasFamily):
-    """The family ``rkmk`` for one method with few brackets. The argument ``program`` contains the exponents
-    of all stages as linear combinations of stage values and brackets.
+    """A variant of the family ``rkmk`` that contains only one method. This method computes few brackets. The
+    argument ``program`` contains the exponents of all stages as linear combinations of stage values and
+    brackets.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))

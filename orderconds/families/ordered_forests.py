@@ -88,8 +88,8 @@ class OrderedForestFamily(Family):
 
 @lru_cache(maxsize=1 << 16)
 def scale(forest: Forest) -> int:
-    r"""Return the product of k! and of n! for each vertex. Here k is the number of trees in the forest, and n
-    is the number of branches at the vertex.
+    r"""Return k! times the product of n! over all vertices. Here k is the number of trees in the forest, and
+    n is the number of branches at the vertex.
 
     >>> scale(b"\0\1\1\0")
     4

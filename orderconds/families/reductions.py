@@ -56,9 +56,9 @@ class UnseenCut(Struct, frozen=True):
 class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
-    ``even`` is true if the method is symmetric. ``substitute`` contains a family whose conditions imply the
-    conditions of the original family, or is None. If ``cut`` is not None, it finds conditions that the method
-    certainly satisfies.
+    ``even`` is true if the method is symmetric. ``substitute`` is None, or contains a family whose conditions
+    imply the conditions of the original family. ``cut`` is None, or a test (:class:`UnseenCut`). The
+    conditions that pass the test hold although dexpinv is truncated.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]
@@ -84,8 +84,8 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Return True if ``cut`` proves the condition of the tree or forest ``key``. The order of the
-        condition is ``n``.
+        """Return True if the test ``cut`` shows that the condition of the tree or forest ``key`` holds. The
+        order of the condition is ``n``.
 
         Without truncation of dexpinv, the method has at least order ``cut.order``. If ``cut.length(key)`` is
         at most ``cut.longest``, the truncation does not change the left-hand side.

@@ -154,9 +154,10 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # For the words u, v, ... in ``factors``, a(u) a(v) ... = a(u sh v sh ...), see the module docstring. The
-    # shuffle product contains ``word`` with the coefficient ``repeated``. All other words are
-    # lexicographically smaller.
+    # Let a(w) be the coefficient of the word w in a group-like series. The product of a(w) over the words w
+    # in ``factors`` is the sum of a(w) over all words w in the shuffle product of ``factors``. The shuffle
+    # product contains ``word`` with the coefficient ``repeated``. All other words are lexicographically
+    # smaller.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}
@@ -177,8 +178,9 @@ def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> d
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
     r"""Express a coefficient of a group-like series as a polynomial in the coefficients of Lyndon words.
 
-    The argument ``forest`` is the word of the coefficient, and its letters are trees. The polynomial relates
-    scaled coefficients: the coefficient of each word ``w`` is multiplied by ``scale(w)``.
+    The argument ``forest`` is the word of the coefficient, and its letters are trees. In the series, the
+    coefficient of each word ``w`` is first multiplied by ``scale(w)``. The polynomial relates these scaled
+    coefficients.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

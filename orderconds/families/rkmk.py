@@ -110,8 +110,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         returned conditions imply all other conditions of the given order.
 
         Without truncation of dexpinv, there is one independent condition for each rooted tree. With
-        truncation, there is one more condition of order R + 3 (:meth:`first_unmet`). No method has this
-        order. The module docstring defines R.
+        truncation, order R + 3 has one additional condition (:meth:`first_unmet`). The additional condition
+        contradicts the other conditions of orders 1, ..., R + 3. Therefore no method has order R + 3. The
+        module docstring defines R.
 
         The computation requires NumPy. If ``order`` is above :data:`RANKED`, return all :meth:`conditions`.
 
@@ -228,8 +229,8 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # For n = ``order`` stages, the elementary weights of the trees with n vertices are linearly
-        # independent.
+        # n = ``order`` stages are sufficient: for methods with n stages, the elementary weights of the trees
+        # with n vertices are linearly independent.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 

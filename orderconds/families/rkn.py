@@ -3,7 +3,8 @@
 Let x and y be functions of q alone. Then [x,[T,y]] is also a function of q alone, because T is quadratic in
 p. Let F be the smallest set that contains V and, for all x and y in F, also [x,[T,y]]. All elements of F are
 functions of q alone, so [x,y] = 0 for all x and y in F. For example, [V,[V,[V,T]]] = 0. The free algebra over
-T and V has no such relations. In this algebra, the brackets [x,y] of all x and y in F generate an ideal.
+T and V has no such relations. In the free algebra, define a set F of brackets by the rule above. The brackets
+[x,y] of all x and y in this set F generate an ideal.
 
 A functional is a linear combination of words over T and V. Consider the functionals that are zero on the
 ideal. Each element of a basis of these functionals gives one condition. The numbers of independent conditions
@@ -217,7 +218,7 @@ def _potentials(weight: int) -> tuple[Series, ...]:
     F.
 
     For x and y in F, [x,[T,y]] and [y,[T,x]] are equal modulo the ideal of the module docstring. The result
-    contains only one of them.
+    contains only one of these two brackets.
     """
     if weight == 1:
         return (expand(V),)

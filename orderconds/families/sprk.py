@@ -41,7 +41,8 @@ from orderconds.trees.directed import (
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. For each free tree, one choice of the root gives an independent tree."""
+of independent trees. For each free tree, the function ``directed_free_trees`` chooses a root. The resulting
+rooted trees are the independent trees."""
 
 
 @register
@@ -121,7 +122,7 @@ class SymplecticPartitionedFamily(Family):
         ``orders["rk"]`` is the order p of the method in the family ``rk``. For a symplectic tableau, the
         bound is p.
 
-        For all other tableaux, let m <= p/2 be the largest integer for which Butcher's simplifying
+        For all other tableaux, let m be the largest integer such that 2m <= p and Butcher's simplifying
         assumptions C(m) and D(m) hold. The bound is min(p, 2m + 1). The tableau (ahat, bhat) for the momenta
         also satisfies C(m) and D(m) (Jay 1996, for Lobatto pairs).
 

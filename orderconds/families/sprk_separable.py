@@ -34,7 +34,8 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. The independent trees contain one rooted version of each free tree."""
+of independent trees. For each free tree, the function ``alternating_free_trees`` chooses a root. The
+resulting rooted trees are the independent trees."""
 
 
 @register

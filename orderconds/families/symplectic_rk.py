@@ -25,8 +25,9 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. Each free tree is independent, except two copies of a rooted tree with an edge between
-their roots."""
+of independent trees. For each free tree, the function ``essential_free_trees`` chooses a root, and the
+resulting rooted tree is an independent tree. A free tree is omitted if one of the edges joins the roots of
+two equal rooted trees."""
 
 
 @register

@@ -126,7 +126,8 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # A coefficient is its own key. A single other factor gets the key None, because ``_shape`` is slow.
+    # A coefficient is its own key. If only one factor is not a coefficient, this factor gets the key None,
+    # because ``_shape`` is slow.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:

@@ -53,7 +53,7 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
     limit j - 1 of i. If i is a free index, the relation gives the lower limit i + 1 of j."""
     limits, remaining = [], list(indices)
     while remaining:
-        # In sympy.Sum, the limits of an index may contain only the indices after it in the list.
+        # In sympy.Sum, the limits of an index may contain only indices that follow this index in ``limits``.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

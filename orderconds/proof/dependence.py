@@ -183,7 +183,8 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """The products of the left-hand sides and of the right-hand sides of conditions, modulo a prime.
+    """Two products over the conditions in ``factors``, modulo a prime: the product of the left-hand sides,
+    and the product of the right-hand sides.
 
     - ``factors``: the conditions.
     - ``members``: the product of the left-hand sides for each random method.
@@ -218,7 +219,7 @@ class _Sampling:
         methods.
 
         If ``root`` is not None, this residue replaces the square root in the formulas. If ``root`` is None,
-        random residues replace all roots in the formulas.
+        random residues replace all roots in the formulas, including square roots.
         """
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
@@ -246,8 +247,13 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return the element that replaces x^(1/index), as the class docstring explains. Equal arguments give
-        equal residues."""
+        """Return the element that replaces the root x^(1/index).
+
+        The root need not exist modulo ``prime``. Therefore random residues replace the root. A polynomial
+        identity for all values of the root also holds for the true value. If the argument ``square_root`` of
+        the constructor is an integer, this integer replaces every square root. Equal arguments give equal
+        residues.
+        """
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))

@@ -267,9 +267,10 @@ def _reached(proof: Proof, order: int) -> int:
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Omit the equations that hold for all values of the unknowns. Return the indices of the other equations.
 
-    ``values`` contains one jet for each equation. The jet consists of balls that enclose the function
-    "left-hand side minus right-hand side" and its partial derivatives for all unknowns in a box. If all balls
-    of an equation contain zero, the equation is tested in exact arithmetic at a random point.
+    ``values`` contains one jet for each equation. Consider the function "left-hand side minus right-hand
+    side" of the equation on a box of values of the unknowns. The jet consists of balls that enclose the
+    values and the partial derivatives of the function on this box. If all balls of an equation contain zero,
+    the equation is tested in exact arithmetic at a random point.
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

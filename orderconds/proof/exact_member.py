@@ -103,8 +103,9 @@ class ExactMember:
         """Return True if the polynomial ``combination`` expresses ``condition`` through other conditions.
 
         At the random member, the left-hand side of ``condition`` must be equal to the value of the
-        polynomial. The right-hand sides must satisfy the same equation. If the result is True, the
-        probability of an error is negligible. Return False if ``combination`` is None.
+        polynomial. The equality must also hold if the right-hand sides of the conditions replace the
+        left-hand sides. If the result is True, the probability of an error is negligible. Return False if
+        ``combination`` is None.
         """
         if combination is None:
             return False

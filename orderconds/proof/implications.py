@@ -58,8 +58,8 @@ def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) ->
     """Return the exact order in ``family`` if theorems determine it, else None.
 
     ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. A theorem may
-    state that order n in ``family`` implies order n in a second family. The order in ``family`` is then at
-    most the order in the second one.
+    state that order n in ``family`` implies order n in a second family. If such a theorem exists, the order
+    in ``family`` is at most the order in the second family.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

@@ -25,7 +25,7 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""A bound on the total change of each unknown in Newton's method."""
+"""Newton's method fails if an unknown differs from the decimal in the file by ``TOLERANCE`` or more."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 
 
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
-    """Select one unknown for each equation, and return their indices in ascending order.
+    """Select one unknown for each equation. Return the indices of the selected unknowns in ascending order.
 
     Each row of ``jacobian`` contains the derivatives of one equation. Each row is divided by its largest
     entry. Then Gaussian elimination with complete pivoting selects the unknowns. Raises

@@ -17,8 +17,9 @@ from orderconds.ring.protocol import Element
 
 
 class Jets:
-    """The ring whose elements enclose the value and the gradient of a function of ``width`` variables. Each
-    variable has a ball (:meth:`variable`). The enclosures hold for all values in these balls.
+    """The ring whose elements enclose the value and the gradient of a function of ``width`` variables. For
+    each variable, a ball of values is given (:meth:`variable`). The enclosures hold for all values in these
+    balls.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(64):
