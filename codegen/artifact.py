@@ -48,8 +48,8 @@ class Artifact:
         replaced.
 
         InputError is raised if the folder cannot be written to, or if the old module belongs to another scene
-        or method. If the option ``--prefix`` was used for one of the two modules, the old module may belong
-        to another scene or method.
+        or method. This error has one exception: if the option ``--prefix`` was used for one of the two
+        modules, the old module is replaced even if it belongs to another scene or method.
         """
         folder = Path(directory)
         try:

@@ -155,7 +155,8 @@ class CompiledIntegrator(Integrator):
 
         The first list is for the run-time inputs, and the second list is for the iteration counts.
 
-        If the user's function for the run-time inputs fails, its error is raised after the ``with`` block.
+        The caller uses the lists in a ``with`` block. If the user's function for the run-time inputs raises
+        an error in this block, the error is raised again at the end of the block.
         """
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix

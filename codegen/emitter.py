@@ -127,7 +127,7 @@ def compile_method(
     - ``adaptive``: add the error estimate of an embedded method.
     - ``jacobian``: add the derivative of a step.
     - ``integrate``: add a run to a given end time, with states at given output times.
-    - ``events``: the number of event functions of the run to a given end time.
+    - ``events``: the number of event functions that the run to the end time evaluates.
     - ``dense``: compute the states at output times with the continuous extension of the tableau.
     - ``compensate``: use compensated summation. The state then contains correction terms.
     """
@@ -319,7 +319,7 @@ def emit(
     - ``form``: ``printed`` (the equations of the scene), or another form, such as ``quaternion``.
     - ``adaptive``: add a run with step-size control.
     - ``batch``: add a C function for many systems (:meth:`codegen.integrator.Integrator.run_batch`).
-    - ``integrate``: add a run to a given end time.
+    - ``integrate``: the module also contains a function that integrates to a given end time.
     - ``compensate``: use compensated summation. The state then contains correction terms, initially zero.
 
     :func:`compile_method` describes the other arguments and most errors. UnknownName is raised for an unknown

@@ -102,8 +102,8 @@ def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], floa
 
     The function takes a state, the time since the start of the time span, and the step size.
     """
-    # The program from ``lower`` iterates on all stages. ``blocks.run`` replaces explicit stages by
-    # assignments.
+    # The program from ``lower`` solves the equations of all stages by iteration, even for explicit stages.
+    # ``blocks.run`` replaces explicit stages by assignments.
     problem, program = problem_for(scene, method), blocks.run(lower(scene, method))
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:

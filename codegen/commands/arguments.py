@@ -20,7 +20,10 @@ def scene_names() -> tuple[str, ...]:
 
 
 def method_names() -> list[str]:
-    """Return the names that the shell proposes after ``--method``: tableaux, with and without a family."""
+    """Return the names that the shell proposes after ``--method``.
+
+    The names have the form ``TABLEAU`` or the form ``FAMILY:TABLEAU``.
+    """
     from codegen import lower
 
     tableaux = tableau_names()

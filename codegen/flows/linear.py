@@ -74,8 +74,9 @@ def recognise(formula: Formula) -> Part | None:
     The flow solves z' = L z + c, where z = (q, mu). The matrix L is J times the Hessian matrix of the
     formula. J is the block matrix with the rows (0, I) and (-I, 0).
 
-    If the group is not abelian, the result is None. Otherwise the formula must be quadratic in z, and L^2
-    must be diagonal without positive entries. If not, ``reason`` in the result names the violation.
+    If the group is not abelian, the result is None. For an abelian group, two conditions are tested: the
+    formula is quadratic in z, and L^2 is diagonal without positive entries. If a condition is violated, the
+    result has no flow, and ``reason`` in the result names the violation.
     """
     if not formula.problem.group.abelian:
         return None

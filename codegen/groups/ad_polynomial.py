@@ -55,7 +55,8 @@ def _exponentials(
     """Return the coefficients of t and t^2 in a series.
 
     The series is the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``. The rule t^3 = -z t removes
-    all powers above t^2. If z can be negative, ``signed`` is true.
+    all powers above t^2. Negative powers of t and the constant term are ignored. If z can be negative,
+    ``signed`` is true.
     """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"
@@ -83,7 +84,8 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
-    # Horner's rule: t^3 = -z t reduces odd powers to multiples of t, and even powers to multiples of t^2.
+    # By t^3 = -z t, odd powers of t are multiples of t, and even powers are multiples of t^2. Horner's rule
+    # is applied to the odd powers and to the even powers separately.
     sums: list[S] = [d.rational(0), d.rational(0)]
     for k in range(factor.order, 0, -1):
         weight = bernoulli_over_factorial(k) * s**k

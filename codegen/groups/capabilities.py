@@ -95,7 +95,8 @@ class Coadjoint(LieGroup):
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        In T*G, the product exp(x, n) (q, mu) has this momentum for every q.
+        The result is the momentum of the product exp(x, n) (q, mu) in the group T*G. This momentum does not
+        depend on q.
         """
         turned = self.Adtinv(d, self.exp(d, x), mu)
         pushed = self.dexpt(d, tuple(-a for a in x), n)
@@ -443,8 +444,8 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return tuples of indices. :meth:`complete` computes the coordinates of one tuple from all
-        coordinates outside this tuple.
+        """Return tuples of indices of coordinates. For each of these tuples, :meth:`complete` can compute the
+        coordinates with the indices in the tuple from all coordinates with indices outside the tuple.
         """
 
     @abstractmethod

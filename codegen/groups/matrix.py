@@ -203,7 +203,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        In T*G, the product exp(x, n) (q, mu) has this momentum for every q.
+        The result is the momentum of the product exp(x, n) (q, mu) in the group T*G. This momentum does not
+        depend on q.
         """
         if self.algebra.nilpotency:
             return super().transport(d, x, n, mu)

@@ -44,7 +44,7 @@ class MatrixAlgebra:
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """For each position (row by row), the non-zero entries of the dual basis matrices at this position.
+        """The non-zero entries of the dual basis matrices: one tuple of pairs for each position, row by row.
 
         A pair (i, x) means that matrix i of the dual basis has the entry x.
         """

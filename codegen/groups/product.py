@@ -59,7 +59,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         Otherwise return None.
         """
         own = super().offers(capability)
-        # For the classes LieGroup and DirectProduct, the factors are not tested.
+        # Every direct product has the operations of DirectProduct and of its base classes. For these classes,
+        # the operations of the factors need no test.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None

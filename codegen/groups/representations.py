@@ -202,8 +202,8 @@ class AlgebraVectors(Representation):
         """Apply ``word``, a product of functions of ad*_x, to p.
 
         The method evaluates the group's formula for ``word`` with dual numbers, where e^2 = 0. The vector
-        y + v e represents x = (y, v). The vector q + m e represents p = (m, q). The coefficient of e in
-        <q + m e, y + v e> is <m, y> + <q, v>, the value of p at x.
+        y + v e represents x = (y, v). For p = (m, q), the two parts are exchanged: the vector q + m e
+        represents p. The coefficient of e in <q + m e, y + v e> is <m, y> + <q, v>, the value of p at x.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))

@@ -31,5 +31,5 @@ class SE3(Semidirect):
         self.layout = f": the attitude in {attitude.name}{attitude.layout}, then the position"
 
     def with_linear(self, linear: LieGroup) -> SE3:
-        """Return SE(3) with elements of the group ``linear`` as attitudes."""
+        """Return the form of SE(3) in which elements of the group ``linear`` represent the rotations."""
         return SE3(linear)

@@ -105,7 +105,8 @@ class Semidirect(
     def offers(self, capability: type[C]) -> C | None:
         """Return this product if it has the operations of the class ``capability``. Otherwise return None.
 
-        For most classes, the result is None if the linear factor lacks the operations.
+        Coadjoint, PointMotions, ClosedFormSeries and MatrixRepresentation have special rules. For every other
+        class, the result is None if the linear factor lacks the operations.
         """
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
@@ -307,8 +308,8 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # If ``dual`` is true, ``first`` is the sum of ``head`` over all copies of the space. Only the
-            # first summand contains w.
+            # If ``dual`` is true, each copy of the space adds its own ``head`` to ``first``. Only ``head`` of
+            # the first copy contains w.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head

@@ -18,7 +18,7 @@ def chain(kernel: Kernel) -> int:
 
     The depth is the largest number of nested Stumpff functions, and at least 1.
 
-    In two cases the result is 1:
+    In two cases the expressions are not examined, and the result is 1:
 
     - The kernel solves implicit equations by iteration.
     - The kernel is a step of a splitting method with deferred flows (:class:`codegen.ir.kernel.Deferred`).

@@ -119,7 +119,8 @@ class ArrayStep:
         for statement in (*self.body, *self.estimate):
             match statement:
                 case AddUnit(target=target):
-                    # One number is added in each row of ``target``: the diagonal entry 1.
+                    # A multiple of the unit matrix is added to ``target``. In each row, only the diagonal
+                    # entry needs an addition.
                     own = {"add": target.rows}
                 case Move():
                     own = statement.operations

@@ -238,6 +238,6 @@ class BallDomain:
 
     def increment(self, x: arb) -> arb:
         """Return an increment d for which the difference quotient (f(x + d) - f(x))/d is accurate."""
-        # For abs(x) <= 1, d = sqrt(eps) balances the rounding error eps/d and the truncation error d of the
-        # difference quotient.
+        # For abs(x) <= 1, the increment is d = sqrt(eps). The difference quotient has a rounding error of
+        # about eps/d and a truncation error of about d. The two errors are equal for d = sqrt(eps).
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()

@@ -67,7 +67,8 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Find the powers of y = 1/sqrt x to rewrite as quotients, for example y^3 as 1/(x sqrt x).
 
-    The result maps the node number of a power to the pair (node number of y, n).
+    The result maps the node number of each power y^n to the pair (node number of y, n). A power may be
+    multiplied by a number.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
@@ -84,8 +85,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # A node is read if it is a root, or if a parent is not in ``ranks``. ``read`` contains the values of
-    # ``ranks`` for these nodes.
+    # A node is read if it is a root, or if at least one of its parents is not in ``ranks``. ``read`` contains
+    # the values of ``ranks`` for these nodes.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     # If y or an even power of y is in ``read``, no power of y is rewritten.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
@@ -95,7 +96,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
     """Return True if a node equals c y^n with a number c and y = 1/sqrt x.
 
-    ``inside`` contains the pair (node number of y, n) for each argument c y^n of the node.
+    ``inside`` contains the pair (node number of y, n) for each argument c y^n of the node. Two arguments may
+    have different y.
     """
     # The first argument may be a number.
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
@@ -177,12 +179,13 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # ``Space._make`` does not simplify. A simplified expression could be a linear combination.
+        # An atom must not be a linear combination. A simplified expression could be a linear combination, so
+        # the atom is made by ``Space._make``, which does not simplify.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 
     def _power(self, node: Expr) -> Sum:
-        """Return a node c y^n as a linear combination with one term. c is a number, and y = 1/sqrt x.
+        """Return the node c y^n, with a number c and y = 1/sqrt x, as a linear combination with one term.
 
         Here y^(2 m) = 1/x^m and y^(2 m + 1) = 1/(x^m sqrt x).
         """
@@ -195,7 +198,8 @@ class _Gathering:
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
-        # The power x^m does not depend on sqrt x, so a processor can compute both at the same time.
+        # ``under`` is x^m, where m is half of ``exponent``, rounded down. x^m does not depend on sqrt x, so a
+        # processor can compute x^m and sqrt x at the same time.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}
@@ -236,6 +240,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
             # The sign of the first term is factored out of the whole group.
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # The factors ``sizes[key]`` are positive. If the first term is negative, the group is subtracted.
+        # The factor ``sizes[key]`` is positive, so ``part`` does not contain the sign of the first term. If
+        # this sign is negative, ``part`` is subtracted.
         result = result - part if first else result + part
     return result

@@ -305,8 +305,8 @@ class PreciseDomain:
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return the pair (converged, change), see :meth:`Domain.settled`.
 
-        ``converged`` is true if the change is zero. A change of at most 2^12 rounding units is also
-        sufficient if it is not smaller than ``previous``.
+        ``converged`` is true in two cases: the change is zero, or the change is at most 2^12 rounding units
+        and at least ``previous`` (the change in the preceding sweep).
         """
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
@@ -444,7 +444,7 @@ class SeriesDomain:
             # Term j is term j - 1 times -z, divided by ``divisor``.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # The truncated power z^j is zero for large j, because z has no constant term.
+            # z has no constant term, and ``ring`` truncates all series. So z^j is zero for large j.
             if self.ring.is_zero(term):
                 return total
             total = total + term
@@ -463,7 +463,8 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The keys of ``samples`` are the node numbers of times. A value contains a time and its symbols.
+        # Each key is the node number of a time t. The value is the pair (t, symbols). The dictionary
+        # ``symbols`` maps the name of a function of time to the symbol for the value of this function at t.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:

@@ -2,8 +2,8 @@
 
 In doubles, the number s is chosen such that the matrix B = A/2^s has a small norm. The vector y is multiplied
 2^s times by the Taylor polynomial of exp(B) (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011)
-488). Let m be the degree of the Taylor polynomial. A multiplication by the polynomial replaces y by
-y + B (p/m!). The vector p is the sum of (m!/j!) B^(j-1) y over j = 1, ..., m.
+488). Let m be the degree of the Taylor polynomial, and let the vector p be the sum of (m!/j!) B^(j-1) y over
+j = 1, ..., m. A multiplication by the polynomial replaces y by y + B q with q = p/m!.
 
 The integers m!/j! need no rounding. For a skew matrix A, rounded coefficients 1/j! would cause a systematic
 error of the length of y.
@@ -42,8 +42,8 @@ def degrees(bits: int) -> tuple[int, ...]:
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
-    # An integer needs no rounding if its largest odd divisor has at most ``bits`` bits. Among the
-    # integers m!/j!, m! has the largest odd divisor.
+    # An integer needs no rounding if its largest odd divisor has at most ``bits`` bits. The
+    # largest odd divisor of m!/j! divides the largest odd divisor of m!, so only m! is tested.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
@@ -206,8 +206,8 @@ class ExponentialAction(VectorFunction):
             for k in range(degree, 1, -1):
                 # With m = ``degree``, the next line changes ``weight`` from m!/k! to m!/(k - 1)!.
                 weight *= k
-                # The usual form of Horner's rule divides by k here. The factor ``weight`` replaces the
-                # division.
+                # The usual form of Horner's rule would divide by k in the next line. The multiplication by
+                # ``weight`` replaces this division.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
             # The last step of Horner's rule divides p by ``weight`` = m!.
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]

@@ -96,7 +96,8 @@ class _Reader:
         name = e.func.__name__
         if isinstance(e, sympy.Function) and name in CALLS:
             argument = self.node(e.args[0])
-            # All functions outside ``SAFE`` are finite at finite doubles.
+            # A function that is not in ``SAFE`` needs no safe argument, because the function is finite at
+            # every finite double.
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
@@ -169,7 +170,8 @@ class _Reader:
                 where=self.where,
                 expected="a last branch (formula, True)",
             )
-        # ``rest`` is true if the outer branch is selected and all earlier conditions of ``e`` are false.
+        # ``e`` may be part of a branch of another Piecewise formula. ``outer`` is the guard of this branch,
+        # or None. ``rest`` is true if this branch is selected and all earlier conditions of ``e`` are false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
         for formula, condition in e.args:
@@ -215,7 +217,8 @@ class _Reader:
             # A negative power is infinite for the base 0.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # The safe base is 1, because the derivative of the root is infinite at 0.
+            # If a branch of a Piecewise formula is not selected, ``guarded`` replaces the base in this branch
+            # by 1. The number 0 is not suitable, because the derivative of the root is infinite at 0.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
             # For odd n > 0, the power x^(n/2) is x^m sqrt(x) with m = (n - 1)/2.

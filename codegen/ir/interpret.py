@@ -178,8 +178,8 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The last sweep does not update the unknowns. In ``env``, the results of ``block.body`` belong to
-        # these unknowns.
+        # After the last sweep, the unknowns in ``env`` keep their old values. So all results of
+        # ``block.body`` in ``env`` were computed from the unknowns in ``env``.
         done, size = domain.settled(old, new, size)
         if done:
             return

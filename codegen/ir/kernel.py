@@ -81,8 +81,8 @@ class Newton:
     - Simplified Newton (``leading`` is true): the equations are u = g(u). The matrix is 1 - g'(u), expanded
       to first order in h. Each step computes and inverts the matrix.
     - Residuals (``residuals`` is true): the equations are r(u) = 0, and the ``images`` of the loop are the
-      residuals r(u). The matrix is -r'(u), expanded to first order in h. The matrix is inverted again after
-      :attr:`period` steps.
+      residuals r(u). The matrix is -r'(u), expanded to first order in h. The matrix is computed and
+      inverted again after :attr:`period` steps.
 
     If ``inverted`` is true, ``matrix`` is the inverse of the matrix described above. ``changes`` are the
     names of the variables for the changes of the unknowns in a sweep.
@@ -102,7 +102,8 @@ class Newton:
     @property
     def period(self) -> int:
         """The number of steps between two inversions of the matrix, or 0 if ``residuals`` is false."""
-        # An inversion for n unknowns costs O(n^3) operations, that is, O(n^2) for each of n/2 steps.
+        # The inversion of an n x n matrix costs O(n^3) operations. If one inversion serves n/2 steps of the
+        # integrator, the cost of inversions is only O(n^2) operations in each step.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
@@ -116,15 +117,15 @@ class Loop:
     ``label`` is the name of the equations in messages and statistics, for example "stage 2". ``starts`` are
     the first values of the unknowns, or empty if a :class:`Start` computes the first values.
 
-    In fixed-point iteration the change in a sweep is g(u) - u, and the last change is not added to the
-    unknowns. With ``newton``, the change is the inverse of Newton's matrix times g(u) - u. For equations
-    r(u) = 0, r(u) replaces g(u) - u. Every change is added.
+    In fixed-point iteration the change in a sweep is g(u) - u. The change is added to the unknowns in every
+    sweep except the last sweep. With ``newton``, the change is the inverse of Newton's matrix times g(u) - u.
+    For equations r(u) = 0, r(u) replaces g(u) - u. Newton's method adds the change in every sweep.
 
     ``limit`` is the largest number of sweeps. The stopping rule (:mod:`codegen.run.stopping`) ends the loop
     in two main cases:
     - The change no longer decreases, and it is at most ``tolerance`` times the largest unknown.
     - The predicted next change is at rounding level, and the change is at most ``close`` times the largest
-      unknown. For equations r(u) = 0, another rule replaces the second case.
+      unknown. For equations r(u) = 0, the method ``Stopping.converged_by_residuals`` replaces this case.
 
     ``only_unknowns_read`` is true if the code after the loop reads no variable of ``body``.
     """
@@ -154,11 +155,13 @@ class Loop:
         In Newton's method, the values of ``body`` are computed before the last change is added to the
         unknowns. So these values are less accurate than the unknowns.
         """
-        # The error of the unknowns is smaller than the last change, so a larger change is permitted.
+        # The error of the unknowns is smaller than the last change. If only the unknowns are read, the last
+        # change may therefore be larger than ``tolerance`` times the largest unknown.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # If Newton's matrix is expanded in h, the loop converges only for small h. For small h, the values of
-        # ``body`` are more accurate.
+        # If Newton's matrix is expanded in h, the loop converges only for small h. The errors in the values
+        # of ``body`` are smaller for small h than for large h. So the factor ``tolerance`` is sufficient for
+        # these loops. All remaining loops use the factor ``tolerance`` / 16.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -172,14 +175,17 @@ class Start:
     step, u2 the solution of the step before it, and so on. The extrapolations of degree 0, 1 and 2 are u1,
     2 u1 - u2 and 3 u1 - 3 u2 + u3.
 
-    The degree d is adapted to the sizes of the backward differences u1 - u2 (order 1), u1 - 2 u2 + u3
-    (order 2), and so on. Let c be the change of the unknowns from one step to the next. If the estimated
-    error of the first values is larger than ``ROUGH`` times c, only u1 is kept.
+    The backward differences are u1 - u2 (order 1), u1 - 2 u2 + u3 (order 2), and so on. The degree d of the
+    extrapolation becomes d + 1 or d - 1 only if the backward difference of this order is smaller than the
+    backward difference of order d. Let c be the change of the unknowns from one step to the next. If the
+    estimated error of the first values is larger than ``ROUGH`` times c, all stored solutions except u1 are
+    discarded.
 
     A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then the
     step size grows to h. Each solution provides the first values for the next larger step size. The
-    continuation fails after ``TRIES`` attempts. It also fails if the growth factor of the step size is
-    1 + ``SHORTEST`` or less.
+    continuation fails after ``TRIES`` attempts. The growth factor is the quotient of the next step size and
+    the last successful step size. The continuation also fails if the growth factor is 1 + ``SHORTEST`` or
+    less.
     """
 
     unknowns: tuple[str, ...]
@@ -285,8 +291,9 @@ class Expansion:
     then of order 2, and so on to the order ``degree``.
 
     With ``following``, a loop over the order n computes the coefficients
-    (:class:`codegen.ir.taylor_loop.OrderLoop`). The first outputs of the kernel ``coefficients`` do not
-    depend on n. The other outputs are the coefficients of order 1.
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). The kernel ``coefficients`` is executed before this
+    loop. Its first outputs are values that do not depend on n and that the loop uses for every n
+    (``OrderLoop.first``). The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
     ``sums`` is the number of products. The kernel ``following`` has these outputs, in this order:
@@ -359,7 +366,7 @@ class Kernel:
     - ``outlined`` are functions that the expressions of the kernel call.
     - ``carried`` is given if the kernel uses the body momentum in place of the space momentum.
     - ``expansion`` is the Taylor polynomial of a Taylor method.
-    - ``estimate`` is the error estimate of any other adaptive method.
+    - ``estimate`` is the error estimate of an adaptive method that is not a Taylor method.
     - ``batch`` is true if emitted code also contains a function that steps many independent systems.
     - ``observed`` is given if emitted code also contains a function that integrates to a given end time.
 

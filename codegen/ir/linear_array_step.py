@@ -113,7 +113,7 @@ class LinearArrayStep:
 
     def products(self, element: Element) -> int:
         """Return the number of matrix-vector products that are needed to multiply ``element`` by a vector."""
-        # A letter is one matrix, so it needs one product.
+        # A letter is one matrix, so the multiplication of a letter by a vector is one product.
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
             # The commutator needs the products Y v, X (Y v), X v and Y (X v).

@@ -92,7 +92,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             if node.payload == STEP:
                 # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
-            # Every other symbol u has the expansion u + 0 h. The derivative of an unknown with respect to
+            # Every symbol u except h has the expansion u + 0 h. The derivative of an unknown with respect to
             # itself is 1 + 0 h.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)

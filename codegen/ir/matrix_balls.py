@@ -60,8 +60,8 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
 
     ``jet`` contains the entries of an n x n matrix A, followed by the entries of its derivatives.
 
-    Let |X| be the largest absolute value of an entry of a matrix X. Let e be the largest |E| of
-    the derivatives E of A. The error of an entry is at most:
+    Let |X| be the largest absolute value of an entry of a matrix X. Let e be the maximum of
+    |E| over all derivatives E of A in ``jet``. The error of an entry is at most:
     - 2^-``bits`` |exp(A)| in exp(A),
     - 2^-``bits`` max(|D|, |exp(A)| (e + e^2)) in a derivative D of exp(A).
 

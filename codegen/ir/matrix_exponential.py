@@ -30,7 +30,9 @@ DEGREES = (4, 8, 12, 16)
 """The degrees of the Taylor polynomials."""
 
 LEAST_DIGITS = 10
-"""The least number of correct bits in the exponential. If the error bound is larger, all results are NaN."""
+"""The least number of correct bits in the exponential. If the estimated error of exp(A) is larger than
+2^-LEAST_DIGITS times the Frobenius norm of exp(A), all results are NaN.
+"""
 
 Pairs = tuple[tuple[tuple[int, int], ...], ...]
 
@@ -162,7 +164,8 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     The bound is exp(``scale`` b). Gershgorin's circles give an upper bound b of the eigenvalues of the
     symmetric part of ``a``.
     """
-    # The diagonal entries keep their signs, because the bound b may be negative.
+    # Gershgorin's circles use the absolute values of the entries outside the diagonal only. The diagonal
+    # entries keep their signs, so the bound b may be negative.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]
@@ -179,7 +182,9 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 
 
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
-    """Return the jet that results from ``squarings`` squarings of the jet ``total``.
+    """Square the jet ``total`` ``squarings`` times, and return the resulting jet.
+
+    A jet is a list with the entries of several n x n matrices: a matrix and its derivatives.
 
     The first matrix of ``total`` (its first n^2 entries) has a spectral norm of at most ``growth``. The error
     of the first matrix of the result is estimated. If the estimate is too large (:data:`LEAST_DIGITS`), all

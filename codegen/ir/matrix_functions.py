@@ -26,7 +26,8 @@ class MatrixExponential(VectorFunction):
 
     For ``level`` = 0 the function maps a matrix A to exp(A). For ``level`` = 1 the arguments are A and a
     derivative of A, and the results are exp(A) and the derivative of exp(A). For ``level`` = k,
-    both lists contain the entries for ``level`` = k - 1, followed by the derivatives of these entries.
+    the arguments are the arguments for ``level`` = k - 1, followed by the derivatives of these arguments. The
+    results are the results for ``level`` = k - 1, followed by the derivatives of these results.
     """
 
     n: int
@@ -102,8 +103,9 @@ class MatrixExponential(VectorFunction):
         be nilpotent.
         """
         # The matrix C of the constant terms of A satisfies C^n = 0. A power of the jet is a sum of products.
-        # A non-zero product has fewer than n successive factors C. It has at most ``ring.order`` + ``level``
-        # other factors: factors with h, and derivatives.
+        # A non-zero product has fewer than n successive factors C. Every factor different from C is either a
+        # multiple of h or a derivative of A. A non-zero product has at most ``ring.order`` multiples of h and
+        # at most ``level`` derivatives of A as factors.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 

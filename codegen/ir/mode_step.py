@@ -280,7 +280,9 @@ class ModeStep:
 
     @property
     def growth(self) -> int:
-        """The exponent p of the bound C (1 + |z|)^p for the functions :attr:`Table.multiplier` of z.
+        """The exponent p of a bound C (1 + |z|)^p for functions of z.
+
+        The functions are the multipliers (:attr:`Table.multiplier`) of all tables in ``tables``.
 
         For z < 0, the absolute value of each function is at most C (1 + |z|)^p with a constant C. If
         :attr:`backwards` is true, p has no meaning.

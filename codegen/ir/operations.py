@@ -212,7 +212,8 @@ class OfGroup(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results of the operation for the arguments ``args``."""
-        # None means that the function is not a truncated series.
+        # The third argument of ``apply`` is the order at which a series is truncated. This operation
+        # truncates no series, so the third argument is None.
         return problem.apply(domain, self.function, None, args)
 
 
@@ -350,7 +351,7 @@ class Bracket(OfGroup):
 
     @property
     def function(self) -> str:
-        """The name of the method of the group for this operation."""
+        """The name of the Python method that evaluates this operation in the class of the group."""
         return "adt" if self.dual else "ad"
 
     def signature(self) -> tuple[Kinds, Kinds]:

@@ -126,8 +126,9 @@ class Program:
     statements are executed once for each substep.
 
     If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. With the
-    new values q' and m', the new value of mu is mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m. This formula reduces
-    rounding errors: in exact arithmetic, mu equals Ad*_{q^-1} m.
+    new values q' and m', the new value of mu is mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m. In exact arithmetic, mu
+    equals Ad*_{q^-1} m, so the new value of mu is Ad*_{q'^-1} m'. In floating-point arithmetic, the first
+    formula is better, because the errors of the two terms with Ad* nearly cancel in the difference.
     """
 
     name: str
@@ -159,7 +160,7 @@ class Program:
         """Return the program as text, with one statement on each line."""
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
-        # In the body frame, the variable ``mu`` of the statements is the body momentum.
+        # In the body frame, the name ``mu`` in the following lines of the text denotes the body momentum.
         lines += ["  with the body momentum Ad*(q, mu) in place of mu:"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):

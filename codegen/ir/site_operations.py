@@ -22,7 +22,7 @@ class Total(Operation):
     noun = "sum{s} over all sites"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return ``args``, the sum for a lattice with a single site."""
+        """Return ``args``. On a lattice with a single site, the sum over all sites is the number itself."""
         return args
 
 

@@ -65,11 +65,13 @@ class Sweep:
 
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
-    - ``outside`` is a kernel for sites at the boundary of the lattice. Its output k is the value of
-      ``read_outside[k].symbol`` if the neighbour does not exist.
+    - ``outside`` is a kernel for sites at the boundary of the lattice. If the neighbour
+      ``read_outside[k].neighbour`` of a site does not exist, output k of ``outside`` is the value of
+      the symbol ``read_outside[k].symbol``.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
-      single sites, ``axis`` is :data:`OWN`. The second site of a pair is the neighbour with the index 0. The
-      second half of ``stores`` contains the rows for the second site.
+      single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, a load reads the number from the second
+      site of the pair if ``Load.neighbour`` is 0. The second half of ``stores`` contains the rows for the
+      second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
       values g(u). Newton's method stores g(u) - u.
     - ``measured`` is empty, or contains two rows for the stopping test of fixed-point iteration. For each
@@ -118,8 +120,9 @@ class SiteNewton:
     ``size`` unknowns. For each site, ``kernel`` computes three square blocks: the derivatives with respect to
     the unknowns of the left neighbour, of the site, and of the right neighbour.
 
-    In an open chain, the symbol with the name ``exists[k]`` is 1 if the neighbour with the index k in
-    :attr:`SiteStep.offsets` exists, and 0 otherwise.
+    The position of neighbour k relative to a site is entry k of :attr:`SiteStep.offsets`. In an open chain,
+    the first site and the last site lack one neighbour each. The symbol with the name ``exists[k]`` is 1 for
+    a site with neighbour k, and 0 for a site without neighbour k.
 
     ``matrix``, ``residual`` and ``border`` are indices of rows in the workspace:
 
@@ -235,7 +238,10 @@ class SiteStep:
 
     @property
     def workspace(self) -> int:
-        """The number of rows of the workspace: ``rows`` for intermediate results, ``size`` for one state."""
+        """The number of rows of the workspace: the sum of ``rows`` and ``size``.
+
+        The intermediate results occupy ``rows`` rows, and one state occupies ``size`` rows.
+        """
         # A step must not overwrite the old state, so the emitted code uses two states.
         return self.rows + self.size
 
