@@ -38,7 +38,7 @@ PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<
 
 @dataclass(frozen=True)
 class Method:
-    """A family with a tableau, and with a cut-off if the family has one.
+    """A method, given by a family, a tableau and a cut-off. Some families need no tableau or no cut-off.
 
     - ``coefficients`` is the tableau, or None for a family without tableau.
     - ``cutoff`` is the number of brackets after which the series of dexp^{-1} or dexp is truncated. For a
@@ -148,9 +148,9 @@ class Method:
     def embedded(self) -> Method | None:
         """Return the embedded method, or None if the method needs no embedded method.
 
-        No embedded method is needed if ``adaptive`` is False, or in families such as ``taylor``. An embedded
-        method has the stages of the method, but other weights. :class:`MethodError` is raised if a needed
-        embedded method does not exist.
+        No embedded method is needed if ``adaptive`` is False. Families such as ``taylor`` control the step
+        size without an embedded method. An embedded method has the stages of the method, but other weights.
+        :class:`MethodError` is raised if a needed embedded method does not exist.
         """
         if not self.adaptive or self.kind.controls_steps:
             return None
@@ -213,7 +213,10 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families with embedded methods: their stages do not depend on the weights."""
+    """Return the names of the families whose methods can have embedded methods.
+
+    These are the families in which the stages of a method do not depend on the weights of the method.
+    """
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
@@ -349,7 +352,8 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
     """For each family that can use ``tableau``, compute the order and yield it as a claim.
 
-    If ``family`` is not empty, all other families are omitted. A cut-off in ``family`` has no effect.
+    ``family`` is the name of a family, a name with a cut-off such as ``rkmk(2)``, or ''. If ``family`` is not
+    empty, all families with another name are omitted. The cut-off, the number 2 in ``rkmk(2)``, is ignored.
     """
     from orderconds.checking import check, claimable_families
 
@@ -429,8 +433,9 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"no cut-off, or a family with a cut-off: {' or '.join(cutting)}",
         )
-    # A commutator-free tableau may claim an order for the family rk. This claim belongs to a Runge-Kutta
-    # method. Its coefficients are sums over the exponentials of a stage.
+    # A commutator-free tableau may claim an order for the family rk. This claim belongs to the method on R^n,
+    # which is a Runge-Kutta method. A coefficient a_ij of this Runge-Kutta method is the sum of the
+    # coefficients of k_j in all exponentials of stage i.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

@@ -39,7 +39,8 @@ c s^(k + 1) with a constant c.
 """
 
 VANISHING = 1e-30
-"""A margin is a function of the state and the time. Absolute values less than VANISHING count as zero.
+"""A margin is a function of the state and the time. A margin with an absolute value less than VANISHING
+counts as zero.
 
 The field can be non-smooth at a zero of a margin.
 """
@@ -50,7 +51,7 @@ SUBSTEPS = 24
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest value that :meth:`PiecewiseField.beyond` returns for the smoothness of the field."""
+"""The largest number of continuous derivatives that :meth:`PiecewiseField.beyond` returns."""
 
 
 @dataclass(frozen=True)
@@ -143,9 +144,10 @@ Advance = Callable[..., tuple[Vector, float]]
 class Sided:
     """A vector field as a function of (state, t). The field is smooth until the next event.
 
-    ``sides`` contains the current case of each selection (an operation with several cases). ``kinks``
-    contains the number of continuous derivatives at each past event, or -1 if the field is discontinuous
-    there. ``points`` contains the pairs (state, t) of the latest evaluations of the field.
+    A selection is an operation with several cases, such as abs(x). ``sides`` contains the current case of
+    each selection. ``kinks`` contains the number of continuous derivatives at each past event, or -1 if the
+    field is discontinuous there. ``points`` contains the pairs (state, t) of the latest evaluations of the
+    field.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -163,7 +165,8 @@ class Sided:
     def __call__(self, y: Vector, t: Scalar) -> Vector:
         """Return the value of the field at the state y and the time t, and add (y, t) to ``points``.
 
-        Operations with several cases use the cases in ``sides``.
+        An operation such as abs(x) has several cases. ``sides`` contains the case that is used for each
+        operation.
         """
         self.points.append((y, t))
         return self.fields.on(self.sides)[0](y, t)

@@ -49,7 +49,11 @@ AGAIN = 3
 """The largest number of repeated measurements of a run whose time is too uncertain."""
 
 LEAST_SHARE = 0.1
-"""A time without the overhead is at least LEAST_SHARE times the measured time."""
+"""The overhead is subtracted from each measured time.
+
+If the difference is less than LEAST_SHARE times the measured time, LEAST_SHARE times the measured time is
+used instead of the difference.
+"""
 
 
 @dataclass(frozen=True)

@@ -90,7 +90,8 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
             expected=f"one of {', '.join(scene.steps)}" if scene.steps else "a scene that defines steps",
             hint='define the step in the argument "steps" of LinearScene',
         )
-    # The lowering of ``magnus`` methods also forms the programs of steps defined by a scene.
+    # Only scenes with a linear equation define steps. The class that forms the programs of ``magnus`` methods
+    # also forms the programs of such steps.
     return Method("magnus", None, step=name)
 
 

@@ -77,7 +77,8 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
     if embedded is not None:
         second = embedded.commutator_free().update
         exponent = second_exponent(method.commutator_free(), second, method.ring)
-        # Other embedded methods need all stage values, but a low-storage scheme overwrites stage values.
+        # If ``exponent`` is None, the embedded method does not have the form in the docstring. Such an
+        # embedded method needs all stage values k_i, but a low-storage scheme overwrites stage values.
         if exponent is None:
             return None
     # If ``holds`` is True, the scheme and the tableau define the same step.
@@ -106,7 +107,7 @@ def two_registers(
     sums: list[Var] = []
 
     def advance(i: int) -> None:
-        """Append the operations of stage i after the evaluation of the field."""
+        """Append the operations that compute the next state from k[i], the value of the field at stage i."""
         terms = [(one, k[i])]
         # At the first stage, K_1 = k_1.
         if register:

@@ -58,8 +58,9 @@ class Parts:
         """The summands of all parts, in the order for the function :func:`pairs`.
 
         A kick is a flow that changes only the momentum. If the scene is not a lattice, kicks come first,
-        because the kicks of two successive steps can be joined. On a lattice, steps are not joined. There
-        kicks come last: Strang's step then has one kick instead of two.
+        because the kicks of two successive steps can be joined. On a lattice, the kicks of two steps are not
+        joined, so kicks come last. With this order, Strang's step contains two neighbouring kicks, which are
+        joined into one kick.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -163,13 +164,14 @@ class FlowLowering(Lowering):
         # The names t and h are reserved, because they are arguments of emitted code.
         builder = Builder({v.name for v in inputs} | {"t", "h"})
         for summand, duration in reading.word:
-            # The argument 1 is the exponent of h: ``step`` is duration h^1.
+            # ``Coefficient(x, k)`` represents the number x h^k, so ``step`` represents ``duration`` times h.
             step = Coefficient(duration, 1)
             # All flows of one summand commute with each other, so their order does not matter.
             for name, flow in summand.flows:
                 # The time is constant during the flow of a time-dependent summand, so t is an argument.
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # The summand ``carrier`` does not depend on t. After its flow, t is advanced.
+            # The flow of the summand ``carrier`` advances the time. The summand ``carrier`` does not depend
+            # on t.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
@@ -196,8 +198,8 @@ def parts_of(scene: Problem, where: str) -> Parts:
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
     """Return the flows of a composition, and the label of the family whose order conditions apply.
 
-    A step applies Phi* and Phi in turn. Phi is the product of the flows of all summands, and Phi* is the
-    adjoint of Phi.
+    A step applies Phi* and Phi alternately, and begins with Phi*. Phi is the product of the flows of all
+    summands, and Phi* is the adjoint of Phi.
     """
     # Phi* with the duration beta_i h acts before Phi with the duration alpha_i h.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]

@@ -60,7 +60,8 @@ class LinearLowering(FieldLowering):
             return super().problem(scene, method)
         # The derived scene is stored, because deriving it takes time.
         if "linear" not in scene.derived:
-            # The result has u' = 0 for the momentum u conjugate to time. ``_with_momentum`` updates u.
+            # The stored scene has the equation u' = 0 for the momentum u conjugate to time. The correct
+            # update of u is added to the program of a step by ``_with_momentum``.
             scene.derived["linear"] = without_momentum_rate(scene)
         return scene.derived["linear"]
 
@@ -88,7 +89,8 @@ class LinearLowering(FieldLowering):
         family().require(tableau, method.ring)
         y = Var("y", Kind.POINT)
         stages = Stages(problem, method, (y,))
-        # The matrix A may contain constant coordinates of y, but no others. All nodes use the initial y.
+        # The matrix A may contain constant coordinates of y, but no varying coordinates of y. All nodes use
+        # the initial y.
         nodes = [stages.f(f"k{i + 1}", y, c) for i, c in enumerate(tableau.c)]
         values = LieElements(stages.builder, method, nodes, dict(tableau.elements))
         point = y
@@ -118,7 +120,8 @@ class LinearLowering(FieldLowering):
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the order of the method.
 
-        If ``method.step`` names a step of the scene, the scene also states the order.
+        If ``method.step`` names a step of the scene, the result contains the order that the scene states for
+        this step.
         """
         if not method.step:
             return super().order(method, scene)

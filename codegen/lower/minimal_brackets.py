@@ -25,9 +25,10 @@ A key contains the ring of the coefficients and the coefficients of the tableau 
 
 
 def bracket_program(method: Method) -> BracketProgram:
-    """Return the brackets and exponents of an ``rkmk`` method without a cut-off (a number of brackets).
+    """Return the brackets and exponents of an ``rkmk`` method that has no given number of brackets.
 
-    The method has the order of the Runge-Kutta method on R^n, with as few brackets as possible.
+    The order of the method on a Lie group equals the order of the Runge-Kutta method on R^n. The method uses
+    as few brackets as possible.
 
     :class:`codegen.errors.MethodError` is raised for an implicit tableau, for coefficients that are known
     only as balls (enclosing intervals), and for a tableau whose order is too high for the search.

@@ -100,7 +100,8 @@ class PartitionedLowering(Lowering):
                 # the ring.
                 time = stages.at(sum(tableau.A[i][1:], tableau.A[i][0]))
                 v, f = build.hamilton(f"v{number}", f"f{number}", Q, P, *time)
-                # If the velocity does not depend on positions, its values at ``q`` and ``Q`` are equal.
+                # If the velocity does not depend on positions, its values at ``q`` and ``Q`` are equal, so
+                # ``q`` can replace ``Q``.
                 if not by_position:
                     # With ``q`` in place of ``Q``, the velocity no longer depends on unknown velocities.
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)

@@ -83,8 +83,9 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # A comparison of two Number objects is always decided, even for balls (enclosing intervals).
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a stage before which the step can be divided. The cuts divide the stages into pieces. A group
-    # consists of ``wide`` successive pieces.
+    # A cut is an index k: the step can be divided between stage k - 1 and stage k. The first cut is 0, and
+    # the last cut is the number of stages. The cuts divide the stages into pieces. A group consists of
+    # ``wide`` successive pieces.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # The loop begins with the smallest groups of stages. Smaller groups give more substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):

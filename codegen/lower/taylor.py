@@ -31,7 +31,7 @@ class Taylor(Lowering):
     """Taylor's method for y' = F(y) in R^n. The vector y contains the coordinates of the state.
 
     Each step evaluates a Taylor polynomial of degree P in the step size, so the order is P. If the states are
-    points of a manifold in R^n, the value is projected onto the manifold.
+    points of a manifold in R^n, the value of the polynomial is projected onto the manifold.
     """
 
     family = "taylor"

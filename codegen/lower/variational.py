@@ -129,7 +129,10 @@ class ExpandedStep(ABC):
         self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
 
     def end(self, velocities: Sequence[Var], forces: Mapping[int, Var] | Sequence[Var]) -> None:
-        """Append Y, -Y, the nu_j and mubar, and store them in ``Y``, ``minus``, ``nu`` and ``mubar``."""
+        """Append the operations that compute Y, -Y, the nu_j and mubar.
+
+        The attributes ``Y``, ``minus``, ``nu`` and ``mubar`` become the variables of these results.
+        """
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
         # The operation dexp*_{-Y} needs the variable -Y.

@@ -1,9 +1,9 @@
 """Variational Runge-Kutta-Munthe-Kaas methods on T*G, equation (3.16) of Marthinsen's thesis.
 
 A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau are a_ij and b_i. Let
-dexp^{-1}_{(r),x} be the series of dexp^{-1}_x up to the terms with r brackets. Let P*_(r)(x, xi) be the dual
-of the derivative of dexp^{-1}_{(r),x} xi with respect to x. Let xi_i and n_i be the velocity and the force of
-stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
+dexp^{-1}_{(r),x} be the series of dexp^{-1}_x up to the terms with r brackets. The derivative of the vector
+dexp^{-1}_{(r),x} xi with respect to x is a linear map. Let P*_(r)(x, xi) be the dual of this linear map. Let
+xi_i and n_i be the velocity and the force of stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
 
     m_i = b_i Lambda + sum_j a_ji lambda_j,   M_i = (dexp^{-1}_{(r),X_i})* m_i / b_i,
     lambda_i = -h b_i dexp*_{X_i} n_i + h P*_(r)(X_i, xi_i) m_i,
@@ -11,8 +11,8 @@ stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-In general, the unknowns are v_i and m_i. If a_ji = 0 for some i and all j <= i, m_i is not an unknown. The
-program computes this m_i from the unknown Lambda and from lambda_j with j > i.
+In general, the unknowns are v_i and m_i. If stage i satisfies a_ji = 0 for every j <= i, m_i is not an
+unknown. The program computes this m_i from the unknown Lambda and from lambda_j with j > i.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ class _Step(ExpandedStep):
             direct = build.dual_dexp(f"d{i + 1}", self.X[i], n)
             terms = [(self.stages.times_h(-b[i]), direct), (self.stages.times_h(ONE.value), slope)]
             lagrange[i] = build.lin(f"lambda{i + 1}", Kind.DUAL, terms)
-        # The list is in the order of the stages, unlike the loop.
+        # The loop begins with the last stage, but the list must begin with the first stage.
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:

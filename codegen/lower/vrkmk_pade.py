@@ -90,14 +90,14 @@ class _Step(ExpandedStep):
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
         """Return a new variable for the vector R*_(r)(x, v) M (see the docstring of this module).
 
-        ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. The result is the
-        sum of ad*_{z_i} (ad*_x)^i M for i = 0, ..., r - 1. The vector z_i is the sum of
-        -ad_x^{k-1-i} v/(k+1)! for k = i + 1, ..., r.
+        ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. Let z_i be the sum
+        of -ad_x^{k-1-i} v/(k+1)! for k = i + 1, ..., r. The result is the sum of the vectors ad*_{z_i}
+        (ad*_x)^i M for i = 0, ..., r - 1.
         """
         terms: Terms = []
-        # Let u = ad_x^k v. The dual of the derivative of u with respect to x maps M to the sum of
-        # ad*_w (ad*_x)^i M for i = 0, ..., k - 1, where w = -ad_x^{k-1-i} v. For each i, z_i is the sum of
-        # w/(k+1)! over all k > i.
+        # Let u = ad_x^k v. The dual of the derivative of u with respect to x maps M to the sum of the vectors
+        # ad*_w (ad*_x)^i M for i = 0, ..., k - 1, where w = -ad_x^{k-1-i} v depends on i and k. For each i,
+        # z_i is the sum of w/(k+1)! for k = i + 1, ..., r.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             subscript = self.build.lin("z", Kind.ALG, inner)
@@ -107,12 +107,14 @@ class _Step(ExpandedStep):
     def _momentum(self, i: int) -> Var:
         """Append the new value of the momentum M_i of stage i."""
         build, times_h = self.build, self.stages.times_h
-        # The equation is divided by b_i. Its left-hand side is then dexp*_{(r),X_i} M_i. M_i is the
-        # right-hand side plus corrections[i].
+        # The equation for M_i in the module docstring is divided by b_i. The left-hand side of the divided
+        # equation is dexp*_{(r),X_i} M_i, a series that begins with M_i. All other terms of the series are
+        # moved to the right-hand side. With changed signs, these are the terms in corrections[i].
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The exponent X_j contains the term h a_ji v_i. slopes[j] and dexp*_{X_j} n_j have the factor
-            # -h b_j a_ji/b_i.
+            # The exponent X_j contains the term h a_ji v_i. In the divided equation, the two vectors
+            # R*_(r)(X_j, v_j) M_j and dexp*_{X_j} n_j are multiplied by -h b_j a_ji/b_i. The variable
+            # slopes[j] contains the first of these two vectors.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))
@@ -128,7 +130,8 @@ class _Step(ExpandedStep):
 
 def _rest(powers: list[Var]) -> Terms:
     """Return the terms -p_k/(k+1)! for k >= 1, where p_k is ``powers[k]``."""
-    # In the caller's equation, the term k = 0 is the unknown. The result omits this term.
+    # The term p_0 is an unknown, v_i or M_i, and stays on the left-hand side of the equation for this
+    # unknown. The result omits this term.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

@@ -58,9 +58,9 @@ class Optimiser:
     """Runs the passes on ``program``, and compares each new program with ``program``.
 
     If the step repeats a shorter method in several substeps (:mod:`codegen.lower.substeps`), ``composed`` is
-    another program for the step. The statements of ``composed`` compute one substep. The list
-    ``composed.substeps`` contains all substeps. If ``composed`` is given, the passes rewrite ``composed``.
-    :class:`codegen.ir.verify.IllFormed` is raised if a pass changes the results.
+    another program for the step. The statements of ``composed`` compute only one substep. The list
+    ``composed.substeps`` contains all substeps. If ``composed`` is given, the passes rewrite ``composed``
+    instead of ``program``. :class:`codegen.ir.verify.IllFormed` is raised if a pass changes the results.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:
@@ -121,17 +121,20 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # After the previous pass, equal right-hand sides of equations are the same variable.
+        # The pass "shared values" stores equal values in one variable. Two equations with equal right-hand
+        # sides therefore read one variable. The pass "equal unknowns" compares these variables.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
-        # After the previous pass, a variable may occur twice in a sum. Its coefficients are then added.
+        # The pass "equal unknowns" replaces equal unknowns by one unknown, so a sum can contain a variable
+        # twice. The pass "zeros" adds the two coefficients of this variable.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
         # The previous pass removes flows. The stage times of these flows are now unused.
         Pass("unused values", UNUSED, dead.run),
-        # A term with coefficient zero would count as a dependency. The pass for zeros has removed such terms.
+        # The pass "blocks" determines which variables depend on the unknowns. A term with coefficient zero
+        # would count as a dependency, so the pass "zeros" comes earlier.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # The next pass counts the operations that read a linear map. Unused operations are removed before the
-        # count.
+        # The pass "factored maps" counts the operations that read the value L(x) of a linear map L. Unused
+        # operations are removed before the count.
         Pass("unused values", UNUSED, dead.run),
         # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y).
         Pass("factored maps", FACTORED, factor_linear.run),
@@ -168,12 +171,12 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
-        # This pass removes operations that read exp(x). The next pass may keep Ad_{exp x} if another
-        # operation still reads exp(x).
+        # The pass "rows of products" removes operations that read exp(x). The pass "functions of ad" may keep
+        # Ad_{exp x} if another operation reads exp(x), so the pass "functions of ad" comes later.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # A residual is the difference of two values of a momentum. The choice of this momentum depends on the
-        # result of the previous pass.
+        # A residual is the difference of two values of a momentum. The pass "residuals" chooses this
+        # momentum. The choice depends on the result of the pass "functions of ad".
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain inverses of maps. This pass removes products of a map and its inverse.
         Pass("inverse maps", inverse, opposites.run),

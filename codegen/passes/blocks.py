@@ -94,7 +94,8 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
-        # The unknowns of the new block are not replaced by the right-hand sides of their equations.
+        # ``kept`` contains the unknowns of the new block. These unknowns remain in the new block. Every other
+        # unknown is replaced by the right-hand side of its equation.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

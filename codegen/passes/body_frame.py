@@ -7,8 +7,8 @@ The pass is exact. Let q be the position at the start of the step. Every value i
 - a momentum mu becomes Ad*_q mu,
 - a position Q = E q is computed as q E~ (the same position).
 
-The operations in :data:`EQUIVARIANT` commute with this transformation, so the pass replaces only their
-arguments.
+The operations in :data:`EQUIVARIANT` commute with this transformation. The pass applies each of these
+operations to the transformed arguments.
 
 The pass replaces one operation: the evaluation of the derivatives of the Hamiltonian. The evaluation gives
 the velocity and the force of a stage at a position Q = q E~. Let M be the transformed momentum of the stage.
@@ -85,7 +85,7 @@ class _Framing:
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # The position q is E q with the identity E, so the entry is None.
+        # The position q is E q with the identity E. The entry None represents the identity.
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:

@@ -43,7 +43,8 @@ def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]
 
     The kept unknowns are triples (unknown, start value, right-hand side of the equation).
     """
-    # ``first[x]`` is the first unknown v with the equation v = x.
+    # ``first[x]`` is the unknown v with the equation v = x. If several unknowns have this equation, v is the
+    # first of these unknowns in ``block.unknowns``.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}

@@ -46,13 +46,16 @@ If each sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""Largest number of sweeps and number of decimal digits for the repetition of a failed comparison."""
+"""Parameters for the repetition of a failed comparison.
+
+The repetition uses at most MORE_SWEEPS fixed-point iterations, and arithmetic with FEW_DIGITS decimal digits.
+"""
 
 NOT_A_NUMBER = "differs by nan"
 """The description of a difference ends with these words if the difference is NaN."""
 
 APART = 16
-"""Smallest ratio of two consecutive step sizes of the reference."""
+"""Each step size of the reference program is at least APART times the next smaller step size."""
 
 LARGEST = 2.0**512
 """Upper bound for the absolute values of the results. A step with larger results is not used."""
@@ -131,8 +134,8 @@ class Reference:
     """The results of the reference program after one step.
 
     The program computes steps from two states: the initial state, and a nearby state without symmetry. From
-    each state, it tries several step sizes in decreasing order. The first step is the longest step with
-    finite results and converging iterations.
+    each state, it tries several step sizes in decreasing order. A step size is skipped if the iterations do
+    not converge or if the results are not finite. The longest remaining step comes first.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -171,7 +174,7 @@ class Reference:
     def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
         """Return the arithmetic (``digits`` decimal digits, step size h) and the state at the start.
 
-        If ``moved`` is True, this state is near the initial state.
+        The state is the initial state of the scene, or a nearby state if ``moved`` is True.
         """
         domain = _Bounded(h, digits)
         state = _state(self.scene, domain, moved)
@@ -229,9 +232,10 @@ class Reference:
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
         """Compare ``program`` with the reference in the longest step that can be compared.
 
-        Return a description of the difference, or '' if there is none. If no step can be compared, the result
-        describes the last failure of ``program`` without a failure of the reference. Without such a failure,
-        the result is None.
+        Return a description of the difference, or '' if there is no difference. ``program`` fails in a step
+        if an exception is raised, for example because an iteration does not converge, or if a result is NaN.
+        If no step can be compared, the result describes the last step in which ``program`` fails and the
+        reference succeeds. If no such step exists, the result is None.
         """
         failure = None
         for step in point.results():
@@ -264,9 +268,10 @@ class Reference:
         return True
 
     def _by_newton(self, program: Program, step: _Step) -> str | None:
-        """Describe the difference between ``program`` and the reference, computed with Newton's method.
+        """Compute the step of both programs with Newton's method, and describe the difference of the results.
 
-        The result is '' if there is no difference, and None if Newton's method fails.
+        The two programs are ``program`` and the reference program. The result is '' if there is no
+        difference, and None if Newton's method fails.
         """
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
         solutions: dict[Var, Value] = {}

@@ -25,7 +25,8 @@ from codegen.scene.problem import Problem
 
 def run(program: Program, scene: Problem) -> Program:
     """Combine successive functions of ad_x, if the group has closed forms for products of such functions."""
-    # Without a closed form, a product of functions needs as many Lie brackets as its factors.
+    # Without a closed form, the product f(ad_x) g(ad_x) needs as many Lie brackets as f(ad_x) and g(ad_x)
+    # together. The program is not changed, because combining f and g would save nothing.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
@@ -51,7 +52,8 @@ def rows(program: Program, scene: Problem) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
-        # ``own`` is True if velocity or force is evaluated at the product, and the product is not an output.
+        # The product is ``assign.targets[0]``. ``own`` is True if the velocity or the force is evaluated at
+        # this product, and if this product is not an output of the program.
         own = assign.targets[0] in fields and assign.targets[0] not in kept
         if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)
@@ -116,10 +118,11 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Append a sum with one term c F(s ad_y) W(ad_y) v for each entry (s, (y, W, v)) of ``parts``.
+    """Append a sum that has one term for each entry (s, (y, W, v)) of ``parts``.
 
-    The coefficients c are those of the sum ``total``. ``word`` contains the factors of F. The result is the
-    variable of the new sum.
+    Let F be the function whose factors are in ``word``. The function W is a product of factors. The term is c
+    F(s ad_y) W(ad_y) v. The number c is the coefficient of the corresponding term in the sum ``total``. The
+    result is the variable of the new sum.
     """
     terms = []
     for scale, (y, inner, v) in parts:
@@ -136,7 +139,8 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
-        # Without an assignment g = exp(x), the exponent x is unknown.
+        # The operation is Ad_g or its dual with g = ``args[0]``. If the program does not compute g as exp(x),
+        # the exponent x is unknown and the result is None.
         if source is None or not isinstance(source.operation, Exp):
             return None
         # Ad_{exp x} = exp(ad_x), Ad*_{exp x} = exp(ad*_x), and the inverse of exp(ad_x) is exp(-ad_x).

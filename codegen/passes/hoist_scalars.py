@@ -15,9 +15,10 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The coefficients c_k of a value v in several sums, as pairs (k, c_k / c).
+"""The coefficients of a value v in several sums, divided by the coefficient of v in the first of these sums.
 
-The sum with index k contains the term c_k v, and c is the coefficient of v in the first of these sums.
+The sum with index k contains the term c_k v. Let m be the index of the first of these sums. The pattern
+consists of the pairs (k, c_k / c_m).
 """
 
 
@@ -80,7 +81,8 @@ def _added(program: Program) -> Program:
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
-    # Values u and v form a group if they occur only in multiples of one combination a u + b v.
+    # Values u and v form a group if there are two numbers a and b with this property: every sum that contains
+    # u or v contains a multiple of a u + b v.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]

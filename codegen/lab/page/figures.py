@@ -244,8 +244,8 @@ def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
     """Choose at most ``count`` positions at about equal distances, and return their indices.
 
     The interval from the first to the last of the increasing ``positions`` is divided into ``count`` equal
-    intervals. For each interval [a, b], the position nearest to a + shift (b - a) is chosen. The number
-    ``shift`` is between 0 and 1.
+    intervals. The number ``shift`` is between 0 and 1. For each interval [a, b], the position nearest to the
+    point a + shift * (b - a) is chosen.
 
     >>> spread([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], 3, 0.5)
     [1, 4, 7]

@@ -20,7 +20,10 @@ LEAST = 1e-17
 """Deviations smaller than LEAST are drawn as LEAST."""
 
 GROWS = 1.02
-"""A point is drawn when the largest deviation reaches a new value LEAST GROWS^k, with k an integer."""
+"""The levels are the numbers LEAST * GROWS**k for all integers k.
+
+A point is drawn when the largest deviation reaches a higher level.
+"""
 
 
 def draw(figure: Deviation, source: Source) -> Drawn:

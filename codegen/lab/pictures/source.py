@@ -33,8 +33,9 @@ class Path:
     """The computed states of one run.
 
     Each row of ``states`` is the state at one of the output times ``times``. A sweep repeats the run with
-    different parameter values or step sizes. Then ``times`` contains these values, and ``states`` contains
-    the final states. ``failure`` is the reason why the run ended early, or '' if all steps succeeded.
+    different parameter values or step sizes. For a run with a sweep, ``times`` contains the parameter values
+    or step sizes, and each row of ``states`` is the final state for one entry of ``times``. ``failure`` is
+    the reason why the run ended early, or '' if all steps succeeded.
     """
 
     times: numpy.ndarray
@@ -101,8 +102,9 @@ class Source:
     def end(self, run: Run, value: float | None = None) -> list[float]:
         """Return the final state of a run.
 
-        If the run has a sweep, ``value`` is the value of the varied parameter or step size. Raises
-        :class:`codegen.integrator.StepFailed` if a step fails.
+        A sweep repeats a run with different values of one parameter or of the step size. If the run has a
+        sweep, ``value`` is one of these values. Raises :class:`codegen.integrator.StepFailed` if a step
+        fails.
         """
         integrator = self.integrator(run)
         swept = "" if run.sweep is None or value is None else run.sweep.name

@@ -1,7 +1,8 @@
 """Draws quantities of the runs of a figure against time.
 
-The first quantity along the reference run is drawn as a separate line. If the attribute ``difference`` of the
-figure is True, this line is omitted, and its values are subtracted from all quantities.
+A figure can have a reference run. The first quantity of the figure is evaluated along the reference run, and
+the result is drawn as a separate line. If the attribute ``difference`` of the figure is True, this line is
+omitted, and its values are subtracted from all quantities.
 """
 
 from __future__ import annotations

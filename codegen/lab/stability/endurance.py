@@ -35,8 +35,9 @@ class Endurance:
     - ``failure``: the error message of the integrator if a step failed.
 
     The test detects only unreported failures. A run with an error message passes. A complete run forward
-    passes if ``defect`` is None, or at most 64 ``steps`` 2^-53 (a bound for rounding errors). A complete run
-    forward and back passes if ``returned`` is finite. A large ``returned`` is permitted.
+    passes if ``defect`` is None, or if ``defect`` is at most 64 * ``steps`` * 2^-53 (a bound for rounding
+    errors). A complete run forward and back passes if ``returned`` is finite. A large ``returned`` is
+    permitted.
     """
 
     name: str

@@ -7,7 +7,7 @@ result.
 
 There are three verdicts:
 
-- *wrong*: the result is not finite, or rounding cannot cause its error.
+- *wrong*: the result is not finite, or the error of the result is too large to be caused by rounding.
 - *accurate*: rounding can cause the error, and at least :data:`LEAST` digits are correct.
 - *undetermined*: rounding can cause the error, and fewer digits are correct.
 
@@ -284,7 +284,9 @@ class Rounding(BallDomain):
 
     The signs of the errors are random, but the error of a repeated operation keeps its sign. Otherwise the
     equations of an implicit method would change in each iteration. The errors are relative. In a system of
-    implicit equations, right-hand side k also gets an error relative to right-hand side k + 1.
+    implicit equations, each right-hand side gets two errors. One error is proportional to the right-hand side
+    itself, and one error is proportional to the next right-hand side of the system. The last right-hand side
+    gets an error proportional to the first. Even a right-hand side that is zero can thus get an error.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
