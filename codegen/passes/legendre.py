@@ -151,8 +151,8 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     """Append assignments that compute the other variables of ``route`` from ``route.unknown``.
 
-    The first result maps the old variables to the new variables. The second result is the new variable for
-    ``route.base``.
+    The first result is a dictionary. A key is a variable of ``route``, and the value is the variable that can
+    replace the key. The second result is the new variable for ``route.base``.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -176,7 +176,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     :func:`_values` computes n from the unknown.
     """
     replaced, computed = _values(build, route)
-    # The residual may compare values of ``route.base`` or of the result of a map in ``route.inward``.
+    # The residual compares two computations of the variable ``given``. This variable is ``route.base``, or
+    # the momentum P, or the result of the first map in ``route.inward``.
     given = route.base
     # If P = Ad*_{exp x} m, and m is a sum of terms f(ad*_x) v, then P is also a sum of such terms.
     if _function_of_one(block, route):
@@ -213,11 +214,13 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # A later pass removes the new variables that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The variable of the base is replaced only if it contains the momentum P or an unknown.
+    # The variable ``route.base`` is replaced only if ``route.base`` is the momentum P (``route.inward`` is
+    # empty) or an unknown of the block.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
-    # The assignments of ``route`` read the old variables. Otherwise, they would only reverse the new
-    # assignments.
+    # The assignments of ``route`` keep their old arguments. The new assignments are the inverses of the
+    # assignments of ``route``. With new arguments, the assignments of ``route`` would only return the values
+    # from which the new arguments were computed.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))

@@ -59,7 +59,8 @@ class PassReport:
 def summaries(reports: Iterable[PassReport]) -> tuple[str, ...]:
     """Return a text for each reason why passes removed operations, in the order of the passes.
 
-    An example is ``2 brackets: the group is abelian``. Passes with equal reasons are counted together.
+    An example is ``2 brackets: the group is abelian``. Operations that were removed for equal reasons are
+    counted together.
     """
     total: dict[str, Counter[str]] = {}
     for report in reports:

@@ -71,7 +71,11 @@ class SeriesSums:
         return result
 
     def _groups(self, assign: Assign) -> list[list[Term]]:
-        """Return lists of two or more terms c f(ad_x) v. In a list, all x are multiples of one element."""
+        """Return groups of terms of the sum ``assign``. Each group has two or more terms.
+
+        A term is c f(ad_x) v with a coefficient c and a function f of ad_x. In a group, all x are multiples
+        of one element.
+        """
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
@@ -108,7 +112,10 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Expand inner sums in ``terms``. If the result is longer or empty, return ``terms``."""
+        """Return ``terms`` with each inner sum replaced by the terms of this inner sum.
+
+        If no term remains, or if the result is longer than ``terms``, return ``terms`` unchanged.
+        """
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
             # An inner sum v is replaced by its terms. This shortens chains of dependent additions.
@@ -125,7 +132,10 @@ class SeriesSums:
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return the value of a coefficient c, computed as -(-c) if c is rational and negative."""
+    """Return the value of a coefficient c.
+
+    If c is rational and negative, evaluate -c, and return the negative of this value.
+    """
     # The terms c x and (-c) x use the same product |c| x.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)

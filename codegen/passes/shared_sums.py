@@ -89,7 +89,8 @@ def _worthwhile(program: Program) -> set[Share]:
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
     """Collect the terms a_k L(x_k) of the sum ``assign`` for each linear map L.
 
-    The sum of these terms is a factor c times a :data:`Share`. The result maps each :data:`Share` to c.
+    For each map L, let c be the first coefficient a_k. The result maps the pairs (L(x_k), a_k/c) to c. These
+    pairs are a :data:`Share`.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:

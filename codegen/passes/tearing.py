@@ -26,7 +26,9 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Velocities are kept if possible, because their extrapolated start values are the most accurate.
+        # Velocities (unknowns with values in the Lie algebra, ``Kind.ALG``) come last in this order, so the
+        # loop removes other unknowns first. Velocities should remain unknowns, because their extrapolated
+        # start values are the most accurate.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
             # The search is greedy, because finding the smallest set of unknowns (a minimum feedback vertex
             # set) is NP-hard.
@@ -78,7 +80,7 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
         if k in state:
             return state[k]
         state[k] = False
-        # The assignments that compute the arguments come first.
+        # The assignments that compute the arguments of ``body[k]`` are placed before ``body[k]``.
         if not all(place(maker[a]) for a in body[k].args if a in maker):
             return False
         state[k] = True

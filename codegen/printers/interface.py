@@ -100,7 +100,7 @@ class Interface:
             solvers=tuple(loop.solver for loop in kernel.loops),
             batch=kernel.batch,
             integrated=kernel.observed is not None,
-            # Runs to a given end time control the step size if there is an error estimate.
+            # A run to a given end time chooses the step sizes itself if there is an error estimate.
             controlled=kernel.observed is not None and kernel.estimate is not None,
             events=0 if kernel.observed is None else kernel.observed.events,
             dense=_order_of_extension(kernel),

@@ -20,9 +20,10 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return a tuple with one line: the run-time inputs and the times of their evaluation.
+    """Return a tuple with one line of text.
 
-    If the kernel has no inputs, the tuple is empty.
+    The line lists the run-time inputs and the times at which the inputs are evaluated. If the kernel has no
+    inputs, the tuple is empty.
     """
     if not kernel.inputs:
         return ()

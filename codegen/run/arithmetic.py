@@ -79,7 +79,8 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     The sample times of a method are, for example, t and t + h/2.
     """
     sequence: list[Statement] = []
-    # Run-time inputs are functions of time, so they are evaluated before the first solver loop.
+    # Run-time inputs depend only on time, not on the unknowns of a solver loop. Therefore the inputs are
+    # evaluated once, before the first solver loop.
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)

@@ -240,8 +240,9 @@ class ArrayLoops:
         """Return a function that yields statements for a group of columns.
 
         The number :data:`_ENTRY` is the entry of a constant matrix at ``row`` and ``column``. The statements
-        multiply row number ``column`` of ``a.matrix`` by it. If ``added`` is True, the product is added to
-        row ``row`` of ``a.target``. Otherwise the product replaces this row.
+        compute the product of :data:`_ENTRY` and a row of ``a.matrix``. The index of this row is ``column``.
+        If ``added`` is True, the product is added to row ``row`` of ``a.target``. Otherwise the product
+        replaces this row.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -427,8 +428,8 @@ def _sign(c: Expr) -> int:
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
     """Return the sum of ``total`` and a product: the coefficient of ``term`` times ``entry``.
 
-    If ``total`` is None, return only the product. ``weight`` is the emitted coefficient, or None for the
-    coefficients 1 and -1.
+    If ``total`` is None, return only the product. ``weight`` is the emitted coefficient. If the coefficient
+    is 1 or -1, ``weight`` is None, and only the sign of the coefficient is used.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

@@ -171,8 +171,8 @@ class _Exponential:
         (:mod:`codegen.ir.array_step`). Let the n x k matrix X_0 be the state at the beginning of the step.
         The function stores the displacement D in place of X = X_0 + B D.
 
-        The first k columns of B are X_0. Let C be D with 1 added to each diagonal entry. Then X = B C.
-        The displacement of the product is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
+        The first k columns of B are X_0. Let C be D with 1 added to the entries D_11, ..., D_kk. Then
+        X = B C. The displacement of the product is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
@@ -204,7 +204,8 @@ class _Exponential:
         square, norm, scale = real("square"), real("norm"), real("scale")
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
-        # ``self.matrix`` is the leading m x m block of the Gram matrix times the core.
+        # ``self.matrix`` is the product of two m x m matrices. The left factor is the leading block of the
+        # Gram matrix, and the right factor is the core.
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]

@@ -139,8 +139,8 @@ def near(name: str) -> str:
 def complete(name: str) -> str:
     """Return the name of a variant of the function ``name``. The variant accepts every argument.
 
-    For arguments near zero, this variant returns the same number as the variant without branches
-    (:func:`near`).
+    For an argument near zero, the variants ``complete(name)`` and ``near(name)`` return the same number. See
+    :func:`near`.
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')

@@ -19,8 +19,10 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # After a failed step with a warm start, :mod:`codegen.run.continuation` determines the status. A step of
-    # size zero would not find NaNs in the run-time inputs at later times.
+    # After a failed step with a warm start, :mod:`codegen.run.continuation` determines the status. The
+    # function that finds the cause makes a test step of size zero. If the problem has run-time inputs, this
+    # function is not emitted, because a step of size zero does not evaluate the inputs at later times. An
+    # input may be a NaN at such a time.
     return plan.start is None and not plan.kernel.inputs
 
 
@@ -38,7 +40,8 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
         Array(same),
         Assign(same, state),
         *memory,
-        # The step size is 0 times h. For the constant 0, a compiler might compile the step function twice.
+        # The step size is passed as 0 times h. If the constant 0 were passed, a compiler might compile a
+        # second copy of the step function for the step size 0.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )

@@ -48,7 +48,7 @@ LARGEST_FACTOR = 4.0
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
     """Return a list with the statement that calls the continuation if a step fails.
 
-    Failed steps without a warm start are not repeated: the list is empty.
+    If the steps of ``plan`` have no warm start, the list is empty, and failed steps are not repeated.
     """
     # Steps without a warm start store no solutions.
     if plan.start is None:
@@ -92,7 +92,8 @@ class _Continuation:
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of size zero succeeds if the state is finite.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # The loop ends if ``factor`` is near 1, because the step size would hardly grow.
+        # After a success, the next step size is ``factor`` times the largest successful step size. The loop
+        # ends if ``factor`` is near 1, because the next step size would hardly be larger.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -131,7 +132,8 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of the last failed attempt.
 
-        Without run-time inputs, NOT_FINITE is replaced by TOO_FAR if a shorter step succeeded.
+        There is one exception: the result is TOO_FAR in place of NOT_FINITE if a shorter step succeeded and
+        the problem has no run-time inputs.
         """
         # If a run-time input is NaN at a later time, a shorter step can succeed. The cause is then the input.
         if self.plan.kernel.inputs:
@@ -155,7 +157,8 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # Runs with step-size control do not use the continuation. Other runs need no error estimate.
+        # Only runs without step-size control use the continuation. Such runs need no error estimate, so the
+        # argument for the estimate is absent.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state and time.

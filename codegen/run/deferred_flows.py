@@ -205,8 +205,8 @@ class _Deferring:
             Array(self.complete),
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
-            # If the first attempt fails, the second attempt tests the state after every step. The third
-            # attempt makes only the successful steps.
+            # If the first attempt fails, the second attempt tests the state after every step. If a step of
+            # the second attempt fails, the third attempt makes only the steps before the failed step.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
             # The failed step begins at the time ``t`` + ``asked`` * ``h``.
@@ -233,7 +233,7 @@ class _Deferring:
             *begun,
             *Rows(self.plan).begin(state),
             Assign(self.moving, state),
-            # ``complete`` is the last finite state without deferred flows.
+            # ``complete`` is the last finite state to which all deferred flows have been applied.
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),

@@ -101,7 +101,8 @@ class Machine:
 
     def record(self, name: str) -> Any:
         """Return a record whose fields are all zero."""
-        # The fields of a record are attributes, because ``getattr`` reads them.
+        # The compiled functions read the fields of a record with ``getattr``, so the fields must be
+        # attributes.
         record = SimpleNamespace()
         self.clear(record, name)
         return record
@@ -135,10 +136,10 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return the result of ``function`` if its execution raised an arithmetic error.
+        """Return a replacement for the result of ``function`` after an arithmetic error in ``function``.
 
-        If the function returns a status, the result is NOT_FINITE. Otherwise the result is NaN, and all
-        output arrays are filled with NaNs.
+        If the function returns a status, the replacement is NOT_FINITE. Otherwise the replacement is NaN, and
+        all output arrays are filled with NaNs.
         """
         # A division by zero raises an exception in Python, but gives an infinity or a NaN in IEEE arithmetic.
         if function.guard == RAISES_STATUS:

@@ -121,7 +121,8 @@ class _Constant:
     def own_step(self) -> bool:
         """True if each step calls the function ADVANCE. False if each step calls ``run``."""
         plan = self.plan
-        # ``run`` is called if flows are deferred, the momentum is converted, or the kernel is inlined.
+        # The result is False in three cases: flows are deferred, the momentum is converted, or the kernel is
+        # inlined.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:

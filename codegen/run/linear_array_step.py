@@ -120,7 +120,8 @@ class _Step:
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
             # All exponents without commutators use the function EXPONENTIAL. The matrix is an argument of
-            # this function, so ``Element(0)`` represents all these exponents.
+            # EXPONENTIAL, so this function is the same for all these exponents. ``Element(0)`` is an example
+            # of such an exponent.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
@@ -187,7 +188,8 @@ class _Step:
         The pair (X, Y) is ``step.commutators[number_of]``.
         """
         left, right = self.step.commutators[number_of]
-        # The method ``letters`` needs an ``Element``. This one is the commutator times 1.
+        # The method ``letters`` needs an ``Element``. This ``Element`` is the commutator with the coefficient
+        # 1.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
@@ -254,8 +256,8 @@ class _Step:
             *norms,
             # Halving X cannot make an infinite norm finite.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
-            # Products with X are multiplied by ``scale``. Scaled letters would multiply a commutator of two
-            # letters by ``scale``^2.
+            # Products with X are multiplied by ``scale``. The letters are not scaled, because a commutator of
+            # two scaled letters would have the factor ``scale``^2.
             Assign(scale, number(1.0)),
             Assign(parts, whole(1)),
             While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),

@@ -298,8 +298,9 @@ class _Exponential:
     def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
         """Return the statements that square the jet ``result``. The number of squarings is ``squarings``.
 
-        ``growth`` is an upper bound of the spectral norm of the first matrix in ``result``. If the relative
-        error may exceed 2^-LEAST_DIGITS, all entries of ``result`` become NaN.
+        ``growth`` is an upper bound of the spectral norm of the first matrix in ``result``. The emitted
+        statements also estimate the relative error. If the estimate exceeds 2^-LEAST_DIGITS, all entries of
+        ``result`` become NaN.
         """
         n, unit = self.n, self.precision.unit
         error, bound = real("error_bound"), real("bound")
@@ -357,8 +358,8 @@ def _inverse(function: MatrixInverse) -> Function:
     # small.
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
-    # The inverse overwrites the matrix. Step k of the Gauss-Jordan elimination gives a unit column k. This
-    # column is not stored. A column of the inverse is computed in its place.
+    # The inverse overwrites the matrix. Step k of the Gauss-Jordan elimination turns column k into the k-th
+    # unit vector. This column is not stored. A column of the inverse is computed in its place.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),

@@ -1,8 +1,9 @@
 """Conversion of the momentum between the space frame and the body frame.
 
 The caller's state contains the space momentum, but the steps of a run use the body momentum. Rounding makes
-the group element q slightly non-orthogonal, so a conversion has an error. The errors nearly cancel in
-the increase of the space momentum during the run. This increase is added to the caller's momentum.
+the group element q slightly non-orthogonal, so a conversion has an error. The increase of the space momentum
+during a run is a difference of two converted momenta, and the errors of the two conversions nearly cancel.
+This increase is added to the caller's momentum.
 """
 
 from __future__ import annotations

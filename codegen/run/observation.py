@@ -1,7 +1,7 @@
 """Compute the states at output times, and find events, inside the steps of a run.
 
-A state inside a step is computed by one shorter step from the beginning of the step. If a continuous
-extension was requested, the states at output times are computed by the extension instead
+A state inside a step of the run is computed by a separate, shorter step. Both steps begin at the same state.
+If a continuous extension was requested, the states at output times are computed by the extension instead
 (:mod:`codegen.run.dense_output`).
 
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of the
@@ -171,8 +171,8 @@ class Observation:
         """Return the emitted functions. Each function comes after the functions that it calls."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
-        # The search for events calls INSIDE. Without a continuous extension, INSIDE also computes the states
-        # at output times.
+        # The search for events calls INSIDE. If no continuous extension was requested (``self.dense`` is
+        # None), INSIDE is called for the states at output times, too.
         inside = (self.inside(),) if self.events or self.dense is None else ()
         return *inside, self.in_order(), *located, *dense, self.observed()
 
@@ -275,10 +275,10 @@ class Observation:
             Assign(
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
-            # The rounding error of a time, divided by the step size, is at most ``width``.
+            # The rounding error of a time is at most ``width`` times the step size.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # The fractions ``low`` and ``high`` have rounding errors. ``width`` is at least CLOSE unit
-            # roundoffs.
+            # The fractions ``low`` and ``high`` have rounding errors, too. Therefore ``width`` is set to at
+            # least CLOSE unit roundoffs.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
@@ -303,7 +303,7 @@ class Observation:
     def _guess(
         self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
     ) -> tuple[Statement, ...]:
-        """Return the statements that choose the next iterate ``middle`` (a fraction of the step)."""
+        """Return the statements that choose ``middle``, the fraction of the step for the next trial."""
         i, estimate = count("i"), real("estimate")
         # For each event function, a secant interpolates the weighted values (:meth:`_moved`) at ``low`` and
         # ``high``. The earliest zero of a secant is chosen. In every third iteration, the midpoint is chosen
@@ -327,7 +327,11 @@ class Observation:
     def _moved(
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
-        """Return two tuples of statements: they move ``high`` or ``low`` to ``middle``."""
+        """Return two tuples of statements. An event is enclosed between ``low`` and ``high``.
+
+        The first tuple replaces the upper end ``high`` of the interval by the fraction ``middle``. The second
+        tuple replaces the lower end ``low`` by ``middle``.
+        """
         # If one end of the interval moves twice in a row, the Illinois method halves the weight of the values
         # at the other end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
         moved_high: tuple[Statement, ...] = (

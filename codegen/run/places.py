@@ -40,6 +40,7 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
-        # A variation is the last block, so ``start`` is not used after a variation.
+        # A variation is the last block of the state, so no further block begins at the ``start`` that is
+        # computed after a variation.
         start += n
     return tuple(result)

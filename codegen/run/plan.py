@@ -16,7 +16,7 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of two record types. The arguments of these types have the same names."""
+"""The names of two record types. An argument of one of these types has the name of its type."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""

@@ -37,8 +37,8 @@ class Declarations:
     """The declarations of a function, in two dictionaries with the keys ``id(statement)``.
 
     - ``before`` contains the variables that are declared before a statement, as pairs (identifier, term).
-    - ``by`` contains dictionaries for variables that a statement itself declares. The keys are identifiers,
-      and the value is True for a constant.
+    - ``by`` contains one dictionary for each statement that itself declares variables. The keys of this inner
+      dictionary are the identifiers of the variables, and a value is True for a constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -124,7 +124,8 @@ class _Scopes:
             if name in self.own(statement):  # the variable occurs outside the inner blocks
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # If an inner block may read a value from another inner block, ``name`` must be declared in ``body``.
+        # An inner block may read a value that was assigned in another inner block. In this case, the variable
+        # must be declared in ``body``, so the result is empty.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result

@@ -13,7 +13,8 @@ def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
     """Return the solver of each block of implicit equations of a step on a chain or lattice.
 
     ``asked`` is the solver that the user requested, and ``name`` is the name of the problem for messages.
-    MethodError is raised if ``asked`` is ``newton`` and a step has implicit equations.
+    Newton's method (``newton``) is not implemented for a step on a chain or lattice. MethodError is raised if
+    ``asked`` is ``newton``, unless the step has no implicit equations.
     """
     step = kernel.sites
     assert step is not None

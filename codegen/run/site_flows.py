@@ -102,7 +102,8 @@ class _Kick:
         # In the kernel of a kick, the symbol h denotes the duration of the kick.
         given = {STEP.text: duration, TIME.text: moment}
         scalars = tuple(given.get(x.text, x) for x in self.loop.scalars)
-        # A kick is never the first flow of a step. Earlier flows have already written the new state.
+        # A kick is never the first flow of a step. Earlier flows of the step have written the new state to
+        # the array RESULT, so the kick only changes this array.
         return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 
@@ -130,8 +131,8 @@ class _Part:
         _, inside, _ = split(self.own.kernel, set())
         # The functions ``sqrt``, ``fabs`` and ``choose`` never have branches, so they need no fast variant.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
-        # Other functions have branches, and these prevent vector instructions in the whole loop. Then fast
-        # variants of sines save no time.
+        # All functions except those in VECTORISED and the Stumpff functions have branches. A loop with such a
+        # function cannot use vector instructions, so fast variants of sines would save no time in this loop.
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
         return bool(called) and able
 
@@ -193,7 +194,8 @@ class _Part:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
         loop = For(INDEX, NUMBER, tuple(body), independent=True)
-        # For adjacent sites (``strided`` is True), one start index is enough.
+        # If ``strided`` is True, the two sites of a pair are adjacent in memory, and one start index is
+        # enough.
         starts = (SITE, _START) if self.paired and not self.strided else (SITE,)
         parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
         about = f"Consecutive sites: {self.own.about}."
@@ -261,7 +263,10 @@ class _Part:
         return [If(WHOLE, (Call(f"whole_{self.index}", given, results),), (call,))]
 
     def all_sites(self) -> Function:
-        """Return the function ``part_K`` for K = ``index``. This function applies the flow to each site."""
+        """Return the function ``part_K``, which applies the flow to each site.
+
+        K is the number of the flow.
+        """
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
         # Several processors add to the counter BAD, so the loop declares BAD as a sum (a reduction).
@@ -278,8 +283,9 @@ class _Part:
         last, periodic = self.step.dimension - 1, self.step.periodic
         outer = [count(f"i{e}") for e in range(last)]
         length = shape[self.own.axis]
-        # In an open lattice, the first site (for colour 1) and the last site may have no partner. In a
-        # periodic lattice, the number of sites along the axis is even, and every site has a partner.
+        # In an open lattice, the first site has no partner if the colour is 1, and the last site may have no
+        # partner. In a periodic lattice, the number of sites along the axis is even, and every site has a
+        # partner.
         number = length // 2 if periodic else (length - _COLOUR) // 2
         body: list[Statement]
         if self.strided:
@@ -293,7 +299,8 @@ class _Part:
             else:
                 body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
-                # The last column has an odd index, so this pair has the colour 1.
+                # The first site of this pair is in the last column, which has an odd index. Therefore the
+                # pair has the colour 1.
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:

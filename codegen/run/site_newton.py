@@ -113,7 +113,9 @@ class ChainSolver:
 
         The border consists of the columns of the matrix that multiply the unknowns of the last site.
         """
-        # Columns of the border are stored in the same way as residuals: ``substitute`` solves for both.
+        # The emitted function ``substitute`` solves linear equations. The right-hand side can be a column of
+        # the border or the residuals. Therefore a column of the border and the residuals are stored in the
+        # same way.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
@@ -256,8 +258,9 @@ class ChainSolver:
 
     def border_columns(self) -> list[Statement]:
         """Return the statements that copy the columns for the unknowns of the last site (:meth:`border`)."""
-        # Let z be the unknowns of the last site. In the rows of site 0, the block LEFT multiplies z. In the
-        # rows of site ``_LAST`` (the last but one), the block RIGHT multiplies z.
+        # Let z be the unknowns of the last site. In the rows of site 0, the block LEFT multiplies z. The
+        # variable ``_LAST`` is the index of the last but one site. In the rows of this site, the block RIGHT
+        # multiplies z.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
@@ -299,7 +302,8 @@ class ChainSolver:
         inner: list[Statement] = []
         for k, symbol in enumerate(self.step.sweeps[self.block.last].unknowns):
             unknown = entry_of(self.step, rows[symbol], PLACE)
-            # The changes of the unknowns (the solution) have overwritten the residuals.
+            # The solution of the linear equations consists of the changes of the unknowns. The solution has
+            # overwritten the residuals.
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
                 Assign(most, greatest([most, size(change)])),

@@ -41,7 +41,7 @@ from codegen.run.writes import written
 from codegen.snippets.graph import LIBRARY
 
 MANY = 20
-"""More than ``MANY`` consecutive short statements share lines."""
+"""If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
 ONE_TEST = "All values x are finite if their sum is finite, or if all differences x - x are 0."
 
@@ -300,7 +300,7 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # ``finite`` is the test without its negation. For a test of several numbers, the emitted code
+        # ``finite`` is ``test`` without a leading ``not``. For a test of several numbers, the emitted code
         # contains the comment ONE_TEST.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:

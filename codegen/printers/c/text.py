@@ -59,8 +59,8 @@ def fill(
 ) -> list[str]:
     """Return a statement (``start``, then the segments, then ``end``) as lines.
 
-    ``separator`` is the text between ``start`` and the first segment. ``width`` limits the length of a line
-    plus 8 characters of indentation.
+    ``separator`` is the text between ``start`` and the first segment. If possible, a line has at most
+    ``width`` - 8 characters, because the caller indents the lines.
 
     >>> fill("x =", ("a", "+ b", "+ c"), ";", width=18)
     ['x = a + b', '    + c;']

@@ -159,7 +159,7 @@ class _Body:
         return lines
 
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
-        """Return the first assignments of ``body`` that one statement can replace.
+        """Return the assignments at the beginning of ``body`` that one statement can replace.
 
         Either all these assignments read consecutive entries of one list, or all of them write consecutive
         entries of one list.

@@ -1,7 +1,8 @@
 """Prints terms (:mod:`codegen.run.terms`) in Python.
 
 In double precision, a real constant is printed as a literal. In single precision, the name of a float32
-number of NumPy is printed. Before NumPy 2, the product of a float32 number and a literal is a double.
+number of NumPy is printed. A literal would be wrong in single precision: before NumPy 2, the product of a
+float32 number and a literal is a double.
 """
 
 from __future__ import annotations
@@ -160,8 +161,8 @@ class Terms(Infix):
         """
         (x,) = term.args
         inner = self.text(x)
-        # In double precision, reals are Python floats, so no conversion is needed. In single precision,
-        # ``wide`` converts only reals.
+        # In double precision, reals are Python floats, so no conversion is needed. In single precision, the
+        # operation ``wide`` converts only terms of the kind REAL.
         if not self.single or (term.op == "wide" and x.kind is not Kind.REAL):
             return inner
         return Text(closed("float(" if term.op == "wide" else "float32(", inner.segments, ")"))
