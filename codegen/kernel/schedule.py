@@ -211,7 +211,8 @@ def arrange(kernel: Kernel) -> Arrangement:
     states = len(kernel.outputs)
     # A kernel without substeps executes its statements once in each step.
     repeated = max(1, len(kernel.substeps))
-    # Each function is arranged separately, because functions share no library calls with the step.
+    # The body of each function is arranged separately. The body of a function cannot use names that are
+    # assigned outside of the function.
     functions = tuple((function, arrange(_alone(function))) for function in kernel.outlined)
     return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated, functions)
 
@@ -222,10 +223,13 @@ def _alone(function: Function) -> Kernel:
 
 
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
-    """Return the expressions in ``statement`` whose function calls other statements may reuse."""
+    """Return the expressions in ``statement`` that are evaluated in every step, outside of loops.
+
+    Other statements may reuse the results of the function calls in these expressions.
+    """
     if isinstance(statement, Let):
         return [statement.value]
-    # A step may skip a ``Start`` statement, together with the function calls in the statement.
+    # A step may skip a ``Start`` statement. Therefore the result contains no expressions of such a statement.
     return statement.starts if isinstance(statement, Loop) else []
 
 
@@ -254,7 +258,7 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
-    """Return a dictionary that maps each name in the kernel to 1."""
+    """Return a dictionary whose keys are the names in the kernel. The values have no meaning."""
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -358,7 +362,8 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The keys of ``orders`` are ids of original arguments, but ``argument`` is rewritten.
+        # The keys of ``orders`` are the ids of arguments before rewriting. ``argument`` is the rewritten form
+        # of ``node.args[0]``, so the id of ``argument`` is not a key.
         orders = self.orders[node.args[0].id]
         # One call returns the Stumpff functions c_k for all k in ``orders``. Each result gets a name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
@@ -390,7 +395,8 @@ class _Scope:
         space = base.space
         # The base occurs several times in the product, so the base gets a name.
         base = self._named(base)
-        # For n <= 3, the emitted code contains a product such as ``x * x * x``.
+        # If n is at most 3, the power remains one node. In the emitted code, this node becomes a product such
+        # as ``x * x * x``.
         if n <= 3:
             return space.pow(base, n)
         # The leading bit of n is 1, so the product starts with the base.

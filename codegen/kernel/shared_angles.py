@@ -52,8 +52,8 @@ class SharedArguments(ExprDomain):
         return self.shared[argument.id]
 
     def _compared(self, argument: Expr) -> Expr:
-        # At most LONGEST + 1 nodes are visited. A walk over thousands of nodes in explicit
-        # stages would be slow.
+        # At most LONGEST + 1 nodes are visited. In methods with explicit stages, an argument can have
+        # thousands of nodes. A visit of all these nodes would be slow.
         if len(list(islice(walk([argument]), LONGEST + 1))) > LONGEST:
             return argument
         try:

@@ -184,7 +184,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # ``self.ghosts`` has one ghost for each symbol. A different ghost needs a new symbol.
+        # A ghost is a value to be used if the neighbour is outside the lattice. ``self.ghosts`` maps each
+        # symbol to one ghost. If a symbol is already mapped to a different ghost, new symbols are needed.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
@@ -205,7 +206,8 @@ class Execution:
         kernel = self._scheduled(ends)
         # The sweep measures how much the unknowns change, so it reads their old values.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"} | set(unknowns)
-        # A ghost is computed only if ``kernel`` reads the value that it replaces.
+        # A ghost replaces the value of a neighbour outside the lattice. A ghost is computed only if
+        # ``kernel`` reads this value.
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:

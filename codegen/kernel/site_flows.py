@@ -39,7 +39,8 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
         )
     reading = lowering.read(scene, method)
     word = reading.word
-    # The kernel is built from ``word``, and not from this program.
+    # The function returns a program and a kernel. The kernel is built from ``word``. The program is built
+    # from the assignments in ``body``.
     y = Var("y", Kind.POINT)
     body, last = [], y
     named = [(name, duration) for summand, duration in word for name, _ in summand.flows]
@@ -92,7 +93,8 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     body = tuple(statement for statement in schedule.run() if isinstance(statement, Let))
     # In one sweep each site belongs to only one pair, so a sweep over pairs can work in place.
     array = RESULT if part.symbols else STATE
-    # Side 0 is the site itself (OWN = -1). Side 1 is the other site of the pair (index 0).
+    # Side 0 is the site itself, and side 1 is the other site of the pair. ``Load`` denotes the site itself by
+    # OWN = -1, and the other site of the pair by 0.
     loads = [Load(s, Row(array, k), side - 1) for side, own in enumerate(names) for k, s in enumerate(own)]
     stores = [Row(RESULT, k) for _ in names for k in range(size)]
     about = f"flow of {part.name}" + (f", pairs along axis {part.axis}" if part.symbols else "")

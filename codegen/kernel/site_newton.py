@@ -157,7 +157,7 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a site, computed from the stage values of the site and of its neighbours."""
-        # The field at a neighbour reads the neighbours of this neighbour. With such nested
+        # The field at a neighbouring site reads values at a distance of two sites. With such nested
         # evaluations, the matrix is not block-tridiagonal.
         if site != OWN:
             raise MethodError(
@@ -182,7 +182,7 @@ class Linearisation:
                     # The result is the value x of the neighbour (``exists`` is 1) or the ghost g (``exists``
                     # is 0).
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
-                # The symbols of neighbour k in the formulas get the values ``there``.
+                # In the formulas, the symbols of neighbour k get the values in the tuple ``there``.
                 values |= dict(zip(column[place], there, strict=True))
         f, dim = tuple(evaluate(list(self.problem.roots), domain, values)), self.problem.group.dim
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)

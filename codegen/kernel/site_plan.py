@@ -56,8 +56,9 @@ class _Block:
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
         """Return pairs (unknown, new value) for the sweep with the index ``number``.
 
-        The new values are ``solve.starts`` for ``number = first - 1``, and ``solve.images`` for
-        ``number = last``. For all other sweeps, the result is empty.
+        The first iteration begins with the values ``solve.starts``. These are the new values for
+        ``number = first - 1``. Each iteration computes the values ``solve.images``. These are the new values
+        for ``number = last``. For all other sweeps, the result is empty.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -144,13 +145,13 @@ class Planner:
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
-        # At each site, a Newton matrix has three square blocks. The matrices are used one after the other
-        # in the same rows of the workspace.
+        # At each site, the Newton matrix of a system of equations has three square blocks. The systems are
+        # solved one after the other, so all Newton matrices use the same rows of the workspace.
         return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
     def coupled(self) -> tuple[int, ...]:
-        """Indices of blocks in ``problem.state``. The field at a site reads these blocks of neighbours."""
+        """Indices of blocks in ``problem.state`` that the field at a site reads at neighbouring sites."""
         read = {n.payload for n in walk(self.problem.roots) if n.op == "sym"}
         return tuple(
             k
@@ -184,8 +185,8 @@ class Planner:
             last = max(first, *(self.sweep_of[v] for v in solve.images))
             points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
-                # The field reads unknowns at neighbours. The unknowns must not change in the same sweep, so
-                # one more sweep changes them.
+                # The field reads unknowns at neighbours. A sweep that evaluates the field must not change
+                # these unknowns. Therefore one more sweep changes these unknowns.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
             # The solution satisfies u = g(u), so the rest of the program reads u in place of g(u).
@@ -271,7 +272,8 @@ class Planner:
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
         for number in range(len(needs)):
             for var in self._terms(number):
-                # The terms are added after the sweep ``number``, so they are needed until the next sweep.
+                # The sweep ``number`` stores the terms of a sum. The sum is computed between this sweep and
+                # the next sweep. Until then, the terms must not be overwritten.
                 used[var] = max(used.get(var, 0), number + 1)
         for block in self.blocks:
             repeated = needs[block.first : block.last + 1]

@@ -5,8 +5,9 @@ covector g approximates the differential of the energy, and eta is the displacem
 before and after the step are H0 and H1. To reduce the rounding error, e is computed at each site and then
 summed over the sites.
 
-If the equations are not Hamilton's equations, the bivector (gamma wedge f)/|gamma|^2 is applied to D. Here f
-is the field, and gamma is the differential of the energy (:mod:`codegen.scene.energy`).
+For Hamilton's equations, the canonical bivector is applied to D. For all other equations, the bivector (gamma
+wedge f)/|gamma|^2 is applied to D. Here f is the field, and gamma is the differential of the energy
+(:mod:`codegen.scene.energy`).
 """
 
 from __future__ import annotations

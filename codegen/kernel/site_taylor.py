@@ -254,8 +254,8 @@ class TaylorSweeps:
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # No sweep reads these rows at neighbours. Therefore the last sweep that reads a
-            # row may also overwrite this row.
+            # Each sweep reads the rows in ``rows`` only at the site of the computed values, never at
+            # neighbouring sites. Therefore the last sweep that reads a row may also overwrite this row.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
             # The values in ``names`` were stored by earlier sweeps.

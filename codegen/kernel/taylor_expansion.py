@@ -22,9 +22,10 @@ from codegen.scene.problem import TIME, Problem
 UNROLLED = 5000
 """The largest number of operations of unrolled code. Longer code becomes a loop.
 
-For s products in the differential equation and the degree P, s P^2 operations are counted. With
-18 products (heavy_top), a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us with a loop. With
-24 products, the step takes 1.5 us with unrolled code and 0.82 us with a loop.
+The number of operations is estimated as s P^2. Here s is the number of products in the differential equation,
+and P is the degree of the Taylor polynomial. With 18 products (heavy_top), a step of taylor(16) takes 0.53 us
+with unrolled code and 0.64 us with a loop. With 24 products, the step takes 1.5 us with unrolled code and
+0.82 us with a loop.
 """
 
 

@@ -192,7 +192,9 @@ class _Translation:
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # For variations, :func:`_varied` needs the images g(u). ``compared`` replaces them by residuals.
+        # ``compared`` replaces the images g(u) of the equations by residuals. With variations,
+        # :func:`_varied` must differentiate the images g(u). Therefore ``compared`` is not called with
+        # variations.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
         # The block ``residuals`` already contains Newton's matrix.
@@ -200,7 +202,8 @@ class _Translation:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
-            # The last sweep computes g(u) before it improves u. Later statements read u.
+            # The last iteration computes g(u) and then improves u, so u is more accurate than g(u). Therefore
+            # later statements read u in place of g(u).
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
@@ -233,8 +236,8 @@ class _Translation:
         """
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # The new state and the embedded solution are converted to the frame of the emitted code. ``kernel``
-        # computes their difference.
+        # The new state and the embedded solution are converted to the frame of the emitted code. The method
+        # ``kernel`` computes the error estimate as the difference of the two converted values.
         for embedded in (False, True):
             # Without an embedded solution, ``values`` is empty for ``embedded`` = True.
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
@@ -295,16 +298,16 @@ class _Translation:
 
         Computations are outlined only if outlining makes the kernel much shorter.
         """
-        # ``before`` does not contain the names in ``schedule``. If outlining replaces
-        # ``schedule``, these names are free again.
+        # ``before`` contains the names that are in use before ``schedule`` creates new names. Before
+        # outlining, ``taken`` is reset to ``before``. Thus outlining may use the new names of ``schedule``.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
         # The number of assignments is a measure of the code size.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # The modes COMBINED and SHORTENED rewrite the expressions in ``ends``. Outlining needs the
-        # original expressions, so these two modes exclude it.
+        # The modes COMBINED and SHORTENED rewrite the expressions in ``ends``. Outlining needs the original
+        # expressions. Therefore outlining is possible only in the modes AS_WRITTEN and ORDERED.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)

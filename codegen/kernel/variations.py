@@ -77,8 +77,8 @@ class Variations:
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
         """Return the variation of ``state``, the state after a step.
 
-        ``rates`` contains the derivatives of the coordinates of ``state`` along the variation of the old
-        state.
+        Each coordinate of ``state`` is a function of the old state. ``rates`` contains the derivatives of
+        these functions along the variation of the old state.
         """
         rates_of_end: list[Expr] = []
         for group, symbols in self.parts:

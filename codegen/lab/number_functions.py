@@ -17,8 +17,9 @@ TABLES = "table"
 Functions = Mapping[str, Scalar]
 """A dictionary that maps names such as ``sin`` to functions of numbers or arrays.
 
-The value for the key :data:`TABLES` is a function with two arguments: a piecewise polynomial, and a
-conversion of exact coefficients. The result is a function that evaluates the polynomial.
+The value for the key :data:`TABLES` is a function with two arguments: a piecewise polynomial, and a function
+that converts an exact coefficient to a number of the required type. The result is a function that evaluates
+the polynomial.
 """
 
 

@@ -70,7 +70,7 @@ class Exhausted:
     codes: set[str] = field(default_factory=set)
 
     def best(self, error: float) -> float:
-        """Return the least CPU time in seconds for ``error``, from this search and the usual search."""
+        """Return the least CPU time in seconds that this or the usual search measured for ``error``."""
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
 

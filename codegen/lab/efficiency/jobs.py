@@ -23,10 +23,10 @@ FRESH = 8
 
 
 EVEN = 4.0
-"""The delay of a queue of recipes is (n + d)/EVEN + s.
+"""The weight of the number s, relative to the numbers n and d, in the delay of a queue of recipes.
 
-The next recipe comes from the queue with the smallest delay. All recipes in a queue have the same kind
-(:data:`Kind`) and the same order.
+The delay is (n + d)/EVEN + s. The next recipe comes from the queue with the smallest delay. All recipes in a
+queue have the same kind (:data:`Kind`) and the same order.
 
 - n is the number of recipes that were taken from the queue.
 - d is the distance between the order of the recipes and the nearest usual order (:func:`usual_order`).
@@ -35,7 +35,7 @@ The next recipe comes from the queue with the smallest delay. All recipes in a q
 """
 
 FAILED = 4.0
-"""The slowness s of a queue (:data:`EVEN`) if all predicted times of the same kind are infinite."""
+"""The slowness s (:data:`EVEN`) of a queue if the predicted times for the kind of the queue are infinite."""
 
 
 def usual_order(error: float) -> float:
@@ -65,8 +65,8 @@ Job = tuple[Recipe, tuple[Bar, ...]]
 class Jobs(Sequence[Job]):
     """The sequence of jobs for the worker processes. A job is a recipe with a :class:`Bar` for each goal.
 
-    The limits in a bar depend on the predictions for earlier recipes. Therefore a job is created only when a
-    worker process is free.
+    A bar contains limits on the error and the CPU time of a recipe. These limits depend on the predictions
+    for earlier recipes. Therefore a job is created only when a worker process is free.
 
     The choice of the next recipe is explained at :data:`EVEN`.
 
@@ -133,7 +133,10 @@ class Jobs(Sequence[Job]):
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the least slowness s of a queue over all goals (:data:`EVEN`), or 0 without predictions."""
+        """Return the slowness s (:data:`EVEN`) of a queue, or 0 if there are no predictions.
+
+        The slowness depends on the goal. The result is the least value over all goals.
+        """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
         ratios = [

@@ -1,9 +1,9 @@
 """Predicts the CPU time that a recipe needs to reach a required error.
 
 A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
-The interpreter doubles the number of equal steps until the error is small. The number of steps for a required
-error is predicted from the most accurate run and the order of the method. The time of a step is predicted as
-the sum of the times of its operations.
+The method is run in Python, without emitted code. The number of equal steps is doubled until the error is
+small. The number of steps for a required error is predicted from the most accurate run and the order of the
+method. The time of a step is predicted as the sum of the times of its operations.
 
 The prediction ignores that the compiler computes common subexpressions only once.
 """
@@ -97,7 +97,8 @@ class Prediction:
     - ``sweeps``: the mean number of sweeps in a step.
     - ``steps``: the number of steps for which ``error`` is predicted.
     - ``error``: the predicted error with ``steps`` steps, or infinity if the interpreted runs failed.
-    - ``rough``: True if no run with equal steps over the whole time span has a small error (:data:`SMALL`).
+    - ``rough``: True if every run with equal steps over the whole time span fails or has an error that is not
+      small (:data:`SMALL`).
     - ``controlled``: the prediction with step-size control, or None.
     - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS. Then the
       predicted times may be too short.
@@ -149,12 +150,14 @@ class Prediction:
 
 @dataclass(frozen=True)
 class Bar:
-    """The bar of a recipe: the limits on its error and its CPU time.
+    """Limits on the error and the CPU time of a recipe.
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e). The error e for the CPU time ``seconds`` is defined
-      at :data:`FAR`. If ``family`` is not '', only methods of this family are compared.
+    - ``least``: triples (family, explicit, e) for the test at :data:`FAR`. Let p be the order of the recipe.
+      The number e is the least predicted error of methods of the orders p + 1 and p + 2 for the CPU time
+      ``seconds``. If ``explicit`` is True, these methods are explicit, and otherwise implicit. If ``family``
+      is not '', only methods of this family are compared.
     - ``steps``: the number of steps of the first run in the interpreter.
     - ``explicit``: True if methods that solve equations are excluded.
     """
@@ -172,7 +175,8 @@ class Bar:
 
         - The predicted CPU time of one step, ``step_seconds``, exceeds the time limit of the bar.
         - The bar requires explicit methods, and the argument ``explicit`` is False.
-        - The predicted error e in ``least`` exceeds :data:`FAR` times the attribute ``error``.
+        - The error e in the triple (family, explicit, e) of ``least`` exceeds :data:`FAR` times the largest
+          accepted error. If there is no such triple, the triple ('', explicit, e) is used.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -238,7 +242,9 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # If ``most`` is below MANY_STEPS, runs with smaller steps exceed the time limits of the bars.
+        # If ``most`` is below MANY_STEPS, the time limits of the bars permit at most ``most`` steps over the
+        # whole time span. In this case, a recipe with a large error is not run with smaller steps on a part
+        # of the time span.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -301,10 +307,12 @@ class Predictor:
         return problem, program, widths_of_inputs(program, problem)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
-        """Return the predicted times of operations outside of implicit equations and of one sweep, in ns.
+        """Return two predicted times (outside, sweep) in nanoseconds.
 
-        A sweep is one iteration over all implicit equations. ``widths`` maps each input of the program to its
-        number of components. The function stores the other variables of the program in ``widths``, too.
+        ``outside`` is the time of the operations of a step that are not in implicit equations. ``sweep`` is
+        the time of one sweep. A sweep is one iteration over all implicit equations. ``widths`` maps each
+        input of the program to its number of components. The function stores the other variables of the
+        program in ``widths``, too.
         """
         outside = sweep = 0.0
         for statement in program.body:

@@ -182,9 +182,9 @@ class Racer:
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the result for the fastest run that reaches an error.
 
-        ``best`` is the least CPU time in seconds of the other recipes. The search ends after a run with a
-        much longer CPU time (:data:`PATIENT`). If the error is not reached, the attribute ``reached`` of the
-        result is False.
+        ``best`` is the least CPU time in seconds of the other recipes. The search ends after a run that takes
+        much longer than ``best`` (:data:`PATIENT`). If the error is not reached, the attribute ``reached`` of
+        the result is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)

@@ -100,8 +100,8 @@ def in_form(label: str, form: str) -> str:
 def frontier(rows: Sequence[Row]) -> list[Row]:
     """Return the successful runs of one integrator on the fastest forms of the equations.
 
-    A run is omitted if another form reaches the same error in less time. If there are several forms, the
-    result is sorted by error, from large to small.
+    A run on one form is omitted if a run on another form reaches the error of the omitted run in less CPU
+    time. If there are several forms, the result is sorted by error, from large to small.
     """
     forms = by_form(rows)
     good = [r for r in rows if r.error and r.seconds]
@@ -116,7 +116,7 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
 
 
 def prevailing_form(rows: Sequence[Row]) -> list[Row]:
-    """Return the rows of the form of the equations that is most often the fastest.
+    """Return the rows of one form of the equations: the form that is most often the fastest.
 
     The fastest form is determined for each error 10^-k with k in :data:`DECADES`.
     """

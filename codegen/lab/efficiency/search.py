@@ -40,7 +40,7 @@ UNSEEN = 4.0
 """The safety factor (:data:`SAFETY`) for a kind of recipe that has not been measured yet."""
 
 LEADERS, CLOSE = 4, 1.4
-"""Up to LEADERS of the fastest recipes are timed again. Their CPU times are at most CLOSE times the best."""
+"""Each of the LEADERS fastest recipes is timed again if its CPU time is at most CLOSE times the best."""
 
 CONTROLLED = 100.0
 """The divisor for unreliable predictions of the CPU time with step-size control (:meth:`Search.hoped`).
@@ -64,9 +64,12 @@ The remaining budget is the time that is left after the computation of the refer
 """
 
 UNREACHED = 1e-3
-"""The small gain of a recipe without a reliable estimate of its CPU time.
+"""The gain of a recipe for a goal, if the gain cannot be computed from estimated CPU times.
 
-Recipes with larger gains are measured earlier.
+The gain measures how much faster than the fastest measured recipe a recipe may be (:meth:`Search._next`). In
+two cases, the gain cannot be computed. Either the estimated CPU times of all recipes are infinite, or the
+estimate for the recipe is unreliable and exceeds the time of the fastest measured recipe. Recipes with larger
+gains are measured earlier.
 """
 
 LONG_STEPS = 20_000
@@ -183,7 +186,8 @@ class Search:
     def prediction(self, recipe: Recipe) -> Prediction | None:
         """Return the prediction for a recipe, or None if there is no prediction.
 
-        If runs with step-size control were not predicted, the result is the prediction for equal steps.
+        If ``recipe`` has step-size control, but only equal steps were predicted for its method, the result is
+        the prediction for equal steps.
         """
         known = self.predictions.get((recipe.method, recipe.form))
         return known.controlled or known if known is not None and recipe.adaptive else known
@@ -337,8 +341,9 @@ class Search:
     def _ranked(self, goal: Goal) -> list[Result]:
         """Return the results for a goal, from fast to slow.
 
-        If ``goal.long`` is True, the two fastest recipes are tested in a long run. After a failed test, the
-        step size is halved, or the recipe is removed.
+        If ``goal.long`` is True, the two fastest recipes are tested in a long run. If a test fails, the step
+        size is halved, at most :data:`SHORTER` times. If no further halving is possible, the recipe is
+        removed.
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)

@@ -22,7 +22,10 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 
 AGAIN = 3
-"""Two consecutive runs are measured again if the run with fewer steps took longer, at most AGAIN times."""
+"""The largest number of repetitions of a measurement with an implausible result.
+
+Two consecutive runs are measured again if the run with fewer steps took longer.
+"""
 
 NEAR_ROUNDING = 1e-9
 """Rounding may cause errors up to NEAR_ROUNDING times the size of the state."""
@@ -214,8 +217,9 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
     """Return True if rounding errors probably prevent further convergence.
 
-    Let e1, e2 and e3 be the last three errors in ``rows``, where e3 is the last. The result is True if e1 is
-    at most :data:`NEAR_ROUNDING` times the size of the state, and e2 and e3 are above e1/3.
+    Let e1, e2 and e3 be the last three errors in ``rows``, where e3 is the last. The result is True under two
+    conditions: e1 is at most :data:`NEAR_ROUNDING` times the size of the state, and both e2 and e3 are larger
+    than e1/3.
     """
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))

@@ -29,7 +29,10 @@ FEWEST = 2 * BLOCKS
 
 CONFIDENCE = 0.95
 PARTS = 5
-"""The number of sections of a record. A drift requires that the means over the sections are monotone."""
+"""The number of sections of a record.
+
+The slope counts as a drift only if the means over the sections are monotone.
+"""
 
 LOST = 1.0
 """A conserved quantity counts as lost if its relative deviation is at least LOST."""
@@ -56,17 +59,18 @@ STAYS times its largest value.
 """
 
 WALKING = (0.5, 1.6)
-"""Limits for the variance ratio V_k/(k V_1) of a random walk. Only the lower limit is used for k = FAR.
+"""Limits for the variance ratio V_k/(k V_1) of a random walk.
 
 V_k is the mean of (r_(i+k) - r_i)^2 over all i. A line is fitted to the block means. The residual for block i
-is r_i.
+is r_i. For k = :data:`FAR`, only the lower limit is used.
 """
 
 CONFINED = 0.04
-"""A record does not count as a random walk if its scatter is below CONFINED.
+"""A scatter below CONFINED is evidence that a record of deviations is not a random walk.
 
-The scatter is V/(n D). V is the variance of the means over n blocks, and D the variance of the differences
-between consecutive means. Only 3 % of all random walks have a scatter below CONFINED.
+The record is cut into n blocks. The scatter is V/(n D). V is the variance of the block means, and D is the
+variance of the differences between consecutive block means. Only 3 % of all random walks have a scatter below
+CONFINED.
 """
 
 STRAIGHT = 0.0225
@@ -87,14 +91,14 @@ Here m is the average difference between the means of consecutive blocks, and s 
 TINY = 1e-24
 """Differences between block means count as rounding errors if their variance is below TINY.
 
-All variances are divided by the square of the largest deviation.
+Before the comparison with TINY, the variance is divided by the square of the largest deviation in the record.
 """
 
 FINE, NEAR, FAR = 100, 5, 20
 """The tests with :data:`WALKING`, :data:`CONFINED` and :data:`STRAIGHT` use at most FINE blocks.
 
-The variance ratio is computed for k = NEAR and for k = FAR. A short record has fewer blocks, and a smaller k
-replaces FAR.
+The variance ratio is computed for k = NEAR and for k = FAR. If a record has too few blocks for k = FAR, a
+smaller k is used.
 """
 
 
@@ -134,7 +138,7 @@ class Drift:
 
     @property
     def law(self) -> str:
-        """The verdict on the deviation: one of the following strings.
+        """The verdict on the deviation: the first of the following strings whose condition is true.
 
         - ``lost``: the deviation reaches the size of the quantity, or saturates at half this size or more.
         - ``exact``: all deviations are zero.
@@ -158,8 +162,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # A deviation with alternating sign may grow without a drift. Therefore ``exponent`` must be below
-        # WALK.
+        # A deviation with alternating sign may grow although the fitted line has no slope. Fast growth of the
+        # deviation gives a large ``exponent``. Therefore ``exponent`` must be below WALK.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):

@@ -55,7 +55,10 @@ def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, 
 
 
 def _measured_states(compiled: Compiled, trajectory: Trajectory) -> list[tuple[float, list[float]]]:
-    """Choose at most three samples (time, state) of the trajectory (:func:`largest_defect`)."""
+    """Choose the first, the middle and the fastest sample (time, state) of the trajectory.
+
+    Samples after a large deviation of a conserved quantity (:data:`LEFT`) are not considered.
+    """
     valid = 1
     for k in range(1, len(trajectory.states)):
         peaks = (s.peaks[k - 1] / trajectory.scales[name] for name, s in trajectory.series.items())

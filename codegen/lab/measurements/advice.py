@@ -184,11 +184,12 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return ``lines``, the result of an unfinished search, with faster methods from ``known``.
+    """Return a copy of ``lines`` in which faster methods from ``known`` replace slower methods.
 
-    ``known`` contains the properties of the other methods, and ``entries`` contains runs. A faster method in
-    ``known`` that satisfies the requirement replaces the method of the search. Requirements on long times are
-    not changed, because only the search makes long runs.
+    ``lines`` is the result of an unfinished search. ``known`` contains the properties of the other methods,
+    and ``entries`` contains runs. Suppose that a method in ``known`` satisfies the requirement of a line.
+    This method replaces the method that the search found for an error, if the search found a slower method or
+    no method. Requirements on long times are not changed, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -208,7 +209,12 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return a copy of ``line``. A faster method for a smaller error replaces a slower method."""
+    """Return a copy of ``line`` in which no error takes more CPU time than a smaller error.
+
+    For each error 10^-k, ``line.best`` contains a method or None. A method that reaches a smaller error also
+    reaches the error 10^-k. If such a method is faster than the method for 10^-k, or if the entry for 10^-k
+    is None, the copy contains the method for the smaller error as the entry for 10^-k.
+    """
     best = list(line.best)
     for i in reversed(range(len(best) - 1)):
         entry, smaller = best[i], best[i + 1]

@@ -114,7 +114,7 @@ class Conditions(Measurement[ConditionTables]):
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     """Return pairs (family, n). The report shows the conditions of the family for the orders 1 to n.
 
-    The number n is the minimum of DEEPEST and the highest order among the methods of the family.
+    The number n is the highest order of convergence of the methods in the family, but at most DEEPEST.
     """
     highest: dict[str, int] = {}
     for each in study:

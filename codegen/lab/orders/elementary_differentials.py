@@ -85,9 +85,10 @@ class FrozenFields:
     def tree(self, tree: Tree) -> Vector:
         """Return the elementary differential F(t) of a tree t.
 
-        F(t) is a derivative of the field f. The field is differentiated once for each branch b of t. Let x be
-        the value of F(b) at the initial point. The direction of the derivative is the vector field y -> x.y,
-        where x.y is the action of x on the point y.
+        F(t) is a derivative of the field f. Each branch b of t defines a vector field y -> x.y. Here x is the
+        value of F(b) at the initial point, and x.y is the action of x on the point y. The field f is
+        differentiated along the vector field of the last branch first, and along the vector field of the
+        first branch last.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
@@ -98,9 +99,10 @@ class FrozenFields:
     def forest(self, forest: Forest) -> Vector:
         """Return the elementary differential of an ordered forest.
 
-        The coordinates of the point y are differentiated once for each tree t of the forest. Let x be the
-        value of F(t) at the initial point. The direction of the derivative is the vector field y -> x.y,
-        where x.y is the action of x on the point y.
+        Each tree t of the forest defines a vector field y -> x.y. Here x is the value of F(t) at the initial
+        point, and x.y is the action of x on the point y. Each coordinate of y is a function of y. This
+        function is differentiated along the vector field of the last tree first, and along the vector field
+        of the first tree last. The result contains the values of these derivatives at the initial point.
         """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)

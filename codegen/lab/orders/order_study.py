@@ -36,8 +36,8 @@ class OrderStudy:
     - ``order``: the order from the order conditions.
     - ``convergences``: the convergence for each target (programming language).
     - ``times``: the CPU times of runs with the default target.
-    - ``spread``: the largest difference of the final states of all targets (:func:`largest_difference`), or
-      None.
+    - ``spread``: the largest difference between the final states of the targets (:func:`largest_difference`),
+      or None if no number of steps permits a comparison.
     - ``artifact``: the emitted files for the default target.
     """
 

@@ -39,7 +39,10 @@ FIRST = 5
 """The number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""Numbers of steps of additional runs (:func:`refine`), all smaller than :data:`FIRST`."""
+"""Numbers of steps of additional runs (:func:`refine`).
+
+The steps of these runs are longer than the steps of the run with :data:`FIRST` steps.
+"""
 
 
 @dataclass(frozen=True)
@@ -156,8 +159,8 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
     """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
 
     No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as the slopes
-    have settled. The function also stops if an earlier run is usable and the last error is too small to be
-    measured.
+    have settled. For both values of ``to_rounding``, the function stops if an earlier run is usable and the
+    last error is too small to be measured.
 
     The function adds runs if the slopes have not settled, the last run is excluded and other runs are usable.
     The added runs are:
