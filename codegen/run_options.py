@@ -73,9 +73,10 @@ class RunRequest:
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Raise :class:`MethodError` if a value of ``options`` is True. The message names ``method``.
+    """Refuse the options that cannot be combined with compensated summation.
 
-    The keys of ``options`` are the names of options that cannot be combined with compensated summation.
+    The keys of ``options`` are the names of such options. A value is True if the option is requested.
+    :class:`MethodError` is raised if a value is True. The message names ``method``.
     """
     for option, requested in options.items():
         if requested:

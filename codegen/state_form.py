@@ -101,10 +101,11 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
 
 
 def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
-    """Raise ValueError if tuple entries of the sizes ``sizes`` do not match the fields.
+    """Raise ValueError if the entries of a state tuple do not match the fields of a state.
 
-    An entry matches one field, or several consecutive fields together. If there are fewer than two fields,
-    every size is permitted.
+    For each entry of the tuple, ``sizes`` contains the number of components of this entry. An entry matches
+    one field, or several consecutive fields together. If there are fewer than two fields, every size is
+    permitted.
     """
     if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
         return

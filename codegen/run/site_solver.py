@@ -64,6 +64,7 @@ class _Stopping(Stopping):
         """Return the test *lost* of the stopping rule (:mod:`codegen.run.stopping`).
 
         Let h be the step size. The test is true if h times CHANGE is below the rounding errors of the states.
+        If the test is true, the effect of the change on the states is lost in rounding errors.
         """
         return CHANGE * size(STEP) <= self.plan.format.scaled(LOST) * _REACH
 

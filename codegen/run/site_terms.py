@@ -90,7 +90,7 @@ def padded(sites: Count) -> Count:
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
     """
-    # The number 16 k + 8 is an odd multiple of 8.
+    # The result is 16 k + 8, where k is the integer quotient. This is the odd multiple 2 k + 1 of 8.
     return (sites + 7) // 16 * 16 + 8
 
 

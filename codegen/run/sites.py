@@ -265,7 +265,7 @@ class Loop:
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
     def _read(self) -> list[Load]:
-        """Return the elements of ``own.loads`` for the unknowns and for the symbols that the kernel reads."""
+        """Return the elements of ``own.loads`` whose symbol is an unknown or is read by the kernel."""
         # The change of an unknown is its new value minus its old value, so the old value is always loaded.
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
@@ -300,8 +300,8 @@ class Loop:
         around = [load for load in self._read() if load.neighbour != OWN]
         if self.own.outside is None:
             return [*body, *(Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in around)]
-        # The kernel ``outside`` computes values for neighbours that do not exist. This kernel may read values
-        # of the site.
+        # At an open boundary, some neighbours do not exist. The kernel ``outside`` computes the numbers that
+        # replace the coordinates of such neighbours. This kernel may read values of the site.
         before, inside, ghosts = split(self.own.outside, set())
         body += [*before, *inside]
         for load, ghost in zip(around, ghosts, strict=True):
@@ -444,7 +444,8 @@ def _too_small(step: SiteStep) -> Term:
 def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
     """Return the public function that makes several steps of equal size.
 
-    If the result of a step is not finite and ``twice`` is True, ``site_K`` repeats the step once.
+    If the result of a step is not finite and ``twice`` is True, the step is repeated once with the functions
+    ``site_K``. The function ``site_K`` computes sweep number K at one site.
     """
     later = exact_time(TIME, _DONE, STEP)
 

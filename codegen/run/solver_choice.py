@@ -246,7 +246,10 @@ class Candidate:
 
 
 def counted(trial: Trial, k: int) -> str:
-    """Return the average numbers of sweeps and of computed matrices per step, as a text for block ``k``."""
+    """Return a text that contains two averages for block ``k``: the sweeps and the matrices in a step.
+
+    Only computed matrices are counted. If block ``k`` computed no matrix, the text contains only the sweeps.
+    """
     text = amount(trial.sweeps[k], "sweep", "sweeps")
     if trial.matrices[k]:
         text += f" and {amount(trial.matrices[k], 'matrix', 'matrices')}"
@@ -295,8 +298,9 @@ class _Selection:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
-        # Every solver that converges is allowed in two cases. There is no robust solver, or the equations are
-        # nonlinear and each robust solver takes more time than ``PRICE * least``.
+        # Normally only the robust solvers are allowed. In two cases, every solver that converges is allowed.
+        # In the first case, no solver is robust. In the second case, the equations are nonlinear, and each
+        # robust solver takes more time for a step than ``PRICE * least``.
         if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
@@ -346,13 +350,16 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return a limit in ns. Usually, a solver is tried only if its :meth:`least` is below this limit.
+        """Return a limit of the step time in ns, for solvers that were not tried before.
 
-        ``candidate`` uses ``solver`` and converges in its first trial.
+        Usually, such a solver s is tried only if the lower bound ``least(s)`` of the step time is below the
+        limit. ``candidate`` uses ``solver`` and converges in its first trial.
         """
-        # If ``candidate`` is not robust, a robust solver may take PRICE times as long. If Newton's method
-        # converges for more than LARGE unknowns, PRICE is omitted. This avoids slow trials of simplified
-        # Newton.
+        # If ``candidate`` is robust, the limit is the step time of ``candidate``. Otherwise the limit is
+        # PRICE times this time, because a slower solver is preferred up to this limit if the slower solver is
+        # robust. The factor PRICE is also omitted if Newton's method converges for more than LARGE unknowns.
+        # With the smaller limit, simplified Newton is tried less often. A trial of simplified Newton with
+        # more than LARGE unknowns is slow.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -374,7 +381,7 @@ class _Selection:
             # The product of the inverse and a vector takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
             # Simplified Newton inverts a matrix in each step or substep. Newton's method may use one inverse
-            # for all steps of its first trial.
+            # for several steps. The lower bound assumes one inverse for all steps of a trial run.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -389,8 +396,10 @@ class _Selection:
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
         """Return the candidate that solves block number k with the solver ``best[k]``.
 
-        The fastest candidate f in ``robust`` is returned instead in two cases: this combination of solvers
-        fails, or f is robust and the combination is not.
+        ``robust`` contains the allowed candidates. In some cases (see :meth:`chosen`), ``robust`` also
+        contains candidates that are not robust. The fastest candidate f in ``robust`` is returned in place of
+        the combination ``best`` in two cases. In the first case, the combination does not converge. In the
+        second case, f is robust and the combination is not robust.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:

@@ -65,9 +65,11 @@ def kernel_step(plan: Plan) -> Function:
     # All new entries are computed before the first entry is overwritten, because they depend on the old
     # state.
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The results do not depend on unread entries. A NaN in an unread entry must be found here.
+    # The results do not depend on unread entries of the state, so a test of the results does not find a NaN
+    # in an unread entry. A NaN in an unread entry must be found here.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
-    # If the guess for the next step precedes the outputs, a processor can compute both in parallel.
+    # In the emitted code, the statements for the guess for the next step come before the statements for the
+    # outputs. With this order, a processor can execute both groups of statements at the same time.
     inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
     array = whole_result(plan.arrangement.outputs)
     finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)

@@ -244,9 +244,9 @@ class Controlled:
         """Return the statements that are executed after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p). ``previous`` is the minimum of ``most`` and the ``root`` of the
-        # previous accepted step. If the caller gave no step size, ``proposed`` becomes SAFETY norm^(-1/p)
-        # after the first accepted step.
+        # ``root`` is norm^(-SHARE/p). ``most`` is FLOOR^(-SHARE/p), the upper limit of ``previous``.
+        # ``previous`` is the minimum of ``most`` and the ``root`` of the previous accepted step. If the
+        # caller gave no step size, ``proposed`` becomes SAFETY norm^(-1/p) after the first accepted step.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # If the trial directly before this step was rejected, the step size does not grow after this step
         # (Hairer, Norsett and Wanner).
@@ -259,8 +259,9 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step is often shortened. If ``factor`` is at least 1 after the last step,
-                # ``length`` is not changed.
+                # The last step is often shortened, so the size of the last step can be much smaller than
+                # ``length``. Therefore ``length`` is changed after the last step only if ``factor`` is
+                # below 1.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -272,7 +273,8 @@ class Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed after a rejected step.
 
-        The next step is shorter. The status is set to OK if the next step changes the time (after rounding).
+        The next step is shorter. If the next step changes the time (after rounding), the status is set to OK,
+        and the run continues. Otherwise the status keeps its value.
         """
         # If a step fails and no shorter step is possible, the run ends with the status of the failed step.
         following = real("next")

@@ -152,14 +152,16 @@ class Stopping:
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
         # Without a warm start, the rate is CHANGE / ``previous``. Both sides of the test are multiplied by
-        # ``previous``. In the first sweep ``previous`` is 0, so this test is true only if the change is zero.
+        # ``previous``. In the first sweep ``previous`` is 0. The right-hand side is 0 in this sweep, so
+        # the test is true only if the change is zero.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        # Rounding errors can keep the change too large for the test ``close``. In a divergent iteration, the
-        # change does not decrease and is large. After convergence, the change does not decrease but is small.
+        # Because of rounding errors, the changes of a convergent iteration may stop decreasing before the
+        # test ``close`` is true. In a divergent iteration, the change does not decrease and is large. After
+        # convergence, the change does not decrease but is small.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -173,8 +175,8 @@ class Stopping:
     def lost(self) -> Term:
         """Return the test whether h times CHANGE is below the rounding errors of the state.
 
-        For equations for a variation (a tangent vector at the state), the rounding errors of the variation
-        are used.
+        If the unknowns belong to a variation (a tangent vector at the state), the test uses the rounding
+        errors of the variation in place of the rounding errors of the state.
         """
         # The array ``vector`` contains the tangent vector.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
@@ -192,7 +194,8 @@ class Stopping:
         For equations r(u) = 0, the stopping rule uses these sums in place of the maxima of :meth:`measured`.
         """
         return [
-            # Sums are used, because a maximum could ignore a NaN.
+            # A maximum of the absolute values could ignore a NaN. The sum of the absolute values is a NaN if
+            # a summand is a NaN.
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
         ]
@@ -270,8 +273,9 @@ class Stopping:
     def after(self) -> list[Statement]:
         """Return the statements that store the rate of a converged loop for the next step.
 
-        One sweep cannot measure a rate. For equations u = g(u), the stored rate is then doubled. After
-        several doublings, the loop makes a second sweep and measures the rate.
+        One sweep cannot measure a rate. If the loop for equations u = g(u) made only one sweep, the stored
+        rate is therefore doubled. After several doublings, the stored rate is too large for the stopping test
+        in the first sweep. The loop makes a second sweep, and the second sweep measures the rate.
         """
         if not self.warm:
             return []

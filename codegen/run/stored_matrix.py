@@ -76,7 +76,7 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
         return space.pow(args[0], int(node.payload))
     if node.op == "call":
         return space.call(str(node.payload), *args)
-    # All operations except ``pow`` and ``call`` have a method of ``space`` with the same name.
+    # For each operation except ``pow`` and ``call``, ``space`` has a method with the name of the operation.
     result: Expr = getattr(space, node.op)(*args)
     return result
 
@@ -127,7 +127,8 @@ class StoredMatrix(ABC):
         """
         total: Term | None = None
         for term, given, table in entries:
-            # The method ``before`` returns the statements that are ignored here.
+            # ``constant_entry`` returns a list of statements and the entry. The list is ignored here, because
+            # the method named ``before`` returns the same statements.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             # No multiplication is emitted for the coefficient 1.
@@ -211,8 +212,9 @@ class BandedMatrix(StoredMatrix):
         return _largest_sum(a, self.n, [Assign(_TOTAL, total)])
 
     def _product(self, a: Term, x: Term, y: Term) -> Function:
-        # If the matrix has a main diagonal, this diagonal comes first. The products of its entries are
-        # assigned to ``y``. All later products are added.
+        # If the matrix has a main diagonal, this diagonal comes first. The products of entries of this
+        # diagonal and entries of ``x`` are assigned to ``y``. The products for all later diagonals are added
+        # to ``y``.
         k, covered = self.columns, self.matrix.offsets[0] == 0
         zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
         body: list[Statement] = [] if covered else [zero]
@@ -264,8 +266,9 @@ class FullMatrix(StoredMatrix):
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
         """Return the statements that store the linear combination ``letter`` in the array ``target``.
 
-        ``target`` begins with the coefficients of ``letter``, multiplied by h. Copies of the arrays in
-        ``nodes`` follow.
+        The entries of the linear combination are not computed here. The array ``target`` contains the data
+        for computing an entry later. First come the coefficients of ``letter``, multiplied by the step
+        size h. Copies of the arrays in ``nodes`` follow.
         """
         weights = dict(letter)
         # If the linear combination does not contain the matrix A(t_i), its coefficient is zero.

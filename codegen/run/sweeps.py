@@ -176,8 +176,9 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # After convergence the unknowns keep their values. Later statements use the results of the last
-        # sweep, computed with these values. A single ``If`` is cheaper than a ``select`` for each unknown.
+        # After convergence the unknowns keep their values. The last sweep has computed results with these
+        # values of the unknowns, and later statements use these results. A single ``If`` is cheaper than a
+        # ``select`` for each unknown.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
@@ -197,7 +198,8 @@ class _FixedPoint(_Loop):
         """Return the statements that compute the changes in a loop, and the sum of the absolute changes."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
-        # The loop also sums the changes, because the maximum may ignore a NaN.
+        # The maximum of the changes may ignore a NaN. Therefore the loop also sums the absolute values of the
+        # changes. The sum is a NaN if a change is a NaN.
         most, all_changes, moved = real(f"largest_{k}"), real(f"total_{k}"), real("moved")
         body = (
             Assign(moved, size(after[i] - before[i])),

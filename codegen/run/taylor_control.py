@@ -85,7 +85,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
-    # Without outputs, :func:`polynomial_step` returns the functions of the polynomial.
+    # If the kernel has no outputs, the functions of the polynomial are not returned here, because the
+    # function :func:`polynomial_step` returns these functions.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 
@@ -104,8 +105,8 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     number of products is ``width``. Product c uses column c of ``left``, column c of ``right``, and entry c
     of ``sums``. Row j - 1 of ``left`` contains a_j, and row j - 1 of ``right`` contains b_j.
     """
-    # The factors a_j and b_{n-j} are in the rows j - 1 and n - j - 1. These row indices add up to n - 2,
-    # which is k - 1.
+    # The factors a_j and b_{n-j} are in the rows j - 1 and n - j - 1. The sum of these row indices is
+    # n - 2. Because of n = k + 1, this sum is k - 1.
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:

@@ -156,7 +156,8 @@ class Term:
 
 Operand = Term | float | int
 
-# In ``x[2]``, the index 2 must become a count. For this, _COUNT is passed to ``_term`` as ``like``.
+# In ``x[2]``, the index 2 must become a term of the kind COUNT and not of the kind REAL. For this, _COUNT is
+# passed to ``_term`` as ``like``.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
@@ -205,7 +206,9 @@ def record(name: str, of: str, *shape: int, optional: bool = False) -> Term:
 
 
 def signal(name: str) -> Term:
-    """Return a term called ``name`` for the function of time that returns all run-time inputs."""
+    """Return a term called ``name``. The term denotes a function: its argument is the time t, and its results
+    are the values of all run-time inputs at the time t.
+    """
     return Term("name", (), Kind.SIGNAL, name)
 
 

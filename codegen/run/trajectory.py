@@ -215,7 +215,9 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # ``rows.add`` copies the initial state to the row. Then LEAVE adds the increase of the momentum.
+            # ``rows.add`` copies the initial state to the row. The function LEAVE converts this
+            # copy to the current state. LEAVE adds the increase of the momentum since the beginning of the
+            # run.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.

@@ -64,8 +64,10 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
             # copied.
             (Call(f"{function.name}_square", (result, work)), Assign(result, work)),
         ),
-        # If the norm is still too large after all halvings, all results are set to NaN. The negated test is
-        # also true for a NaN, but ``norm > least`` is not.
+        # The loop above halves the matrix until ``norm`` is at most ``least``, but the number of halvings is
+        # limited. If ``norm`` exceeds ``least`` after the loop, all results are set to NaN. The results must
+        # also be NaN if ``norm`` is a NaN. Therefore the test is the negation of ``norm <= least``. For a
+        # NaN, this negation is true, but the comparison ``norm > least`` is false.
         If(
             negated(norm <= least),
             (For(_PLACE, whole(2 * SIZE), (Assign(result[_PLACE], INFINITY - INFINITY),)),),
@@ -131,8 +133,9 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
     """Return the statements of one step of Horner's rule for the real or the imaginary part.
 
     The step replaces a polynomial P in the matrix H by i^k/k! + H P, modulo H^3 = ``trace`` H + ``det``.
-    ``part`` contains the real or the imaginary parts of the coefficients of P. ``added`` is
-    (1/k!, k modulo 4). It is None if this part of i^k/k! is zero.
+    ``part`` contains the real or the imaginary parts of the coefficients of P. If i^k/k! has a
+    nonzero part of the kind in ``part`` (real or imaginary), ``added`` is (1/k!, k modulo 4). Otherwise
+    ``added`` is None.
     """
     last = real("last")
     # ``added[1]`` is k modulo 4. For 2 and 3, 1/k! is subtracted, because i^2 = -1 and i^3 = -i.

@@ -244,8 +244,10 @@ class WarmStart:
         body += self.chosen(place)
         body += [
             Note("compute a guess: the backward difference of order degree + 1 must be zero"),
-            # For a polynomial of degree k, the backward difference of order k + 1 is zero. The value at the
-            # next step has the coefficient 1 in that difference.
+            # For a polynomial of degree k, the backward difference of order k + 1 is zero. This difference is
+            # a linear combination of the value at the next step and of previous values. The coefficient of
+            # the value at the next step is 1. Therefore the guess for this value is minus the sum of all
+            # terms with previous values.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
@@ -267,7 +269,8 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The previous solution is the simplest guess, with the error ``moved``. The stored solutions are
+            # The simplest guess is the previous solution. The error of this guess is ``moved``, the sum of
+            # the absolute differences between the new and the previous solution. The stored solutions are
             # discarded if the last guess was hardly better.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
@@ -275,7 +278,9 @@ class WarmStart:
     def chosen(self, place: Term) -> list[Statement]:
         """Return the statements that adapt the degree of the extrapolation.
 
-        The degree n becomes n + 1 or n - 1 only if the backward difference of this order is smaller.
+        Let n be the degree, and let d_k be the size of the backward difference of order k. If n + 2 solutions
+        are stored and d_(n+1) is below d_n, the degree becomes n + 1. Otherwise, if d_(n-1) is below d_n, the
+        degree becomes n - 1. In all remaining cases, the degree stays n.
         """
         size_now = real("size")
 

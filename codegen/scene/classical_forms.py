@@ -2,8 +2,8 @@
 
 A form is a problem on R^n with a map to the state of the scene. The first form uses the coordinates of the
 scene. Another form can use the body frame (:mod:`codegen.scene.body_frame`). If a factor of the group has a
-covering group, the last form can use its coordinates. The covering group has fewer coordinates than the
-factor.
+covering group, the last form can use the coordinates of the covering group. The covering group has fewer
+coordinates than the factor.
 """
 
 from __future__ import annotations
@@ -112,7 +112,10 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # Skip the change if its form is already in the list.
+        # A change without a covering group is yielded only if ``covered`` is False and the change uses the
+        # body frame. A change with neither a covering group nor the body frame gives the first form, which
+        # uses the coordinates of the scene. If ``covered`` is True but no factor has a covering group, the
+        # change was considered in the first iteration.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -143,9 +146,11 @@ class _Leaf:
         return own if self.cover is None else self.cover.covering(d, own)
 
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the element of ``group`` that has the coordinates ``own``, after a projection.
+        """Return the element of ``group`` that has the coordinates ``own``, with a projection if necessary.
 
-        If ``own`` are coordinates of a covering group, they are first projected onto this group.
+        If ``own`` are coordinates of a covering group, small errors may move ``own`` away from the covering
+        group. The coordinates are projected onto the covering group, and the result is the image of the
+        projected element under the covering map. Without a covering group, ``own`` is returned unchanged.
         """
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
@@ -352,7 +357,8 @@ class _Change:
     def field(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the field in the frame of the classical form, as formulas in the symbols of the scene.
 
-        In the body frame, the momentum is P = Ad*_q mu. The symbol of mu_a then denotes P_a.
+        In the body frame, the momentum is P = Ad*_q mu. Formulas in the body frame use the symbol of the
+        component mu_a for the component P_a.
         """
         problem = self.problem
         if not self.body:

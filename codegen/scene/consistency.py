@@ -32,8 +32,9 @@ If the second formula is None, the first formula must equal the velocity f.y in 
 
 
 STEP_DIGITS, SLOPE_DIGITS = 10, 12
-"""Central differences use the step eps = 10^-STEP_DIGITS, with an error of about eps^2. The
-velocity of an action must agree with the central difference of ``actexp`` to SLOPE_DIGITS digits.
+"""Central differences use the step eps = 10^-STEP_DIGITS. The error of a central difference is about eps^2 =
+10^-20. This error is far below the tolerance 10^-SLOPE_DIGITS. The velocity of an action must agree with the
+central difference of ``actexp`` to SLOPE_DIGITS digits.
 """
 
 

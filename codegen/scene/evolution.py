@@ -87,7 +87,7 @@ class Evolution:
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
         # ``before`` is mu with rounding errors. ``after`` has similar errors, so most errors cancel in
-        # ``after`` - ``before``.
+        # ``after`` - ``before``. This difference is added to the given values mu, which have no such errors.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
@@ -174,7 +174,7 @@ def evolution(scene: Problem) -> Evolution:
 
 
 def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
-    """Return an :class:`Evolution` without omitted coordinates.
+    """Return the :class:`Evolution` that computes all coordinates.
 
     ``roots`` are the time derivatives of all coordinates.
     """

@@ -183,8 +183,9 @@ class TorusCurves(Figure):
 class TimeSeries(Figure):
     """Quantities, plotted against time, with one panel for each run.
 
-    The reference curve is the first of ``quantities`` in the run ``reference``. If ``difference`` is True,
-    the reference curve is subtracted from all quantities. ``window`` is the interval of time that is shown.
+    The reference curve is the first entry of ``quantities``, evaluated along the run ``reference``. If
+    ``difference`` is True, the reference curve is subtracted from all quantities. ``window`` is the interval
+    of time that is shown.
     """
 
     quantities: Mapping[str, Quantity] = field(default_factory=dict)

@@ -399,8 +399,9 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
 
 
 def _entry(reader: Reader, given: EntryFormula, indices: tuple[object, ...], size: int, what: str) -> Entry:
-    """Return the entries of a matrix or diagonal: a formula in the indices, or a tuple of numbers.
+    """Return the entries of a matrix or of a diagonal.
 
+    The result is one formula in the indices for all entries, or a tuple with one number for each entry.
     SceneError is raised if a list ``given`` does not contain ``size`` rational numbers.
     """
     if callable(given):

@@ -332,7 +332,7 @@ class Logarithm(Unary):
 
     @property
     def place(self) -> Place:
-        """The set MATRIX. The logarithm of a matrix can be outside the Lie algebra."""
+        """MATRIX, because the logarithm of a matrix can be outside the Lie algebra."""
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:

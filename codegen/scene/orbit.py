@@ -29,8 +29,9 @@ TOLERANCE = Fraction(1, 10**20)
 """
 
 FLOOR = Fraction(1, 10**28)
-"""The absolute tolerance of the test whether a sum is zero. If all terms are only rounding errors, the
-relative tolerance is too small.
+"""The absolute tolerance of the test whether a sum is zero. If all terms are only rounding errors, |sum| can
+be as large as the sum of |terms|. In this case the test needs FLOOR, because |sum| exceeds
+TOLERANCE * (sum of |terms|) although the exact sum is zero.
 """
 
 POINTS = 4

@@ -1,4 +1,4 @@
-"""Two tests of the orbit of the initial state: Is the orbit open? Is the projection of a point on the orbit?
+"""Two tests of the orbit of the initial state: Is the orbit open? Do projected points lie on the orbit?
 
 The projection is :meth:`Action.to_orbit`. An open orbit needs no projection, because all points near a point
 of the orbit are on the orbit.
@@ -17,8 +17,8 @@ DISPLACEMENT = 1e-4
 
 REDUCED = 1e-2
 """The largest factor by which the projection in :func:`reaches_orbit` may multiply the distance from the
-orbit. The factor is not zero, because the orbit may deviate from its tangent space by about
-DISPLACEMENT^2.
+orbit. The test measures the distance from the tangent space of the orbit at the initial state. A point
+of the orbit can have a distance of about DISPLACEMENT^2 from this tangent space, so the factor is not zero.
 """
 
 INDEPENDENT = 1e-8

@@ -192,8 +192,8 @@ class Problem:
     def as_field(self) -> Problem:
         """Return this problem with the equation y' = f(y).y. Here y is (q, mu), and f is (velocity, force).
 
-        The group T*G of the result acts on itself by left multiplication. If the state is not (q, mu), the
-        problem is returned unchanged.
+        In the returned problem, the group T*G acts on itself by left multiplication. If the state is not
+        (q, mu), the problem is returned unchanged.
         """
         if not self.paired:
             return self

@@ -127,8 +127,8 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
                     f"generator {k} of the part {part.name} is not constant along the flow of the part",
                     where=scene.name,
                     expected="generators f(y) for which the exact flow over a time tau is exp(tau f(y)).y",
-                    hint="split the part, or use other generators for the same velocity; for two spins S "
-                    "and S', an example is J (S + S') x S = J S' x S",
+                    hint="split the part, or use other generators for the same velocity; for example, a spin "
+                    "S with the velocity (J S') x S also has the generator J (S + S'), because S x S = 0",
                 )
 
 

@@ -63,13 +63,13 @@ def SiteScene(
     - ``y0``: the initial state of every site.
     - ``boundary``: "periodic" or "open".
     - ``outside``: at an open boundary, the state that replaces a missing neighbour, as a column of formulas
-      in ``y``, t and parameters, or as a mapping from offsets to columns. At a free end, the force from
-      this state must be zero. Examples are zeros and ``y``.
+      in ``y``, t and parameters, or as a mapping from offsets to columns. At a free end, this state must
+      exert no force on the site. Depending on ``f``, use a column of zeros or the column ``y`` of the site.
     - ``parts``: the summands of the field. A part is a column of formulas in ``y``, or a
       :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: the energy of a site, and the energies of pairs of neighbours (:class:`Bond`).
-    - ``invariants``: functions of the state of one site. For arbitrary states of the neighbours, each
-      function must be constant along the solutions.
+    - ``invariants``: functions of the state of one site. Each function must be constant along the
+      solutions of y' = f.y if arbitrary constants replace the coordinates of the neighbours in ``f``.
 
     :class:`SceneError` is raised in the cases of :func:`codegen.scene.FieldScene`, for offsets of different
     lengths, and if ``outside`` has no state for a neighbour. Other reasons are: the parts do not add up to
@@ -158,14 +158,15 @@ def _check_energy(problem: Problem) -> None:
 def with_frozen_neighbours(scene: Problem) -> Problem:
     """Return the problem of one site, with the coordinates of the neighbours as parameters.
 
-    The state of each neighbour is close to the initial state of a site.
+    The value of each of these parameters is close to an initial coordinate of a site.
     """
     sites = scene.sites
     assert sites is not None
     start = [Fraction(float(x)).limit_denominator(1000) for x in scene.initial(FloatDomain(0.0))]
     values = dict(scene.parameters)
     for number, column in enumerate(sites.symbols, 1):
-        # The states of all neighbours differ, because a formula may be singular for equal states.
+        # A formula may be singular if two neighbours have equal states. Therefore different neighbours have
+        # different states here.
         shifted = [x + Fraction((7 * k + 3 * number) % 11 - 5, 97) for k, x in enumerate(start)]
         values |= {
             s: Number.rational(x.numerator, x.denominator) for s, x in zip(column, shifted, strict=True)

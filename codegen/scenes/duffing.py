@@ -1,9 +1,9 @@
 """Duffing's equation on the plane, with the group of translations.
 
 The equations are x' = y and y' = -a x - b x^3 with a = b = 1 (H. Marthinsen's thesis, section 2.2). In a
-step, Lie-Euler keeps the whole field constant. In the scene ``duffing_sl2``, it keeps the stiffness of the
-spring constant. In ``duffing_se2``, it keeps the cubic part of the force constant. Translations commute,
-so in ``duffing`` every Lie group method reduces to its classical method.
+step, Lie-Euler keeps the whole field constant. In the scene ``duffing_sl2``, the stiffness of the spring does
+not change in a step of Lie-Euler. In ``duffing_se2``, the cubic part of the force does not change in a step
+of Lie-Euler. Translations commute, so in ``duffing`` every Lie group method reduces to its classical method.
 """
 
 from collections.abc import Sequence

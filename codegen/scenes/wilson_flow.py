@@ -2,8 +2,10 @@
 
 A link is a matrix V in SU(3). The equation of a link is V' = -g0^2 (dS(V)) V, where g0 is the coupling
 constant and S is the Wilson action. Let V^H be the conjugate transpose of V. The plaquette P = V0 V1 V2^H
-V3^H gives g0^2 S = 2 Re tr(1 - P). Permute the four factors of P or P^H cyclically, until V is the first
-factor. Let X be this product. The generator -g0^2 dS(V) is the traceless anti-Hermitian part of -X.
+V3^H gives g0^2 S = 2 Re tr(1 - P). A link V determines a product X of four matrices. If V is V0 or V1,
+permute the four factors of P cyclically, until V is the first factor. X is the product of the permuted
+factors. If V is V2 or V3, X is defined in the same way by the four factors of P^H = V3 V2 V1^H V0^H. The
+generator -g0^2 dS(V) is the traceless anti-Hermitian part of -X.
 
 A link V is stored as a real 6 x 3 matrix: Re V above Im V.
 

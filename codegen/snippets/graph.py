@@ -94,7 +94,8 @@ def _shared_angle(
     # Arguments far from zero are rare, so a separate function that is not inlined computes their c_k.
     far, small = f"{name}_far", float(stumpff.SMALL)
     listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-    # With three or more ``orders``, the "tiny" polynomials would make the helper too long for inlining in C.
+    # The "tiny" polynomials are the shorter polynomials for z <= TINY. With three or more ``orders``, these
+    # polynomials would make the C function ``name`` too long for inlining.
     sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
     calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
     tiny = float(stumpff.TINY) if "tiny" in sizes else ""
