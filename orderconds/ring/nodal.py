@@ -101,8 +101,10 @@ class NodalAlgebra:
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
         """Return the matrices of two linear maps of this algebra, in the basis 1, z, z^2, ...
 
-        The maps represent the multiplication of vectors by A - e b^T and by A. Here A is the first matrix of
-        the method, b is the vector of the weights, and e is the vector of ones.
+        Let v be the vector that a polynomial represents. The first map takes this polynomial to the
+        polynomial that represents (A - e b^T) v. The second map takes this polynomial to the polynomial that
+        represents A v. Here A is the first matrix of the method, b is the vector of the weights, and e is the
+        vector of ones.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))

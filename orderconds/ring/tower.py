@@ -69,7 +69,8 @@ class Tower:
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
         """Return the largest field of this tower, and a function that converts elements of the tower to
-        elements of this field. If the degree is 1, the returned field is QQ."""
+        elements of this field. If the largest field has degree 1 over Q, the ring QQ is returned in place of
+        this field."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -194,7 +195,7 @@ class _Relation:
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
     """Find a generator c of the algebra K[x]/(p) over Q. Here K = Q(a) is ``field``, and p is the polynomial
     x^k - sum_j powers[j] x^j with k = len(powers). Return m and the :class:`_Relation` of c. If m is an
-    integer, c is x + m a. If m is None, c is a x."""
+    integer, c is x + m a. If m is None, c is the product of a and x."""
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)

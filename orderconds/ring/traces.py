@@ -85,7 +85,8 @@ class Traces:
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:
-        """Return ``text(x)``, which is not a decimal number."""
+        """Return ``text(x)`` for every value of ``digits``. Decimal digits cannot be computed, because the
+        inputs of the recorded program have no values yet."""
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:

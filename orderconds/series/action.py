@@ -5,10 +5,11 @@ stage are expanded about (q0, mu1). The expansions are sums over trees
 (:mod:`orderconds.series.action_trees`). A tree of a velocity is a pair t = (w, M). A tree of a momentum has
 the form H(u*v|M) or L(w). Here u, v and w are words of smaller trees, and M is a multiset of smaller trees.
 Let b_i be the weight of stage i, and let Phi_w(i) be the coefficient of the word w in the group element of
-stage i. For psi_p(i), let x be a perturbation of the velocity of stage i. Then x is an additional letter of
-words. Let [w at stage j] be the coefficient of the word w in the group element of stage j. Let [w at the
-update] be its coefficient in the group element of the update. The coefficients of the trees in the expansions
-of stage i are
+stage i. To define psi_p(i), add a new letter x as a term to the expansion of the velocity of stage i. Because
+of this term, the expansions of the group elements contain words (u, x, v), in which x is between a word u and
+a word v. Such a word is denoted by W. Let [W at stage j] be the coefficient of W in the group element of
+stage j. Let [W at the update] be the coefficient of W in the group element of the update. The coefficients of
+the trees in the expansions of stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [(u, x, v) at stage j]``,
@@ -203,7 +204,7 @@ class CommutatorFreeSeries(ActionSeries):
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
         """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
-        ``row``. The letter x is a perturbation of the velocity of stage ``stage``."""
+        ``row``. The letter x is an additional term in the expansion of the velocity of stage ``stage``."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -242,8 +243,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._inverse_factorial[n]
 
     def _before(self, row: int, word: Word) -> Stages:
-        """Return a list: entry k is the coefficient of ``word`` in a product of exponentials. The factors are
-        the first k exponentials in ``self.rows[row]``."""
+        """Return a list. Entry k of the list is the coefficient of ``word`` in the product of the first k
+        exponentials in ``self.rows[row]``."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known

@@ -41,11 +41,13 @@ def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in one class
     if they differ only in the choice of the root.
 
-    Vertices in a subtree of the form ``L(w)`` cannot be the root. Vertices or edges count once if a symmetry
-    of the tree exchanges them. In each class, the number of possible roots is one more than the number of
-    edges between possible roots. Therefore the number of classes is R - E. R is the number of g-valued trees,
-    one for each possible root. E is the number of edges between possible roots. E is also the number of pairs
-    (:class:`~orderconds.series.action_trees.Force`, g-valued tree) with ``vertices`` vertices in total.
+    Vertices in a subtree of the form ``L(w)`` cannot be the root. Two vertices are counted as one vertex if a
+    symmetry of the tree maps one to the other. Two edges are counted as one edge if a symmetry of the tree
+    maps one to the other. In each class, the number of possible roots is one more than the number of edges
+    between possible roots. Therefore the number of classes is R - E. R is the number of g-valued trees, one
+    for each possible root. E is the number of edges between possible roots. If an edge between possible roots
+    is removed, the tree falls into two parts: a :class:`~orderconds.series.action_trees.Force` and a g-valued
+    tree. Therefore E is the number of such pairs of trees whose total number of vertices is ``vertices``.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]

@@ -159,10 +159,10 @@ def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
 def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
-    """Yield pairs (cost, multiset) for the multisets of g*-valued trees with ``vertices`` vertices in total
-    and a cost of at most ``rest``. The trees are entries of the lists ``_momenta(n, limit)`` with
-    n <= ``largest``. If ``bound`` is an integer, the entries of ``_momenta(largest, limit)`` after the index
-    ``bound`` are not used. This prevents repeated multisets."""
+    """Yield pairs (cost, multiset). The elements of each multiset are g*-valued trees that have ``vertices``
+    vertices in total. The cost of each multiset is at most ``rest``. The trees are entries of the lists
+    ``_momenta(n, limit)`` with n <= ``largest``. If ``bound`` is an integer, the entries of
+    ``_momenta(largest, limit)`` after the index ``bound`` are not used. This prevents repeated multisets."""
     if vertices == 0:
         yield 0, ()
         return

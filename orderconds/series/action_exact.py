@@ -1,8 +1,8 @@
 """The action series of the exact flow: iterated integrals over [0, 1] of univariate polynomials over Q.
 
-In the formulas of :mod:`orderconds.series.action`, a time s replaces the index i of a stage, and integrals
-over times replace sums over stages. The function :func:`tau` returns ``tau_t(s)`` for a tree t. Let w be a
-word with the letters t_1, ..., t_k:
+The formulas for numerical methods are given in :mod:`orderconds.series.action`. The formulas for the exact
+flow have a time s in place of the index i of a stage, and integrals over times in place of sums over stages.
+The function :func:`tau` returns ``tau_t(s)`` for a tree t. Let w be a word with the letters t_1, ..., t_k:
 
 - ``Phi_w(s)`` is the integral of the product ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)`` over all times with 0 <=
   s_1 <= ... <= s_k <= s. The integral of the same product over all times with s <= s_1 <= ... <= s_k <= s' is

@@ -77,7 +77,7 @@ class ActionFields:
     - ``basis``: the matrices of a basis of the Lie algebra. The coordinates of mu refer to the dual basis.
     - ``coordinates``: a function that converts a matrix in the Lie algebra to coordinates.
 
-    The vectors xi_t and m_p contain neither powers of the step size h nor symmetry factors.
+    The vectors xi_t and the covectors m_p contain neither powers of the step size h nor symmetry factors.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -197,15 +197,16 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # The sum of all ``weight * change`` is the error of the initial momentum. The error of the final
+            # A step also determines the initial momentum from the initial position and the final momentum.
+            # The sum of all ``weight * change`` is the error of this initial momentum. The error of the final
             # momentum has the opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of a covector: one mixed derivative of H(q, mu) for each basis vector x of
-        g. The directions in q are x and the velocities of ``tree.word``. The directions in mu are the
-        covectors of ``tree.momenta``."""
+        """Return the coordinates of a covector. There is one coordinate for each basis vector x of the Lie
+        algebra g. The coordinate is a mixed derivative of the Hamiltonian H(q, mu). The directions in q are x
+        and the velocities of ``tree.word``. The directions in mu are the covectors of ``tree.momenta``."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

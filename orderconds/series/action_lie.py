@@ -6,8 +6,8 @@ b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
 The coefficient of a g*-valued tree (:mod:`orderconds.series.action`) depends on coefficients of words (u, x,
-v). Here x is a new letter. It is a perturbation of the velocity xi_j of one stage j. The function
-``insertion`` has the arguments ``before`` = u and ``after`` = v.
+v). Here x is a new letter. This letter denotes an additional term in the velocity xi_j of one stage j. The
+function ``insertion`` has the arguments ``before`` = u and ``after`` = v.
 """
 
 from __future__ import annotations
@@ -24,12 +24,14 @@ from orderconds.series.b_series import Sums, sparse
 from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
-"""The terms of dexpinv_X xi. The term q X^n xi X^m is stored as the triple (q, m, n). Here X^m acts before
-xi, and X^n acts after xi."""
+"""The terms of dexpinv_X xi. A triple (q, m, n) denotes the term q X^n xi X^m. The rightmost factor of a
+product acts first. Hence X^m acts before xi, and X^n acts after xi. The exponent m precedes n in the triple,
+because X^m acts first."""
 
 Varied = dict[int, Element]
-"""A map from stages j to coefficients of one word (u, x, v). Here x is a perturbation of the velocity xi_j.
-If a key is missing, the coefficient is zero."""
+"""A map from stage indices to coefficients, for one word (u, x, v) and one series in the stage velocities
+xi_1, xi_2, .... For each stage j, add the letter x as a term to xi_j only. Entry j of the map is the
+coefficient of the word (u, x, v) in the changed series. If a key is missing, the coefficient is zero."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -94,8 +96,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word (``before``, x, ``after``) in group elements: of all stages if
-        ``update`` is 0, of the update if ``update`` is 1. The module docstring defines x."""
+        """Return coefficients of the word (``before``, x, ``after``) in group elements. If ``update`` is 0,
+        the list contains one map (:data:`Varied`) for the group element exp(X_i) of each stage i. If
+        ``update`` is 1, the list contains only the map for the group element exp(Y) of the update. The module
+        docstring defines x, X_i and Y."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -142,8 +146,9 @@ class MuntheKaasActionSeries(ActionSeries):
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
         """Add the result of :meth:`_varied_power` to ``totals``. The power n must be at least 2."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # The word (before, x, after) is divided after ``cut`` letters. If the first part contains x, it
-            # also contains ``rest`` letters of ``after``.
+            # The word (before, x, after) is divided after ``cut`` letters. If ``rest`` is negative, x belongs
+            # to the second part. Otherwise, the first part consists of ``before``, x and the first ``rest``
+            # letters of ``after``.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -193,7 +198,8 @@ class MuntheKaasActionSeries(ActionSeries):
     def _around(self, before: Word, behind: Word) -> Stages | None:
         """For each stage j, return the coefficient of a word in the series dexpinv_{(r),X_j} xi_j (see the
         module docstring). The word is (``before``, xi_j, ``behind``), and xi_j is one letter. Return None if
-        no term contains such words."""
+        no term of the series contains a word with ``len(before)`` letters before xi_j and ``len(behind)``
+        letters behind xi_j."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -208,9 +214,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """For each stage j, return a map (:data:`Varied`) of coefficients of one word in the series
-        dexpinv_{(r),X_j} xi_j (see the module docstring). The word is
-        (``before``, x, ``after``, xi_j, ``behind``). Here xi_j is one letter, and x comes from X_j."""
+        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
+        word (``before``, x, ``after``, xi_j, ``behind``) in the series dexpinv_{(r),X_j} xi_j. In this word,
+        xi_j counts as one letter, and the new letter x belongs to the expansion of X_j. The module docstring
+        defines the series, the number r, the letter x, and the exponent X_j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -220,9 +227,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """For each stage j, return a map (:data:`Varied`) of coefficients of one word in the series
-        dexpinv_{(r),X_j} xi_j (see the module docstring). The word is
-        (``first``, xi_j, ``before``, x, ``after``). Here xi_j is one letter, and x comes from X_j."""
+        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
+        word (``first``, xi_j, ``before``, x, ``after``) in the series dexpinv_{(r),X_j} xi_j. In this word,
+        xi_j counts as one letter, and the new letter x belongs to the expansion of X_j. The module docstring
+        defines the series, the number r, the letter x, and the exponent X_j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -231,9 +239,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return terms of dexpinv_X xi: those with ``before`` letters before xi and ``behind`` letters behind
-        xi. The first letter of a word acts first. A triple (q, m, n) represents q X^n xi X^m, where X^m acts
-        first. Hence X^m gives the letters before xi."""
+        """Return the terms of dexpinv_X xi that contain words with ``before`` letters before xi and
+        ``behind`` letters behind xi. The first letter of a word acts first, but the last factor of a product
+        acts first. A triple (q, m, n) represents q X^n xi X^m, where X^m acts first. Hence X^m gives the
+        letters before xi."""
         known = self._in_sight.get((before, behind))
         if known is None:
             known = self._in_sight[before, behind] = [

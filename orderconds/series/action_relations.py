@@ -32,14 +32,16 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial. Each term is a pair (coefficient, trees). Each tree represents a factor: the
-left-hand side of its condition."""
+"""The terms of a polynomial. The variables of the polynomial are the left-hand sides of order conditions.
+Each tree has one order condition. A term is a pair (coefficient, trees). The term is the coefficient
+multiplied by the left-hand sides of the order conditions of these trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
     """Return a polynomial for each tree that has n vertices and is not in ``independent``. Here n is the
-    length of ``independent``. The polynomial expresses the condition of the tree by the conditions of trees
-    in ``independent``.
+    length of ``independent``. For each method of the family, the polynomial is equal to the left-hand side of
+    the order condition of the tree. The variables of the polynomial are the left-hand sides of the order
+    conditions of the trees in ``independent``.
 
     ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
     ..., n. The polynomials are wrong with a probability of about 10^-8.
@@ -95,8 +97,10 @@ def hold_over_rationals(
     coefficients.
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
-    ``ring``. Let d be the degree of a relation in the coefficients of the method. If the relation is false
-    for some method of the family, the random method satisfies it with a probability below d/2^60.
+    ``ring``. Each polynomial states a relation: the left-hand side of the order condition of a tree is equal
+    to the polynomial. Let d be the degree of such a relation in the coefficients of the method. If the
+    relation is false for some method of the family, the random method satisfies the relation with a
+    probability below d/2^60.
 
     >>> from functools import partial
     >>> from orderconds.families import get

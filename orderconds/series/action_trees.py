@@ -11,8 +11,8 @@ right-invariant vector field on G. There are three kinds of trees:
   covectors of the trees in M.
 - A :class:`Force` is a g*-valued tree with two words u and v and a multiset M, written ``H(u * v | M)`` or
   ``f(u * v | M)``. The tree denotes a covector, which maps an element x of g to a mixed derivative of H. To
-  differentiate in q, move q along the field of each element of (u, x, v), from left to right. The directions
-  in mu are the covectors of the trees in M.
+  differentiate in q, move q along the fields of the letters of u, then along the field of x, and finally
+  along the fields of the letters of v. The directions in mu are the covectors of the trees in M.
 - A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. The tree denotes the covector that
   maps an element x of g to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here
   ``<mu, y>`` is the pairing of mu with y.
@@ -100,15 +100,16 @@ class Velocity(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. Each multiset M in the tree contributes a factor n!
-        for n equal elements."""
+        """The order of the symmetry group of the tree. The order is a product of factorials. Each distinct
+        element of each multiset in the tree contributes one factor n!, where n is the multiplicity of the
+        element in the multiset."""
         return _symmetry(self.word, self.momenta)
 
 
 class Force(_Node):
-    """A g*-valued tree, written H(u * v | M), with ``before`` = u, ``after`` = v and ``momenta`` = M. Here u
-    and v are words of g-valued trees, and M is a multiset of g*-valued trees. Use :func:`force` to create
-    trees.
+    """A g*-valued tree H(u * v | M), printed as f(u * v | M). The attribute ``before`` is u, the attribute
+    ``after`` is v, and the attribute ``momenta`` is M. Here u and v are words of g-valued trees, and M is a
+    multiset of g*-valued trees. Use :func:`force` to create trees.
 
     >>> tree = force((), (velocity(),))
     >>> tree, tree.vertices
@@ -128,8 +129,9 @@ class Force(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. Each multiset M in the tree contributes a factor n!
-        for n equal elements."""
+        """The order of the symmetry group of the tree. The order is a product of factorials. Each distinct
+        element of each multiset in the tree contributes one factor n!, where n is the multiplicity of the
+        element in the multiset."""
         return _symmetry(self.before + self.after, self.momenta)
 
 

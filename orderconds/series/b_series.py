@@ -153,7 +153,8 @@ class Sums:
         return len(self._ends)
 
     def __call__(self, x: Sequence[Element]) -> list[Element]:
-        """Return the sum of weight_j x_j for each row. The row contains the pairs (j, weight_j)."""
+        """Return a list with one sum for each row that was given to the constructor. A row contains pairs (j,
+        weight_j), and the sum of the row is the sum of the products weight_j x_j over these pairs."""
         values = [self._zero]
         for before, place, weight in self._steps:
             values.append(values[before] + weight * x[place])

@@ -12,20 +12,20 @@ and contain a new letter. Only the N brackets with new letters contribute to the
 least the dimension of the space that the sums span.
 
 Second bound: for each argument, form the sum of the terms that have at least two letters and exactly one new
-letter. This sum is called the linear part of the argument. The linear part has the form sum_n ad_(P_n) q_n,
-where q_n are the new letters, and P_n are polynomials in the old letters. To obtain the operator ad_(P),
-replace each letter q in P by the operator ad_q. Here ad_q y = [q, y]. Let S be the space that the linear
-parts of u_1, ..., u_i span, and let d be the dimension of S.
+letter. This sum is called the linear part of the argument. Let ad_q be the operator with ad_q y = [q, y]. To
+obtain the operator ad_(P) for a polynomial P, replace each letter q in P by the operator ad_q. The linear
+part has the form sum_n ad_(P_n) q_n, where q_n are the new letters, and P_n are polynomials in the old
+letters. Let S be the space that the linear parts of u_1, ..., u_i span, and let d be the dimension of S.
 
 The linear part of a bracket is defined in the same way. The linear parts of the N brackets span a space that
-contains S. Hence N is at least d. Now assume that, for every non-zero element sum_n ad_(P_n) q_n of S, at
-least one of the polynomials P_n is not a Lie element. Then N is greater than d. Of the N brackets, let B be
-the one that the program computes first, and let x be the linear part of B. The two factors of B contain no
-brackets with new letters. Hence each factor is the sum of a Lie element in the old letters and a linear
-combination of new letters. Therefore x has the form sum_n ad_(P_n) q_n with Lie elements P_n. By assumption,
-S contains no non-zero element of this form. Hence x is zero or not in S. If x is zero, the linear parts of
-the other N - 1 brackets span a space that contains S. If x is not in S, the N linear parts span a space that
-is larger than S.
+contains S. Hence N is at least d. Now assume that S contains no non-zero element sum_n ad_(P_n) q_n in which
+all polynomials P_n are Lie elements. Then N is greater than d. Of the N brackets, let B be the one that the
+program computes first, and let x be the linear part of B. The two factors of B contain no brackets with new
+letters. Hence each factor is the sum of a Lie element in the old letters and a linear combination of new
+letters. Therefore x has the form sum_n ad_(P_n) q_n with Lie elements P_n. By assumption, S contains no
+non-zero element of this form. Hence x is zero or not in S. If x is zero, the linear parts of the other N - 1
+brackets span a space that contains S. If x is not in S, the N linear parts span a space that is larger than
+S.
 
 The number of brackets without new letters has a similar lower bound. The sum of the lower bounds for the two
 numbers is a lower bound for the number of all brackets.
@@ -43,7 +43,8 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
     """Write the linear part of x as ``sum_n ad_(P_n) q_n``, and return a map from n to P_n. The module
     docstring defines the linear part and the polynomials P_n.
 
-    The polynomial x must be a sum of letters and brackets. The new letters are q_n with n >= ``first``.
+    The polynomial x must be a sum of letters and brackets. In a word, the index n denotes the letter q_n. The
+    letters with n >= ``first`` are the new letters.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -92,8 +93,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # ``known`` omits terms of grade ``algebra.largest``. In u, these terms affect the order. Hence
-        # ``spans`` also contains the complete polynomial u.
+        # ``known`` omits terms of grade ``algebra.largest``. In the argument u of the step, these terms
+        # affect the order of the method. Hence one entry of ``spans`` contains u with all terms.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))

@@ -40,7 +40,8 @@ class BracketProgram:
     is exp(u) y0 with the argument u. A row is a map from names to coefficients. It represents a linear
     combination of brackets and elements h k_j.
 
-    - ``brackets[r]``: the rows of x and y in B_r = [x, y].
+    - ``brackets[r]``: two rows. The first row represents x, and the second row represents y in the bracket
+      B_r = [x, y].
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program that computes the arguments.
@@ -161,11 +162,12 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return a map from stages i to lists of combinations u_j - c u_i of two stage arguments, where j > i.
+    """Return a map from stages to lists of polynomials. The arguments u_1, u_2, ... of the stages are
+    polynomials in the elements q_1, q_2, ... (module docstring). The list of stage i contains polynomials d =
+    u_j - c u_i with j > i and a number c.
 
-    The number c is chosen such that the combination may need fewer brackets than u_i, and fewer than u_j. The
-    combination is a polynomial in the elements q_n (module docstring). Its linear terms with n >= i are
-    omitted.
+    The number c is chosen such that d may need fewer brackets than u_i, and fewer than u_j. Terms of d that
+    are multiples of a single element q_n with n >= i are omitted.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]

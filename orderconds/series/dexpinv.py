@@ -79,8 +79,9 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word`` in u_i^n for each stage i if ``step`` is 0. If ``step`` is 1,
-        return a list with the coefficient in u^n, where y1 = exp(u) y0."""
+        """Return the coefficient of ``word`` in u_i^n for each stage i if ``step`` is 0. Let u be the
+        argument of the step, which maps y0 to exp(u) y0. If ``step`` is 1, return a list that contains only
+        the coefficient of ``word`` in u^n."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -126,8 +127,9 @@ class DexpinvSeries:
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
         """Return the terms q u^n x u^m of dexpinv_u x that may contribute to a word v x w, as triples (q, m,
-        n). The factor u^m contributes v, and the factor u^n contributes w. The word v has ``before`` letters,
-        and w has ``behind`` letters."""
+        n). The first letter of a word acts first, but the last factor of a product acts first. Therefore the
+        last factor u^m contributes the first part v of the word, and the first factor u^n contributes the
+        last part w. The word v has ``before`` letters, and w has ``behind`` letters."""
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
             longest = before + behind

@@ -120,8 +120,8 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of a non-empty word in partial products, as a list like :meth:`_word`. The
-        entries of products that are not in ``places`` are zero."""
+        """Return a list. Entry p of the list is the coefficient of the non-empty word ``word`` in partial
+        product p of the exponentials. The entries of products that are not in ``places`` are zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # In summand r, the last r letters of the word come from the exponential number ``row``.

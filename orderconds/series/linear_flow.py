@@ -28,9 +28,9 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""Two functions for each transform: the exponential (``exp``) and the Cayley transform (``cay``). The first
-function returns the power series coefficients of the transform, without the constant term 1. The second
-function returns the coefficients of the inverse."""
+"""The keys are the names of two transforms. The name ``exp`` denotes the exponential, and ``cay`` denotes the
+Cayley transform. Each value is a pair of functions. The first function returns the power series coefficients
+of the transform, without the constant term 1. The second function returns the coefficients of the inverse."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:

@@ -7,9 +7,10 @@ of the quotient tree in the series of the step, multiplied by the coefficients o
 (Chartier, Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
 
 For Lie-Butcher series, a forest becomes a linear combination of forests, called its image. For a tree, the
-root is removed, and the image of the remaining forest is computed. This image is grafted onto the series of
-g. The image of a forest is the concatenation of the images of its trees (Lundervold and Munthe-Kaas, Contemp.
-Math. 539 (2011) 295, Section 4.3).
+root is removed, and the image of the remaining forest is computed. Each forest of this image is grafted onto
+each forest in the series of g. The image of the tree is the sum of the resulting forests, weighted by the
+products of the coefficients of the two forests. The image of a forest is the concatenation of the images of
+its trees (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -82,8 +83,9 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # The sum over all partitions is ``flow(tree)``. The partition into one component has the summand
-        # step(vertex) field(tree), where step(vertex) = 1.
+        # The sum over all partitions is ``flow(tree)``. The summand of the partition into one component is
+        # step(vertex) field(tree), where step(vertex) = 1. Hence field(tree) is ``flow(tree)`` minus the
+        # summands of all other partitions.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -120,8 +122,9 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
-    """Remove edge k of a tree if ``cut[k]`` is true. The edges are numbered in preorder. Return the component
-    of the root, the other components, the quotient tree, and the flags of ``cut`` after the last edge."""
+    """Remove edge k of a tree if ``cut[k]`` is true. The edges are numbered in preorder. ``cut`` may contain
+    more flags than the tree has edges. Return the component of the root, the other components, the quotient
+    tree, and the unused flags."""
     attached: list[Tree] = []
     components: list[Tree] = []
     skeletons: list[Tree] = []

@@ -30,9 +30,10 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives along vector fields, from left to right. The entry None denotes the vector field
-of the equation y' = k y. Each other entry is again a product P. It denotes the vector field P f: the product
-P, applied to the right-hand side f."""
+"""A product of derivatives along vector fields, from left to right. Each entry of the tuple denotes one
+vector field. The entry None denotes the vector field of the equation y' = k y. If an entry is a tuple, the
+entry is a product P of derivatives, and denotes the vector field P f. To obtain P f, apply the product P to
+the right-hand side f."""
 
 Combination = dict[Operator, int]
 
@@ -205,8 +206,8 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Apply ``act`` to one factor of a product of derivatives at a time, and return the sum of the results.
-    Factors that are None are skipped."""
+    """Let a summand be the product of derivatives in which ``act`` is applied to only one of the factors.
+    Return the sum of these summands over all factors. Factors that are None are skipped."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

@@ -145,9 +145,9 @@ def symmetric_transport(
     - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
-    The abscissa m_i determines the sum of row i of ``own``. For each column j in the first half, let k = s +
-    1 - j. The equation for column j is sum_i b_i (x_ij - x_ik) = C_j. The sum is over the rows i of ``own``,
-    and b_i are the weights. The right-hand side C_j does not depend on ``own``.
+    The abscissa m_i determines the sum of row i of ``own``. By symmetry, the column equation in the module
+    docstring becomes sum_i b_i (x_ij - x_ik) = C_j for each column j in the first half. Here k = s + 1 - j,
+    the sum is over the rows of ``own``, b_i are the weights, and C_j does not depend on ``own``.
 
     The result contains formulas for each C_j and for two sets of entries of ``own``: the last entry of each
     row, and the first half of the last row. In the formulas, y_J is the sum of row J of ``update``.

@@ -48,7 +48,8 @@ def closed_forms(
     basis elements. Three bases are tried:
 
     - 1 and the square roots
-    - the products e r^k for k = 0, ..., d - 1, with e in the first basis and a number r of degree d
+    - the products e r^k, where e is an element of the first basis, r is one of the numbers, d is the degree
+      of r, and k = 0, ..., d - 1
     - the powers r^0, ..., r^(d-1), where r generates the field of a number of the highest degree d
 
     Without ``radicals``, only the third basis is tried.
@@ -174,7 +175,8 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
     """Let u + v sqrt(n) be the roots of a quadratic polynomial p, with an integer n and rational numbers u
-    and v. Return sqrt(n), its text, and the lines of a tableau file that define sqrt(n): an empty tuple."""
+    and v. Return three values: the number sqrt(n), the text of sqrt(n), and an empty tuple. The empty tuple
+    means that a tableau file needs no lines that define sqrt(n)."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():

@@ -6,8 +6,8 @@ the basis contains a polynomial in one coefficient, and the polynomial has no re
 real method satisfies the conditions. Some families require nonzero weights b_i. For such a weight, zero does
 not count as a root.
 
-Let the conditions be e_k = 0. The element 1 or the polynomial is a sum of products p_k e_k with polynomials
-p_k. This identity is verified exactly.
+Let the conditions be e_k = 0. The proof is an identity sum_k p_k e_k = r with polynomials p_k. The right-hand
+side r is 1 or the polynomial in one coefficient. This identity is verified exactly.
 """
 
 from __future__ import annotations
@@ -104,9 +104,11 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # The formulas of symplectic methods divide by the weights. The proof also covers zero weights: a stage
-    # with weight zero has no effect on the step. A copy of a stage j with nonzero b_j can replace this stage.
-    # Stage j and its copy get the weight b_j/2.
+    # The formulas of symplectic methods divide by the weights. The proof also covers methods with zero
+    # weights. Let stage i have the weight zero. Stage i has no effect on the step. Hence stage i can be
+    # replaced by a copy of a stage j whose weight b_j is not zero. The weight b_j is divided: stage j and the
+    # copy both get the weight b_j/2. The changed method computes the same step as the method before the
+    # change.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -174,8 +176,9 @@ def _consequence(
     nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
     """Return a polynomial in the ideal of ``members``, and a name. The polynomial has at most one variable.
-    If the name is empty, the polynomial has no real root. Otherwise, the name is a weight in ``nonzero``.
-    Then this weight is the variable, and zero is the only real root."""
+    If the name is empty, the polynomial has no real root. If the name is not empty, the name is a weight in
+    ``nonzero``. This weight is the variable of the polynomial, and zero is the only real root of the
+    polynomial."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]

@@ -8,8 +8,9 @@ extension has order q if the following equations hold for all trees t with at mo
 - sum_i beta_{p,i} Phi_i(t) = 1/gamma(t) for p = |t|
 - sum_i beta_{p,i} Phi_i(t) = 0 for all other p
 
-The solution of least norm is used. If the first stage is the initial value, the choice for p = 1 is
-beta_{1,1} = 1, and beta_{1,i} = 0 for i > 1. Then the derivative of the extension at theta = 0 is exact.
+For each p, the solution of least norm is used, with one exception. If the first stage is the initial value,
+the solution for p = 1 is beta_{1,1} = 1 and beta_{1,i} = 0 for i > 1. Then the derivative of the extension at
+theta = 0 is exact.
 
 Finally, the coefficients of the highest power of theta are changed to obtain b_i(1) = b_i. The coefficients
 of the two highest powers are changed if three conditions hold: q > 1, the first stage is the initial value,

@@ -297,7 +297,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # ``order`` ends with the middle step sizes. The constraint ``total`` determines its last free entry.
+    # The step sizes in the middle of the list ``gamma`` are the last entries of ``order``. The constraint
+    # ``total`` determines the last free entry of ``order``.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -395,10 +396,13 @@ def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Layout:
-    """The parametrisations of one tableau format. A structure is the name of a parametrisation.
+    """The parametrisations of one tableau format. Each parametrisation has a name, which is called a
+    structure.
 
-    ``ansatz`` returns the ansatz for a family, a specification, a structure and a tableau name.
-    ``structures`` returns the structures that a search tries, in order of trial.
+    ``ansatz`` returns an :class:`~orderconds.solve.ansatz.Ansatz`, a tableau with free coefficients. The four
+    arguments of ``ansatz`` are a family of methods, the required properties of the method (:class:`Spec`), a
+    structure, and a name for the tableau. ``structures`` returns the structures that a search tries, in order
+    of trial.
     """
 
     ansatz: Callable[[Family, Spec, str, str], Ansatz]

@@ -78,8 +78,8 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # ``whole`` is the number of exponentials of the update at the beginning of stage i. For two different
-        # stages i and s + 1 - i, the values of ``whole`` add up to m.
+        # Stage i begins with the first ``whole`` exponentials of the update. The update has m exponentials.
+        # For two different stages i and s + 1 - i, the values of ``whole`` add up to m.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

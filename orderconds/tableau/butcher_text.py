@@ -20,8 +20,9 @@ def butcher_text(tableau: Tableau) -> list[str]:
 
     For a commutator-free method, the result is the Runge-Kutta tableau to which the method reduces on vector
     spaces. For a composition of a symmetric method of order 2, the result is the tableau of the composition
-    of implicit midpoint steps. For a composition of a method and its adjoint, the result is the tableau of a
-    composition of explicit Euler steps (method) and implicit Euler steps (adjoint).
+    of implicit midpoint steps. For a composition of a method and its adjoint, the steps of the method are
+    replaced by explicit Euler steps, and the steps of the adjoint are replaced by implicit Euler steps. The
+    result is the tableau of this composition of Euler steps.
 
     Raises :class:`orderconds.errors.TableauError` for splitting methods and Magnus methods.
 

@@ -260,8 +260,9 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
 
     If square roots do not suffice for an irreducible factor, its roots get the names c1, c2, ... in ascending
     order. The largest root gets no name: it is the sum of all roots minus the other roots. If the roots of
-    the factor are symmetric about their mean m, each root is m + sqrt(x) or m - sqrt(x). Then the numbers x,
-    not the roots, are expressed by square roots or get names.
+    the factor are symmetric about their mean m, the roots form pairs m + sqrt(x) and m - sqrt(x), with one
+    number x for each pair. For such a factor, the numbers x are expressed by square roots or get names, and
+    the roots get no names.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

@@ -7,8 +7,9 @@ stage. The method is symmetric if two conditions hold:
 
 - The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
   original sequence.
-- For every stage i, the inverses of the conjugates, in the original order, lead from y1 to the value of stage
-  s + 1 - i.
+- For every stage i, take the sequence from y0 to the value of stage i. Replace each exponential by the
+  inverse of the conjugate of this exponential, and keep the order of the sequence. The new sequence leads
+  from y1 to the value of stage s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """

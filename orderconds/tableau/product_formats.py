@@ -217,8 +217,9 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the Magnus method, and None instead of an embedded update.
 
-        Every exponent must lie in the Lie algebra of every quadratic Lie group, for example SO(n) or Sp(2n).
-        Otherwise, TableauError is raised.
+        Consider the equation Y' = A(t) Y on a quadratic Lie group, for example SO(n) or Sp(2n). The matrices
+        A(t) lie in the Lie algebra of this group. Each exponent of the method must lie in this Lie algebra,
+        too. TableauError is raised if an exponent violates this requirement for some quadratic Lie group.
         """
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)

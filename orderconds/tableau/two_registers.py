@@ -81,8 +81,8 @@ class Rewriting:
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     """Rewrite a method as a low-storage (2N) scheme. If no such scheme exists, return the reason.
 
-    The scheme and ``method`` compute the same step. For a Runge-Kutta method, the steps agree only on vector
-    spaces.
+    If ``method`` is commutator-free, the scheme and ``method`` compute the same step. If ``method`` is a
+    Runge-Kutta method, the scheme and ``method`` compute the same step on vector spaces.
 
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))

@@ -12,8 +12,8 @@ The table ``[proof]`` names order conditions in which the decimals with ``~`` ar
     printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
 The name of an unknown is its name under ``numbers``, or its position in the file, for example ``A[2][1]``. If
-a named number or coefficient contains several decimals, their names also contain their values, for example
-``A[2][1]: 0.25``. Equal decimals are one unknown.
+a named number or a coefficient contains several decimals with ``~``, the name of each of these unknowns ends
+with the value of the decimal, for example ``A[2][1]: 0.25``. Equal decimals are one unknown.
 """
 
 from __future__ import annotations
@@ -122,8 +122,8 @@ class SymbolicCoefficients(Struct, frozen=True):
 
 
 class _Substituted:
-    """Operations in ``ring`` for the evaluation of a file. ``known`` contains the values of rounded
-    decimals."""
+    """The operations that evaluate the expressions of a tableau file in ``ring``. ``known`` maps each rounded
+    decimal of the file to the element of ``ring`` that replaces the decimal."""
 
     def __init__(self, ring: RootedRing, known: Mapping[Constant, Element]) -> None:
         self.ring, self.known = ring, known

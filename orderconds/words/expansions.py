@@ -190,7 +190,8 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
 
 def _after_first(word: Word) -> Fraction:
     """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. The first
-    letters come from Y, and the last letters come from exp(-F_1)."""
+    letter of a word denotes the last factor of a product. Therefore the first letters of the word come from
+    the right factor Y, and the last letters of the word come from the left factor exp(-F_1)."""
     result = iterated_integral(word)
     for cut in range(len(word)):
         scale = exponential_scales(len(word) - cut)[-1]

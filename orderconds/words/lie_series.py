@@ -160,8 +160,8 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return a function that maps a weight to the coefficients of bracketed Lyndon words up to this weight,
-    in a series sum_k c_k ad_U^k X with numbers c_k.
+    """A series sum_k c_k ad_U^k X with numbers c_k is a linear combination of bracketed Lyndon words. Return
+    a function that maps a weight to the coefficients of the bracketed Lyndon words up to this weight.
 
     ``expand(n)`` maps the words with at most n letters to their coefficients in the series. Only the
     Lyndon words X, UX, UUX, ... occur.

@@ -28,8 +28,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """Return a basis of the functionals on words of length ``length`` that vanish on the two-sided ideal with
     the given generators.
 
-    The first word of a functional does not occur in the other functionals. As many first words as possible
-    are Lyndon words.
+    The first word of a functional does not occur in the other functionals. The basis is chosen such that the
+    number of functionals whose first word is a Lyndon word is as large as possible.
 
     >>> commuting = {(0, 1): Fraction(1), (1, 0): Fraction(-1)}
     >>> orthogonal([commuting], (0, 1), 2)
