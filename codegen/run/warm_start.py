@@ -314,6 +314,6 @@ class WarmStart:
         # ``place`` is true once in SELDOM steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
-            Note(f"adapt the degree, or only once in {SELDOM} steps if the ring buffer is full"),
+            Note(f"adapt the degree, but only in every {SELDOM}th step if the ring buffer is full"),
             If(often, adapt),
         ]

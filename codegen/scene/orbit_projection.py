@@ -16,9 +16,11 @@ DISPLACEMENT = 1e-4
 """The distance from the initial state to the points that the test :func:`reaches_orbit` projects."""
 
 REDUCED = 1e-2
-"""The largest factor by which the projection in :func:`reaches_orbit` may multiply the distance from the
-orbit. The test measures the distance from the tangent space of the orbit at the initial state. A point
-of the orbit can have a distance of about DISPLACEMENT^2 from this tangent space, so the factor is not zero.
+"""The largest factor by which the projection in :func:`reaches_orbit` may multiply the distance of a point
+from the tangent space of the orbit at the initial state.
+
+A point of the orbit can have a distance of about DISPLACEMENT^2 from this tangent space. Therefore the factor
+is not zero.
 """
 
 INDEPENDENT = 1e-8
