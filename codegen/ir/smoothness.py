@@ -17,7 +17,11 @@ from codegen.ir.selection import ABSOLUTE, CHOOSE, selects
 from codegen.ir.table import PiecewisePolynomial
 
 Sides = tuple[int, ...]
-"""For each selection in a list, the index of the selected formula."""
+"""A tuple that contains one index for each selection in a list of selections.
+
+A selection is a call of ``choose``, ``fabs`` or a piecewise polynomial. Each call chooses one of several
+formulas, and the index is the index of the chosen formula.
+"""
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
@@ -44,7 +48,8 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
-            # In ``args``, selections from ``nodes`` are already replaced by their formulas.
+            # The arguments of ``node`` may contain selections from ``nodes``. In ``args``, each of these
+            # selections is already replaced by one of its formulas.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:
@@ -118,7 +123,8 @@ def _argument(node: Expr) -> str:
     if x.op == "neg":
         (x,) = x.args
     if x.op == "sub":
-        # The result is the same for the differences a - b and b - a.
+        # The differences a - b and b - a have the same zeros, so both must give the same text. Therefore a
+        # and b are sorted.
         first, second = sorted(x.args, key=lambda e: (e.op == "const", e.id))
         return f"{first} - {second}"
     # ``str`` encloses sums, products and quotients in parentheses.

@@ -49,7 +49,9 @@ class PiecewisePolynomial(str):
         """Return the piecewise polynomial. Zeros are appended to the rows of coefficients until all rows
         have the same length and at least two entries.
         """
-        # With at least two coefficients, Horner's rule returns NaN for x = NaN.
+        # A row with only one coefficient would define a constant, and the value of a constant at x = NaN is
+        # not NaN. With at least two coefficients, Horner's rule multiplies by a difference that contains x.
+        # Therefore the value at x = NaN is NaN.
         width = max(2, *map(len, rows))
         rows = tuple((*row, *(Fraction(0),) * (width - len(row))) for row in rows)
         content = ";".join(",".join(map(str, row)) for row in (knots, bases, *rows))

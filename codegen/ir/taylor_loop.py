@@ -71,7 +71,8 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
     The scalars of ``recurrence`` must be expressions of ``space``, and ``recurrence.scale`` must be 1.
     """
-    # Coefficient 1 would suffice for ``start``. The method ``_Loop.constant`` needs more coefficients.
+    # The list ``start`` contains only the coefficient with index 1 of each coordinate. The coefficients with
+    # larger indices are computed for the method ``_Loop.constant``.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
     # Coefficient n + 1 of a coordinate is 1/(n + 1) times coefficient n of the derivative of the coordinate.
@@ -113,7 +114,8 @@ def _known(x: Expr | None) -> Expr:
 class _Loop:
     """Builds the expression for coefficient n of each series.
 
-    - ``pairs`` contains the series a and b of each sum of a_j b_{n-j} over 0 < j < n.
+    - ``pairs`` contains pairs (a, b) of series. For each pair, the loop computes an inner sum: the sum of the
+      products a_j b_{n-j} over 0 < j < n.
     - ``first`` are expressions that are computed before the loop over n.
     - ``known`` maps the id of a series to its coefficient n, or to None if the series is constant.
     - ``places`` maps the ids of a pair of series to the index of the pair in ``pairs``.
@@ -259,7 +261,8 @@ class _Loop:
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
-                # If x is constant, q x' is zero. If y is constant, p y' is zero.
+                # In the derivative p y' - q x' of the angle, the term q x' is zero if x is constant, and the
+                # term p y' is zero if y is constant.
                 (mean,) = means
                 return space.sym(INVERSE) * (mean if self.known[id(slopes[0])] is not None else -mean)
             case Antiderivative(slope=slope, rate=rate):
@@ -281,14 +284,16 @@ def _operands(series: Series) -> Sequence[Series]:
         case Power(a=a, slope=slope):
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
-            # Coefficient n of the cosine does not occur in the formula for the sine.
+            # Coefficient n of the sine depends on coefficient n of ``slope``, but not on coefficient n of the
+            # cosine. Therefore the result contains ``slope``, and does not contain the cosine.
             return (slope,)
         case Chosen(a=a, b=b):
             return a, b
         case Angle(slopes=slopes):
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
-            # Coefficient n of ``slope`` does not occur in the formula for the logarithm.
+            # Coefficient n of the logarithm of a depends on coefficient n of a, but not on coefficient n of
+            # ``slope``. Therefore the result does not contain ``slope``.
             return (a,)
         case Given() | Start():
             return ()

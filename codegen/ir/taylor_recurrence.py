@@ -82,7 +82,8 @@ class _Builder:
         if base is not node:
             return (base,)
         if node.op == "div":
-            # If the divisor is c x^e, the series of x is used in place of the series of the divisor.
+            # The divisor is written as c x^e with numbers c and e. The series of the quotient is built from
+            # the series of x. The series of the divisor is not needed. Here x is ``divisor``.
             _, divisor, _ = self.monomial(node.args[1])
             return node.args[0], divisor
         return node.args
@@ -300,7 +301,8 @@ class Recurrence:
         self.time = Given(domain, values[TIME], scale)
         series: dict[str, Series] = dict(zip(symbols, self.coordinates, strict=True))
         self.builder = _Builder(domain, series | {TIME: self.time}, values)
-        # Each entry (c, a) of ``slopes`` represents the derivative c a of a coordinate.
+        # An entry (c, a) of ``slopes`` consists of a number c and a series a. The derivative of a coordinate
+        # is the product of c and a.
         self.slopes = [_apart(self.builder.of(root)) for root in roots]
 
     def extend(self, degree: int) -> list[list[Coefficient]]:
@@ -342,5 +344,9 @@ class Recurrence:
 
 
 def _apart(series: Series) -> tuple[Number, Series]:
-    """Return c and a if ``series`` is a :class:`Multiple` c a, otherwise 1 and ``series``."""
+    """Return a number and a series whose product is ``series``.
+
+    A :class:`Multiple` is the product of a number and a series. If ``series`` is a :class:`Multiple`, the
+    result contains these two factors. Otherwise the result contains the number 1 and ``series``.
+    """
     return (series.number, series.a) if isinstance(series, Multiple) else (Number.rational(1), series)

@@ -201,8 +201,8 @@ class Slope(Series):
         self.a = a
 
     def following(self, n: int) -> Coefficient:
-        """Return n a_n, where a_n is coefficient n of the series a. The result None for n = 0
-        represents zero.
+        """Return n a_n, where a_n is coefficient n of the series a. For n = 0, the result is None. None
+        represents a coefficient that is identically zero.
         """
         # The factor n is zero for n = 0, so coefficient 0 is identically zero.
         return _scaled(self.domain, Number.rational(n), self.a.term(n)) if n else None
@@ -267,7 +267,8 @@ class Antiderivative(Series):
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # Only the coefficients r_0, ..., r_{n-1} are needed. They contain only lower coefficients of f(a).
+        # For the series r = ``self.rate``, only the coefficients r_0, ..., r_{n-1} are needed. These
+        # coefficients do not depend on coefficient n of f(a).
         return _mean(self.domain, self.slope, self.rate, n)
 
 
@@ -284,7 +285,10 @@ class Circular(Series):
         self.name, self.a, self.slope, self.minus = name, a, slope, minus
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the sine or the cosine.
+        """Return coefficient n of this series, which is the sine or the cosine of ``self.a``.
+
+        If this series is the sine, ``self.other`` is the cosine. If this series is the cosine, ``self.other``
+        is the sine.
 
         Let a_j and o_j be the coefficients of ``self.a`` and ``self.other``. For n > 0, let z be the sum of
         j a_j o_{n-j}/n over 0 < j <= n. The result is z for the sine, and -z for the cosine.
@@ -314,7 +318,8 @@ class Angle(Series):
         """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
-        # The sum is computed in two parts: the terms with y_j, and the terms with x_j.
+        # Coefficient n is the difference of two sums. The first sum contains the terms j y_j p_{n-j}/n, and
+        # the second sum contains the terms j x_j q_{n-j}/n.
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
         return _subtract(*means)
 

@@ -25,8 +25,8 @@ class TimeMomentum(Operation):
     Let Q and P be the positions and the momenta in Y. The new value of u is u + (Q.P' - P.Q')/2. The prime
     denotes the derivative with respect to t for fixed y and fixed step size h.
 
-    The arguments are (y, u), (Y, u) and t. The program ``step`` computes Y from y and t, and does not change
-    u.
+    The arguments are the point (y, u) before the step, the point (Y, u) after the step, and the time t. Both
+    points contain the old value of u. The program ``step`` computes Y from y and t, and does not change u.
     """
 
     step: Program
@@ -45,7 +45,12 @@ class TimeMomentum(Operation):
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
-        """Return (Q.P' - P.Q')/2, the change of u in the step, as a scalar of ``domain``."""
+        """Return the change of the momentum u in the step, as a scalar of ``domain``.
+
+        Let Q and P be the positions and the momenta after the step. The change of u is (Q.P' - P.Q')/2. The
+        dot denotes the scalar product of two vectors. The prime denotes the derivative with respect to the
+        time t for fixed y and fixed step size h, where y is the point before the step without u.
+        """
         # The point after the step is differentiated with respect to t. Hence y and t are symbols.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)

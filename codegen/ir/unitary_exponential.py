@@ -129,7 +129,8 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
     result = [zero] * width**2
 
     def put(i: int, j: int, real: T, imaginary: T) -> None:
-        # The matrix has the block rows (A, -B) and (B, A). Set A_ij = ``real`` and B_ij = ``imaginary``.
+        # The matrix has the block rows (A, -B) and (B, A). The arguments are the entries A_ij = ``real`` and
+        # B_ij = ``imaginary``.
         result[width * i + j] = result[width * (ROWS + i) + ROWS + j] = real
         result[width * (ROWS + i) + j] = imaginary
         result[width * i + ROWS + j] = -imaginary  # type: ignore[operator]
@@ -147,7 +148,8 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
 def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
     """Return the entries of A, then the entries of B, for a matrix with the block rows (A, -B) and (B, A)."""
     width = 2 * ROWS
-    # The first three columns of ``matrix`` contain A above B.
+    # The first three columns of ``matrix`` form the block column (A, B): the matrix A, and below A the matrix
+    # B.
     return tuple(matrix[width * i + j] for i in range(width) for j in range(ROWS))
 
 
@@ -245,7 +247,8 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         # The entry (j, k) of u_0 I + u_1 H + u_2 H^2 is p + i q. For v in place of u, the entry is r + i s.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
-        # The two linear combinations are Hermitian. Their entries (k, j) are p - i q and r - i s.
+        # The matrices u_0 I + u_1 H + u_2 H^2 and v_0 I + v_1 H + v_2 H^2 are Hermitian. Therefore the entry
+        # (k, j) of the first matrix is p - i q, and the entry (k, j) of the second matrix is r - i s.
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
         real[ROWS * k + j], imaginary[ROWS * k + j] = p + s, r - q
     return [*real, *imaginary]

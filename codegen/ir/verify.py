@@ -46,7 +46,8 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
-            # No input is required for the coefficients of a continuous extension (dense output).
+            # The coefficients of a continuous extension (dense output) are outputs without a corresponding
+            # input.
             if name.startswith(POWERS) and var.kind is Kind.ALG:
                 continue
             # The embedded solution must have the same kind as the input ``y``.

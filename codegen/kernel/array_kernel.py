@@ -246,7 +246,10 @@ class _Builder:
             self.body.append(Multiplication(target, columns, displacement, added=True))
 
     def evaluated(self, target: Var, point: Var, *time: Var) -> Matrix:
-        """Append statements for the field value B S B^T at ``point``, and return S. B is ``basis``."""
+        """Append statements that compute a matrix S, and return S.
+
+        Let B be the matrix ``self.basis``. The vector field has the value B S B^T at ``point``.
+        """
         n, k, name = self.matrices.rows, self.k, target.name
         displacement, x = self.points[point], self.argument
         if displacement is not None:
@@ -274,11 +277,15 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append the computation of a matrix S, and return S. The field at a point X has the value B S B^T.
+        """Append statements that compute a matrix S, and return S.
 
-        The point is X = X_0 + B D with the ``displacement`` D. If D is zero, ``displacement`` is None. The
-        matrix W consists of the k columns of B that begin at the index ``first``. The field at X is the
-        element W X^T - X W^T of the algebra.
+        Let B be the matrix ``self.basis``, and let X be the point X_0 + B D. Here X_0 is the state at the
+        beginning of the step, and D is ``displacement``. If D is zero, ``displacement`` is None. The vector
+        field has the value B S B^T at X.
+
+        The value of the field at X is the element W X^T - X W^T of the Lie algebra. W is a block of
+        ``self.k`` columns of B. The first column of this block is the column of B with the index ``first``.
+        (``self.k`` is the number of columns of X.)
 
         The matrices J and E select columns of B: X_0 = B J and W = B E. With C = J + D, the core of
         the field is S = E C^T - C E^T.

@@ -77,8 +77,8 @@ class Assignments:
                     inside.append(Let(name, value))
             # If ``block.leading`` is false, Newton's matrix is computed after the values of the loop body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # At the end of a sweep, the values of the body belong to the old unknowns. If ``recomputed``
-            # is true, the values of the body are computed again after the loop.
+            # A sweep computes the values of the loop body from the old unknowns, and changes the unknowns
+            # afterwards. If ``recomputed`` is true, the values of the body are computed again after the loop.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -131,7 +131,10 @@ class Assignments:
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a first value depends on the unknowns of a loop")
         for node in walk(values):
-            # Some steps skip the start statement. Values in ``later`` are assigned before this statement.
+            # This method returns a statement that computes the first values of the unknowns. If solutions of
+            # earlier steps are stored, a step does not execute the assignments inside this statement.
+            # However, each step needs the subexpressions in ``later``. Therefore these subexpressions are
+            # assigned before this statement.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
@@ -153,7 +156,11 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if computing the values of loop k again costs less than half of one iteration."""
+        """Return True if a second computation of certain values of loop k is cheap.
+
+        These are the values of loop k that later loops or the outputs use. The second computation is cheap if
+        it costs less than half as much as one iteration of loop k.
+        """
         rest = [*self._later(k), *self.roots]
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 

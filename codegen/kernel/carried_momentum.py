@@ -1,9 +1,10 @@
 """Conversion of the momentum between the space frame and the body frame.
 
-Emitted code is compiled from a program. If only the emitted code uses the body frame, each step converts the
-momentum. Suppose that the program uses the body frame, and the caller uses the space frame. Then the momentum
-is converted before the first step and after the last step (:class:`codegen.ir.kernel.Carried`). In this
-case, the option ``whole`` makes each step convert the momentum instead.
+Emitted code is compiled from a program. Suppose that the program uses the space frame, and the emitted code
+uses the body frame. Then each step converts the momentum to the space frame and back. Suppose that the
+program uses the body frame, and the caller uses the space frame. Then the momentum is converted before the
+first step and after the last step (:class:`codegen.ir.kernel.Carried`). In this case, the option ``whole``
+makes each step convert the momentum instead.
 """
 
 from __future__ import annotations
@@ -25,8 +26,9 @@ State = tuple[Expr, ...]
 class Frames:
     """The frames of the momentum in a program and in emitted code.
 
-    ``whole`` matters only if the program uses the body frame and the emitted code uses the space frame. If
-    ``whole`` is true, each step converts the momentum to the body frame and back.
+    Suppose that the program uses the body frame, and the emitted code uses the space frame. If ``whole`` is
+    true, each step converts the momentum to the body frame and back. If ``whole`` is false, the steps do not
+    convert the momentum. For all other combinations of frames, ``whole`` has no effect.
     """
 
     scene: Problem
@@ -36,7 +38,8 @@ class Frames:
     @property
     def _alike(self) -> bool:
         """True if ``program`` and the emitted code use the same frame for momenta."""
-        # Emitted code uses the body frame if and only if the scene has a body group.
+        # The left-hand side is true if the program uses the body frame. The right-hand side is true if the
+        # scene has a body group. Emitted code uses the body frame exactly in this case.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
@@ -46,7 +49,7 @@ class Frames:
         return int(group.size)
 
     def begin(self, domain: ExprDomain, state: State) -> State:
-        """Return ``state`` with the momentum in the frame of ``self.program``."""
+        """Return ``state`` with the momentum converted to the frame of ``self.program``."""
         if self._alike:
             return state
         q, mu = state[: self._size], state[self._size :]
@@ -57,7 +60,9 @@ class Frames:
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Return ``new`` with the momentum in the frame of ``state``.
+        """Convert the momentum in ``new`` from the frame of the program to the frame of ``state``.
+
+        The result is the converted state. ``new`` is a state after the step.
 
         ``state`` is the old state in the frame of the emitted code. ``start`` is the old state in the frame
         of the program.

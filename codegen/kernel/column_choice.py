@@ -1,4 +1,5 @@
-"""The choice among variants of a group. The variants update a rotation matrix in different ways.
+"""The choice among several implementations (variants) of a Lie group. The variants update a rotation matrix
+in different ways.
 
 One variant rotates all three columns. Each other variant rotates two columns and computes the third by a
 cross product. All variants are compiled. The kernel with the smallest estimated execution time is used.
@@ -27,7 +28,9 @@ same. With the value 5, the code of five explicit methods changes (``orderconds 
 """
 
 WIDTH = 8
-"""The number of independent operations that a processor completes during one addition.
+"""The assumed throughput of a processor: the number of independent arithmetic operations per time unit.
+
+The time unit is the latency of one addition.
 
 The number was chosen with ``benchmarks/emitted.py``. With the value 16, the emitted files are the same. With
 the value 4, the code of two methods changes (``orderconds regenerate --check``).
@@ -42,7 +45,8 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # If neither flows nor T*G are used, all variants of the group give the same kernel.
+    # If the program contains no flows and ``scene.group`` is not a group T*G, all variants of ``scene.group``
+    # give the same kernel.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     # With run-time inputs, no flow is deferred: the inputs can change in each step.

@@ -84,7 +84,8 @@ def with_carries(kernel: Kernel) -> Kernel:
         state=(*kernel.state, *fields),
         body=_live(body, (*sums, *carries)),
         outputs=(*sums, *carries),
-        # Flows before or after the steps would not update the stored rounding errors.
+        # Deferred flows are executed before the first step or after the last step of a run, and would not
+        # update the stored rounding errors. Therefore the compensated kernel has no deferred flows.
         deferred=None,
         estimate=None,
         vary=None,

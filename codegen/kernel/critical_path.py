@@ -33,8 +33,9 @@ ATOMS = frozenset({"call", "div"})
 SLACK = 1
 """A chain of operations is rewritten if its length is at least the maximal length minus ``SLACK``.
 
-The unit is the latency of an addition. The limits 0, 2 and 4 give the same emitted files. Without a limit,
-the code of the splitting methods on fast_heavy_top changes.
+The unit is the latency of an addition. The values 0, 2 and 4 of ``SLACK`` would give the same emitted files
+as the value 1. If chains of all lengths were rewritten, the code of the splitting methods on fast_heavy_top
+would change.
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
@@ -163,15 +164,17 @@ class _Chains:
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # If ``node`` is linear in ``arg`` and has the level ``late``, both are expanded together.
+                # Suppose that ``node`` is linear in ``arg``, and the levels of ``node`` and ``arg`` are
+                # equal. Then ``arg`` is expanded as a part of ``node``, and needs no entry in ``ends``.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
         """Return ``node`` as a :data:`Sum`. Its keys are nodes of the given ``level``, or None."""
-        # When ``node`` is expanded, ``self.new[node.id]`` changes. Therefore the id of
-        # ``self.new[node.id]`` is part of the key.
+        # The expression ``self.new[node.id]`` replaces ``node``. When ``node`` is expanded, a new expression
+        # replaces ``node``, and sums that were stored for the old expression are no longer valid. Therefore
+        # the key contains the id of the expression.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -179,7 +182,9 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # A node of a lower level contains no node of the level ``level``.
+        # The late factors are nodes whose level equals ``level``. Each subexpression of ``node`` has at most
+        # the level of ``node``. Therefore a node of a lower level is a product without a late factor. Such a
+        # product has the key None.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
@@ -207,7 +212,11 @@ class _Chains:
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Return the sum of ``a`` and ``b``: the values for the same key in two dictionaries :data:`Sum`."""
+        """Add two products that have the same key in two dictionaries of the type :data:`Sum`.
+
+        ``a`` and ``b`` are the values for this key. The result is the value for this key in the dictionary of
+        the total sum.
+        """
         x, y = self._product(*a[1:]), self._product(*b[1:])
         # The sign of ``a`` is factored out, so different signs give the difference.
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
@@ -232,7 +241,11 @@ class _Chains:
         return value if sign > 0 else self._known(-value)
 
     def _combined(self, node: Expr) -> Expr:
-        """Return ``node`` or a reordered product: factors that are constant in a run are multiplied first."""
+        """Multiply the factors of a product that are constant in a run before the last factor.
+
+        Suppose that c1 and c2 are constant in a run, and x is not. If ``node`` is the product of c1 and c2 x,
+        return the product of c1 c2 and x. Otherwise return ``node``.
+        """
         if node.op != "mul":
             return node
         # For fixed c1 and c2, c1 (c2 x) becomes (c1 c2) x.

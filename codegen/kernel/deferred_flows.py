@@ -44,13 +44,15 @@ class Parted:
 def part(program: Program, scene: Problem) -> Parted | None:
     """Split the program of a splitting method into programs for the start, the steps and the end of a run.
 
-    The result is None if the program is not a composition of flows. The result is also None if the steps
-    would contain all flows or no flow.
+    The result is None if the program is not a composition of flows. The result is also None if no flow can be
+    moved out of the steps, or if all flows can be moved out of the steps.
     """
     letters = word(program)
     if letters is None:
         return None
-    # The function ``commute`` compares the results of both orders of two flows at sample points.
+    # For the names a and b of two parts of the Hamiltonian, ``commute(a, b)`` is true if the flows of these
+    # parts commute. The function applies the two flows to sample points in both possible sequences, and
+    # compares the results.
     commute = commuting(scene)
     # A part is not deferred if one of its flows reads a stage time or has a duration other than h.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
@@ -58,7 +60,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # If ``kept`` is empty, no flow remains in the steps.
+    # If ``kept`` is empty, all flows can be moved out of the steps. If ``joined`` and ``spun`` are empty, no
+    # flow can be moved out of the steps.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)

@@ -32,7 +32,8 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
     # With COMBINED, ``to_kernel`` creates no new functions. This avoids name clashes with functions of the
     # step.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
-    # The outputs are the coefficients of theta^1, ..., theta^degree. The constant term of sigma is zero.
+    # The outputs are the coefficients of theta^1, ..., theta^degree. These are all coefficients of the
+    # polynomial sigma(theta), because sigma(0) = 0.
     degree = len(program.outputs)
     return Continuous(coefficients, _moved(coefficients, problem), degree, order)
 

@@ -23,8 +23,9 @@ from codegen.passes.rewrite import uses
 MANY = 12
 """The largest number of unknowns for which all products of sums in Newton's matrix are expanded.
 
-An unexpanded sum is computed before the iteration and occupies a register during the iteration. For vcf:cf4
-on dipole (12 unknowns), the expansion increases the number of assignments from 439 to 472.
+If products were not expanded, the values of some sums would be computed before the iteration. Each of these
+values would occupy a register during the iteration. For vcf:cf4 on dipole (12 unknowns), the expansion
+increases the number of assignments from 439 to 472.
 """
 
 LONGEST_MATRIX = 1500
@@ -74,9 +75,10 @@ def compared(
     The images g(u) are replaced by the residuals r(u). The matrix is -r'(u), expanded to first
     order in h. The result is None if ``block`` has no residuals, or if the residuals cannot be expanded in h.
 
-    In the last sweep, the values in ``env`` are computed before the unknowns change. Therefore a first-order
-    correction is added to each of these values in ``env``. If a correction costs at least half as much as a
-    new computation, the value is computed again after the loop.
+    Each sweep computes the values of the variables of ``block`` from the old unknowns u, and adds a change d
+    to u afterwards. Let v(u) be such a value in a vector space. Later statements need the value at the new
+    unknowns. Therefore v(u) + v'(u) d replaces v(u) in ``env``, with v'(u) expanded to first order in h. If a
+    correction costs at least half as much as a new computation, the value is computed again after the loop.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -97,7 +99,7 @@ def compared(
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
-        # Only values in vector spaces can be corrected by addition.
+        # Only values in vector spaces are corrected, because the correction is an addition.
         if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
@@ -186,7 +188,8 @@ class Solved:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
-            # An image is replaced only if it contains operations.
+            # An image g_i(u) without operations is a symbol or a number. Such an image is not replaced by
+            # u_i.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 

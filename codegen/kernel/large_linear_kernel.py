@@ -32,7 +32,10 @@ from codegen.scene.linear_scene import LinearScene
 from codegen.scene.problem import TIME, Problem
 
 LARGE_SUM = 1e-6
-"""The sum of all coefficients of h A(t_i) counts as zero if its absolute value is below this limit."""
+"""A sum of coefficients counts as zero if the absolute value of the sum is below this limit.
+
+The coefficients are all coefficients of one linear combination of matrices h A(t_i).
+"""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
@@ -63,7 +66,9 @@ def _model(timed: bool) -> Problem:
     from sympy import Rational, Symbol
 
     t = Symbol(TIME) if timed else Rational(1, 3)
-    # For commuting values of A, errors in commutators would remain undetected.
+    # For two different times s and t, the matrices A(s) and A(t) do not commute in this problem if ``timed``
+    # is true. If the matrices commuted, all commutators would be zero, and an error of a compiler pass in a
+    # commutator would remain undetected.
     A = SquareMatrix(3, 3, lambda i, j: Rational(i + 1, j + 2) * t + Rational(i * j - 1, 3) + (i - j) * t**2)
     return LinearScene(group=GL(3), action=LinearMaps(), A=A, y0=[1, 0, 0], span=(0, 1))
 
@@ -137,7 +142,7 @@ class _Builder:
             for var in _needed(x, statements):
                 self.run(statements[var])
             value = self.values[x]
-            # The exponents contain matrices h A(t_i) without a division by h (:class:`_Value`).
+            # A :class:`_Value` represents x/h^p, where ``power`` is p. For an exponent, p must be 0.
             if value.power:
                 raise AssertionError(value.power)
             if not value.is_zero:
@@ -176,7 +181,7 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # A(t) is stored as h A(t)/h^p with p = 1 (:class:`_Value`).
+            # A :class:`_Value` represents x/h^p. The matrix A(t) is stored with x = h A(t) and p = 1.
             case Field():
                 # An autonomous matrix A is constant, so any time gives the same value.
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
@@ -229,7 +234,7 @@ class _Builder:
         """Return [x, y].
 
         If x and y contain no commutators, the result is computed as [x - c y, y] with c from
-        :func:`_difference`. The bound of its norm is usually smaller.
+        :func:`_difference`. For small step sizes, the matrix x - c y usually has a smaller norm than x.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)

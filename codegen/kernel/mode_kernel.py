@@ -76,7 +76,9 @@ ZERO = Number.rational(0)
 
 @dataclass(frozen=True)
 class _Element:
-    """The vector field u -> h^power (a lambda u + b) on one Fourier mode.
+    """The vector field u -> h^power (a lambda u + b) for the coefficient u of one Fourier mode.
+
+    Here a is the number ``a``, and lambda is the eigenvalue of the linear operator L for this mode.
 
     ``b`` contains the coefficients of a linear combination of values of the nonlinearity N.
     """
@@ -179,7 +181,8 @@ class _Execution:
                 # Times are in units of h, and the step begins at time 0.
                 self.times[var] = ZERO
             else:
-                # The initial point of the step is 1 times the old state.
+                # Points are represented by the coefficients of linear combinations (:data:`Sum`). The initial
+                # point of the step is the old state, so the only coefficient is 1.
                 self.points[var] = {STATE: _constant(ONE)}
         for assign in program.assigns():
             self._execute(assign)
@@ -266,7 +269,8 @@ class _Execution:
         """Record an evaluation of the nonlinearity N at ``point`` and ``time``."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # N_j is the new value of N. The result is the vector field u -> a lambda u + N_j with a = 1.
+        # N_j is the new value of N. The result represents the vector field u -> lambda u + N_j. The factor of
+        # lambda u is the first argument, ``ONE``.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:

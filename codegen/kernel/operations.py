@@ -158,8 +158,9 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # At the end of a run, mu + outward(q', m') - outward(q, m) is computed
-        # (:class:`codegen.ir.kernel.Carried`).
+        # Let (q, m) and (q', m') be the group element and the body momentum before and after the steps. At
+        # the end of a run, mu + outward(q', m') - outward(q, m) is computed, where mu is the old space
+        # momentum (:class:`codegen.ir.kernel.Carried`).
         added = {"add": 2 * len(turned[1].outputs)}
         # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]

@@ -65,7 +65,8 @@ def function(
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # Expressions for the inputs of one call can be too special for other calls. Here the inputs are symbols.
+    # A formula that is built from the input expressions of one call may be wrong for the inputs of other
+    # calls. Therefore each input is a symbol, unless all calls pass the same constant for this input.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -90,7 +91,7 @@ def function(
             # In ``numbers``, the coefficients of this sum begin at the index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
-            # For a coefficient c = a h^p, the input x has the value a. The function multiplies a by h^p.
+            # For a coefficient c = a h^p, each call passes a as the input x. The function computes x h^p.
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [
@@ -101,7 +102,7 @@ def function(
         else:
             own = assign.operation.evaluate(scene, domain, args)
             results += own
-            # The ``len(own)`` results share one text. ``texts[k]`` belongs to ``results[k]``.
+            # ``texts[k]`` describes ``results[k]``. All results in ``own`` have the same text.
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]

@@ -169,7 +169,8 @@ class Outline:
 
         waiting = list(roots)
         while waiting:
-            # The walk stops at each result of a tree. A function call will compute this result.
+            # The walk does not visit the arguments of a result of a tree, because emitted code computes this
+            # result by a call of an outlined function.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]

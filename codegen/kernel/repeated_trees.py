@@ -115,8 +115,9 @@ class Trees:
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Only a result with a single reader can be joined. With the product (c d) v, the result d v has one
-        # reader less.
+        # Only a result with a single reader can be joined. The assignment of c (d v) is a reader of the
+        # result d v. The assignment of (c d) v reads v in place of d v. Therefore the replacement reduces the
+        # number of readers of d v by one.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -157,7 +158,9 @@ class Trees:
                     best, saved = key, gain
             if best is None:
                 return list(trees.values())
-            # A joined tree has a new key. Therefore no tree is joined twice in one round.
+            # The pairs were found before trees were joined in this round. After trees i and j are joined,
+            # each further pair that contains i or j is no longer valid. Therefore ``used`` contains all trees
+            # that were joined in this round.
             used: set[int] = set()
             for i, j in pairs[best]:
                 if i in used or j in used:
@@ -206,7 +209,8 @@ class Trees:
                     # None means that implicit equations read the variable ``v``.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
-            # None also means that ``v`` is an output of the program.
+            # The list ``self._users[v]`` contains the readers of the variable ``v``. Here the entry None
+            # shows that ``v`` is an output of the program.
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
@@ -235,7 +239,8 @@ class Trees:
             places = []
             for v in self.executions[i].assign.args:
                 if v in targets:
-                    # Results of earlier assignments have negative numbers.
+                    # The variable ``v`` is a result of an earlier assignment in the tree. The results are
+                    # counted from 1, and result k is represented by the number -k.
                     places.append(-targets[v])
                 else:
                     # Input variables are numbered in the order in which they are first read.
