@@ -2,9 +2,10 @@
 
 Emitted code is compiled from a program. Suppose that the program uses the space frame, and the emitted code
 uses the body frame. Then each step converts the momentum to the space frame and back. Suppose that the
-program uses the body frame, and the caller uses the space frame. Then the momentum is converted before the
-first step and after the last step (:class:`codegen.ir.kernel.Carried`). In this case, the option ``whole``
-makes each step convert the momentum instead.
+program uses the body frame, and the caller of the emitted code uses the space frame. If the option ``whole``
+is false, the momentum is converted only before the first step and after the last step
+(:class:`codegen.ir.kernel.Carried`). If the option ``whole`` is true, each step converts the momentum to the
+body frame and back.
 """
 
 from __future__ import annotations
@@ -39,7 +40,8 @@ class Frames:
     def _alike(self) -> bool:
         """True if ``program`` and the emitted code use the same frame for momenta."""
         # The left-hand side is true if the program uses the body frame. The right-hand side is true if the
-        # scene has a body group. Emitted code uses the body frame exactly in this case.
+        # scene has a body group. The scene has a body group if and only if the emitted code uses the body
+        # frame. Therefore both sides are equal if the program and the emitted code use the same frame.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property

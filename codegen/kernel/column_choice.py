@@ -45,8 +45,8 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # If the program contains no flows and ``scene.group`` is not a group T*G, all variants of ``scene.group``
-    # give the same kernel.
+    # The variants of ``scene.group`` are different implementations of this group. If the program contains no
+    # flows and ``scene.group`` is not a group T*G, all variants give the same kernel.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     # With run-time inputs, no flow is deferred: the inputs can change in each step.

@@ -182,9 +182,10 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # The late factors are nodes whose level equals ``level``. Each subexpression of ``node`` has at most
-        # the level of ``node``. Therefore a node of a lower level is a product without a late factor. Such a
-        # product has the key None.
+        # The result is a sum of products. A factor of such a product is called late if the level of the
+        # factor equals ``level``. Each subexpression of ``node`` has at most the level of ``node``. Suppose
+        # that the level of ``node`` is below ``level``. Then ``node`` contains no late factor. In this case,
+        # the sum has ``node`` as its only product, and the key of this product is None.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
@@ -241,7 +242,8 @@ class _Chains:
         return value if sign > 0 else self._known(-value)
 
     def _combined(self, node: Expr) -> Expr:
-        """Multiply the factors of a product that are constant in a run before the last factor.
+        """Change the order of the multiplications in a product, so that constant factors are multiplied
+        first.
 
         Suppose that c1 and c2 are constant in a run, and x is not. If ``node`` is the product of c1 and c2 x,
         return the product of c1 c2 and x. Otherwise return ``node``.

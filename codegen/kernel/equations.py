@@ -70,15 +70,15 @@ class Block:
 def compared(
     block: Solve, entered: Block, env: dict[Var, Any], name: Callable[[str], str], program: Program
 ) -> Block | None:
-    """Return ``entered`` (the expressions of ``block``) with Newton's matrix.
+    """Return a copy of ``entered`` (``block`` as expressions) that contains Newton's matrix.
 
     The images g(u) are replaced by the residuals r(u). The matrix is -r'(u), expanded to first
     order in h. The result is None if ``block`` has no residuals, or if the residuals cannot be expanded in h.
 
-    Each sweep computes the values of the variables of ``block`` from the old unknowns u, and adds a change d
-    to u afterwards. Let v(u) be such a value in a vector space. Later statements need the value at the new
-    unknowns. Therefore v(u) + v'(u) d replaces v(u) in ``env``, with v'(u) expanded to first order in h. If a
-    correction costs at least half as much as a new computation, the value is computed again after the loop.
+    Each sweep computes the variables of ``block`` from the old unknowns u. Afterwards u changes to u + d. Let
+    v(u) be the value of a variable in a vector space. Statements after the loop need the value v(u + d).
+    Therefore v(u) + v'(u) d replaces v(u) in ``env``. The matrix v'(u) is expanded to first order in h. If
+    the correction v'(u) d costs at least half as much as v(u), v(u + d) is computed again after the loop.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -188,8 +188,8 @@ class Solved:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
-            # An image g_i(u) without operations is a symbol or a number. Such an image is not replaced by
-            # u_i.
+            # An image g_i(u) without operations is a symbol or a number. This class replaces an image g_i(u)
+            # by the unknown u_i only if the image contains an operation.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 

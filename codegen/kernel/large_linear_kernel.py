@@ -34,7 +34,8 @@ from codegen.scene.problem import TIME, Problem
 LARGE_SUM = 1e-6
 """A sum of coefficients counts as zero if the absolute value of the sum is below this limit.
 
-The coefficients are all coefficients of one linear combination of matrices h A(t_i).
+The coefficients belong to one linear combination of matrices h A(t_i). The sum contains the coefficient of
+each matrix in this linear combination.
 """
 
 
@@ -142,7 +143,8 @@ class _Builder:
             for var in _needed(x, statements):
                 self.run(statements[var])
             value = self.values[x]
-            # A :class:`_Value` represents x/h^p, where ``power`` is p. For an exponent, p must be 0.
+            # A :class:`_Value` represents x/h^p, where ``power`` is p. The matrix exponential is applied only
+            # to values with p = 0.
             if value.power:
                 raise AssertionError(value.power)
             if not value.is_zero:

@@ -269,8 +269,9 @@ class _Execution:
         """Record an evaluation of the nonlinearity N at ``point`` and ``time``."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # N_j is the new value of N. The result represents the vector field u -> lambda u + N_j. The factor of
-        # lambda u is the first argument, ``ONE``.
+        # N_j is the value of the nonlinearity N in this evaluation. The result represents the vector field
+        # u -> lambda u + N_j. The first argument of ``_Element`` is the factor of lambda u. This factor is
+        # ``ONE``.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:

@@ -91,7 +91,7 @@ def function(
             # In ``numbers``, the coefficients of this sum begin at the index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
-            # For a coefficient c = a h^p, each call passes a as the input x. The function computes x h^p.
+            # For a coefficient c = a h^p, each call sets the input x = a. The function computes x h^p.
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [

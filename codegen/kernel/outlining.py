@@ -169,8 +169,9 @@ class Outline:
 
         waiting = list(roots)
         while waiting:
-            # The walk does not visit the arguments of a result of a tree, because emitted code computes this
-            # result by a call of an outlined function.
+            # A tree is a group of assignments, and ``ends`` contains the results of all trees. Emitted code
+            # computes such a result by a call of an outlined function. Therefore the walk visits the
+            # expression of the result, but not the arguments of this expression.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]

@@ -115,9 +115,10 @@ class Trees:
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Only a result with a single reader can be joined. The assignment of c (d v) is a reader of the
-        # result d v. The assignment of (c d) v reads v in place of d v. Therefore the replacement reduces the
-        # number of readers of d v by one.
+        # Only a result with a single reader can be joined. Let w = d v be the result of an earlier
+        # assignment. Before the replacement, ``assign`` computes c w and is a reader of w. After the
+        # replacement, ``assign`` computes (c d) v and does not read w. Thus w loses one reader. If one reader
+        # of w is left, the assignment of w can be joined with this reader.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)

@@ -157,8 +157,9 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a site, computed from the stage values of the site and of its neighbours."""
-        # The field at a neighbouring site reads values at a distance of two sites. With such nested
-        # evaluations, the matrix is not block-tridiagonal.
+        # The field at a neighbouring site reads values at a distance of two sites. If the equations at a site
+        # contain the field at a neighbouring site, Newton's matrix is not block-tridiagonal. Such equations
+        # contain nested evaluations: one evaluation of the field reads the result of another evaluation.
         if site != OWN:
             raise MethodError(
                 "on a chain, Newton's method cannot solve equations with nested evaluations of the field",

@@ -56,9 +56,10 @@ class _Block:
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
         """Return pairs (unknown, new value) for the sweep with the index ``number``.
 
-        The first iteration begins with the values ``solve.starts``. These are the new values for
-        ``number = first - 1``. Each iteration computes the values ``solve.images``. These are the new values
-        for ``number = last``. For all other sweeps, the result is empty.
+        The attributes ``first`` and ``last`` are the indices of the first and the last sweep of an iteration.
+        The sweep with the index ``first - 1`` precedes the first iteration. The new values for this sweep are
+        the starting values ``solve.starts``. The new values for the sweep with the index ``last`` are the
+        values ``solve.images``, which each iteration computes. For all other sweeps, the result is empty.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -151,7 +152,10 @@ class Planner:
 
     @cached_property
     def coupled(self) -> tuple[int, ...]:
-        """Indices of blocks in ``problem.state`` that the field at a site reads at neighbouring sites."""
+        """The indices of the coupled blocks in ``problem.state``.
+
+        A block is coupled if the field at a site reads the values of this block at neighbouring sites.
+        """
         read = {n.payload for n in walk(self.problem.roots) if n.op == "sym"}
         return tuple(
             k
@@ -186,7 +190,8 @@ class Planner:
             points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
                 # The field reads unknowns at neighbours. A sweep that evaluates the field must not change
-                # these unknowns. Therefore one more sweep changes these unknowns.
+                # these unknowns. Therefore a separate sweep is added at the end of each iteration, and only
+                # this added sweep changes the unknowns.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
             # The solution satisfies u = g(u), so the rest of the program reads u in place of g(u).

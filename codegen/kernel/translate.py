@@ -298,8 +298,10 @@ class _Translation:
 
         Computations are outlined only if outlining makes the kernel much shorter.
         """
-        # ``before`` contains the names that are in use before ``schedule`` creates new names. Before
-        # outlining, ``taken`` is reset to ``before``. Thus outlining may use the new names of ``schedule``.
+        # ``before`` contains the names that are in use before ``schedule`` creates new names. When outlining
+        # begins, ``self.taken`` is reset to ``before``. Thus outlining may create the names of ``schedule`` a
+        # second time. This is allowed, because the kernel contains either the assignments of ``schedule`` or
+        # the outlined assignments, but never both.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()

@@ -79,9 +79,10 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # Each sweep adds about the same number of digits. Emitted code solves implicit equations to about twice
-    # as many digits as an interpreted run (SETTLED). Therefore the mean number of sweeps in the interpreted
-    # run is multiplied by 2.
+    # Each sweep adds about the same number of digits. The iterations of an interpreted run end when the
+    # relative change of the unknowns is at most SETTLED. Emitted code solves implicit equations to about
+    # twice as many digits as an interpreted run. Therefore the mean number of sweeps in the interpreted run
+    # is multiplied by 2.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 

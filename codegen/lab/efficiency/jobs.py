@@ -23,10 +23,11 @@ FRESH = 8
 
 
 EVEN = 4.0
-"""The weight of the number s, relative to the numbers n and d, in the delay of a queue of recipes.
+"""A constant in the formula (n + d)/EVEN + s for the delay of a queue of recipes.
 
-The delay is (n + d)/EVEN + s. The next recipe comes from the queue with the smallest delay. All recipes in a
-queue have the same kind (:data:`Kind`) and the same order.
+The numbers n, d and s are defined below. A larger value of EVEN reduces the influence of n and d on the
+delay. The next recipe comes from the queue with the smallest delay. All recipes in a queue have the same kind
+(:data:`Kind`) and the same order.
 
 - n is the number of recipes that were taken from the queue.
 - d is the distance between the order of the recipes and the nearest usual order (:func:`usual_order`).
@@ -35,7 +36,11 @@ queue have the same kind (:data:`Kind`) and the same order.
 """
 
 FAILED = 4.0
-"""The slowness s (:data:`EVEN`) of a queue if the predicted times for the kind of the queue are infinite."""
+"""The value that replaces the slowness s = log2(T1/T2) of a queue of recipes if the time T1 is infinite.
+
+All recipes in a queue have the same kind (:data:`Kind`). T1 is the least predicted CPU time of recipes of
+this kind. T2 is the least predicted CPU time of all recipes.
+"""
 
 
 def usual_order(error: float) -> float:
@@ -135,7 +140,9 @@ class Jobs(Sequence[Job]):
     def _behind(self, queue: Queue) -> float:
         """Return the slowness s (:data:`EVEN`) of a queue, or 0 if there are no predictions.
 
-        The slowness depends on the goal. The result is the least value over all goals.
+        A goal contains the required error of the solution. The predicted CPU times depend on the goal.
+        Therefore the slowness, which is computed from predicted CPU times, depends on the goal. The result is
+        the least value over all goals.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]

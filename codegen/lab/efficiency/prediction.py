@@ -92,13 +92,14 @@ class Prediction:
     """The predicted error of a recipe with ``steps`` steps, and the predicted time of one step.
 
     - ``explicit``: True if the method solves no equations.
-    - ``outside``: the time in nanoseconds of the operations of a step that are not in implicit equations.
+    - ``outside``: the time in nanoseconds that one step needs for all operations outside the implicit
+      equations.
     - ``sweep``: the time in nanoseconds of one sweep (iteration) over all implicit equations of a step.
     - ``sweeps``: the mean number of sweeps in a step.
     - ``steps``: the number of steps for which ``error`` is predicted.
-    - ``error``: the predicted error with ``steps`` steps, or infinity if the interpreted runs failed.
-    - ``rough``: True if every run with equal steps over the whole time span fails or has an error that is not
-      small (:data:`SMALL`).
+    - ``error``: the predicted error with ``steps`` steps. The error is predicted from runs of the method in
+      an interpreter, and is infinite if these runs fail.
+    - ``rough``: True if no run with equal steps over the whole time span has a small error (:data:`SMALL`).
     - ``controlled``: the prediction with step-size control, or None.
     - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS. Then the
       predicted times may be too short.
@@ -154,10 +155,11 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e) for the test at :data:`FAR`. Let p be the order of the recipe.
-      The number e is the least predicted error of methods of the orders p + 1 and p + 2 for the CPU time
-      ``seconds``. If ``explicit`` is True, these methods are explicit, and otherwise implicit. If ``family``
-      is not '', only methods of this family are compared.
+    - ``least``: triples (family, explicit, e). Let p be the order of the recipe. For all methods of the
+      orders p + 1 and p + 2, the error in a run with the CPU time ``seconds`` is predicted. The number e is
+      the least of these errors. If e is too large, the recipe is excluded (:data:`FAR`). If the entry
+      ``explicit`` of the triple is True, only explicit methods are compared, and otherwise only implicit
+      methods. If ``family`` is not '', only methods of this family are compared.
     - ``steps``: the number of steps of the first run in the interpreter.
     - ``explicit``: True if methods that solve equations are excluded.
     """
@@ -175,8 +177,10 @@ class Bar:
 
         - The predicted CPU time of one step, ``step_seconds``, exceeds the time limit of the bar.
         - The bar requires explicit methods, and the argument ``explicit`` is False.
-        - The error e in the triple (family, explicit, e) of ``least`` exceeds :data:`FAR` times the largest
-          accepted error. If there is no such triple, the triple ('', explicit, e) is used.
+        - The attribute ``least`` of the bar contains a triple (family, explicit, e) with the given family and
+          the given value of ``explicit``, and the predicted error e exceeds :data:`FAR` times the largest
+          accepted error. If ``least`` contains no triple with these values of ``family`` and ``explicit``,
+          the triple ('', explicit, e) is used.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -242,9 +246,10 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # If ``most`` is below MANY_STEPS, the time limits of the bars permit at most ``most`` steps over the
-        # whole time span. In this case, a recipe with a large error is not run with smaller steps on a part
-        # of the time span.
+        # If all runs over the whole time span fail, further runs cover only the first part of the time span.
+        # If the most accurate run has a large error, such further runs are made only if ``most`` is
+        # at least MANY_STEPS. If ``most`` is smaller, the time limits in ``bars`` permit no more steps over
+        # the whole time span.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -309,10 +314,10 @@ class Predictor:
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
         """Return two predicted times (outside, sweep) in nanoseconds.
 
-        ``outside`` is the time of the operations of a step that are not in implicit equations. ``sweep`` is
-        the time of one sweep. A sweep is one iteration over all implicit equations. ``widths`` maps each
-        input of the program to its number of components. The function stores the other variables of the
-        program in ``widths``, too.
+        ``outside`` is the time that one step needs for all operations outside the implicit equations.
+        ``sweep`` is the time of one sweep. A sweep is one iteration over all implicit equations. ``widths``
+        maps each input of the program to its number of components. For every variable that the program
+        computes, the function adds the number of components to ``widths``.
         """
         outside = sweep = 0.0
         for statement in program.body:
