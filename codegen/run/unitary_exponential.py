@@ -133,9 +133,10 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
     """Return the statements of one step of Horner's rule for the real or the imaginary part.
 
     The step replaces a polynomial P in the matrix H by i^k/k! + H P, modulo H^3 = ``trace`` H + ``det``.
-    ``part`` contains the real or the imaginary parts of the coefficients of P. If i^k/k! has a
-    nonzero part of the kind in ``part`` (real or imaginary), ``added`` is (1/k!, k modulo 4). Otherwise
-    ``added`` is None.
+    ``part`` contains the real or the imaginary parts of the coefficients of P. The step adds a number to the
+    coefficient of H^0. The number is the real part of i^k/k! if ``part`` contains real parts, and the
+    imaginary part of i^k/k! if ``part`` contains imaginary parts. If the number is zero, ``added`` is None.
+    Otherwise ``added`` is (1/k!, k modulo 4).
     """
     last = real("last")
     # ``added[1]`` is k modulo 4. For 2 and 3, 1/k! is subtracted, because i^2 = -1 and i^3 = -i.

@@ -270,8 +270,9 @@ class WarmStart:
             Assign(moved, number(0.0)),
             *each(self.n, added),
             # The simplest guess is the previous solution. The error of this guess is ``moved``, the sum of
-            # the absolute differences between the new and the previous solution. The stored solutions are
-            # discarded if the last guess was hardly better.
+            # the absolute differences between the new and the previous solution. ``self.first`` is the
+            # estimated error of the last guess. The stored solutions are discarded if ``self.first`` exceeds
+            # ``Start.ROUGH`` times ``moved``.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 

@@ -112,10 +112,13 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # A change without a covering group is yielded only if ``covered`` is False and the change uses the
-        # body frame. A change with neither a covering group nor the body frame gives the first form, which
-        # uses the coordinates of the scene. If ``covered`` is True but no factor has a covering group, the
-        # change was considered in the first iteration.
+        # The change ``best`` is yielded in two cases: ``best`` replaces a factor of the group by a covering
+        # group, or ``covered`` is False and ``best`` uses the body frame. There are two cases in which
+        # ``best`` is not yielded. If ``covered`` is False and ``best`` uses the space frame, ``best`` keeps
+        # the coordinates of the scene. These coordinates give the first classical form, which
+        # :func:`classical_forms` adds. If ``covered`` is True but no factor of the group has a covering
+        # group, the first iteration of the loop over ``covered`` has found the same change of coordinates as
+        # ``best``.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -148,9 +151,11 @@ class _Leaf:
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
         """Return the element of ``group`` that has the coordinates ``own``, with a projection if necessary.
 
-        If ``own`` are coordinates of a covering group, small errors may move ``own`` away from the covering
-        group. The coordinates are projected onto the covering group, and the result is the image of the
-        projected element under the covering map. Without a covering group, ``own`` is returned unchanged.
+        If ``own`` are coordinates of a covering group, numerical errors may change ``own`` to a vector that
+        does not represent an element of the covering group. For example, a quaternion with a norm different
+        from 1 does not represent an element of the group of unit quaternions. The coordinates are projected
+        onto the covering group, and the result is the image of the projected element under the covering map.
+        Without a covering group, ``own`` is returned unchanged.
         """
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
@@ -357,8 +362,8 @@ class _Change:
     def field(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the field in the frame of the classical form, as formulas in the symbols of the scene.
 
-        In the body frame, the momentum is P = Ad*_q mu. Formulas in the body frame use the symbol of the
-        component mu_a for the component P_a.
+        In the body frame, the momentum is P = Ad*_q mu, and the formulas depend on P instead of mu. In these
+        formulas, the component P_a is denoted by the symbol that the scene uses for the component mu_a.
         """
         problem = self.problem
         if not self.body:

@@ -86,8 +86,11 @@ class Evolution:
             return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
-        # ``before`` is mu with rounding errors. ``after`` has similar errors, so most errors cancel in
-        # ``after`` - ``before``. This difference is added to the given values mu, which have no such errors.
+        # ``before`` is the old momentum mu, converted to the body frame and back to the space frame. The two
+        # conversions cause rounding errors. ``after`` is the new momentum, converted from the body frame to
+        # the space frame. The rounding errors of ``after`` and ``before`` are similar, so most errors cancel
+        # in ``after`` - ``before``. This difference is added to the given values mu, which have no such
+        # errors.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:

@@ -16,11 +16,14 @@ DISPLACEMENT = 1e-4
 """The distance from the initial state to the points that the test :func:`reaches_orbit` projects."""
 
 REDUCED = 1e-2
-"""The largest factor by which the projection in :func:`reaches_orbit` may multiply the distance of a point
-from the tangent space of the orbit at the initial state.
+"""A factor in the test of :func:`reaches_orbit`.
 
-A point of the orbit can have a distance of about DISPLACEMENT^2 from this tangent space. Therefore the factor
-is not zero.
+Let T be the tangent space of the orbit at the initial state. The test moves the initial state by the distance
+DISPLACEMENT, perpendicular to T. The test projects the moved point. The projected point passes the test if
+the distance between this projected point and T is at most REDUCED * DISPLACEMENT.
+
+The orbit may be curved. A point of the orbit can have a distance of about DISPLACEMENT^2 from T. A projected
+point on the orbit must pass the test, so REDUCED must be at least about DISPLACEMENT.
 """
 
 INDEPENDENT = 1e-8

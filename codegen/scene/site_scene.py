@@ -64,16 +64,17 @@ def SiteScene(
     - ``boundary``: "periodic" or "open".
     - ``outside``: at an open boundary, the state that replaces a missing neighbour, as a column of formulas
       in ``y``, t and parameters, or as a mapping from offsets to columns. At a free end, this state must
-      exert no force on the site. Depending on ``f``, use a column of zeros or the column ``y`` of the site.
+      exert no force on the site. If the force is proportional to the coordinates of the neighbour, use zeros.
+      If the force is proportional to the coordinates of the neighbour minus ``y``, use ``y``.
     - ``parts``: the summands of the field. A part is a column of formulas in ``y``, or a
       :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: the energy of a site, and the energies of pairs of neighbours (:class:`Bond`).
-    - ``invariants``: functions of the state of one site. Each function must be constant along the
-      solutions of y' = f.y if arbitrary constants replace the coordinates of the neighbours in ``f``.
+    - ``invariants``: functions of the state of one site. Let g be ``f`` with arbitrary constants in place of
+      the coordinates of neighbours. Each function must be constant along the solutions of y' = g.y.
 
-    :class:`SceneError` is raised in the cases of :func:`codegen.scene.FieldScene`, for offsets of different
-    lengths, and if ``outside`` has no state for a neighbour. Other reasons are: the parts do not add up to
-    the field, a part has no exact flow, or the total energy of an autonomous scene is not constant.
+    :class:`SceneError` is raised for each error that :func:`codegen.scene.FieldScene` lists, and for these
+    errors: two offsets have different lengths, ``outside`` has no state for a neighbour, the parts do not add
+    up to the field, a part has no exact flow, the total energy of an autonomous scene is not constant.
     """
     check_group(name, group)
     reader = Reader(name, list(y))
@@ -158,7 +159,8 @@ def _check_energy(problem: Problem) -> None:
 def with_frozen_neighbours(scene: Problem) -> Problem:
     """Return the problem of one site, with the coordinates of the neighbours as parameters.
 
-    The value of each of these parameters is close to an initial coordinate of a site.
+    The value of each of these parameters is an initial coordinate of a site, rounded and shifted by at most
+    5/97. Different neighbours have different shifts, because two neighbours must not have equal states.
     """
     sites = scene.sites
     assert sites is not None

@@ -84,9 +84,10 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 def small(scene: Problem) -> Problem:
     """Return one problem with the equations of all sites of a small lattice.
 
-    In a periodic lattice, no site is its own neighbour. An open lattice contains at least one site
-    with no missing neighbour. If such an open lattice needs more than :data:`MOST_SITES` sites, a smaller
-    lattice is used, and every site of the smaller lattice may have missing neighbours.
+    In a periodic lattice, no site is its own neighbour. An open lattice contains at least one site with no
+    missing neighbour. If an open lattice with this property needs more than :data:`MOST_SITES` sites, a
+    smaller open lattice is used. It is possible that all sites of this smaller open lattice have missing
+    neighbours.
     """
     assert scene.sites is not None
     offsets, dimension = scene.sites.offsets, scene.sites.dimension

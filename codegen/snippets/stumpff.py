@@ -45,14 +45,16 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 
     For a rotation by the angle a, z is a^2. For larger z the value of c_k is NaN, because too few digits of
     the rotated vector would be correct. Let eps = 2^-bits, with bits = ``precision.bits``, be the relative
-    rounding error of the angle. The error of the rotated vector is a eps. If the next angle is
-    computed from this vector, the relative error of the next angle is assumed to be 8 times this error.
+    rounding error of the angle. The error of the rotated vector is a eps. The next angle may be computed from
+    this vector. The relative error of the next angle is assumed to be 8 a eps.
 
     The angle of each of ``chain`` rotations is computed from the result of the preceding rotation
     (:func:`codegen.ir.angle_depth.chain`). Each further rotation multiplies the error by 8 a. The error of
-    the last vector is a^chain 8^(chain-1) eps. The largest angle is 2^m with the largest integer m such that
-    this error is at most 2^-LEFT. Two limits are applied to m. If m is below bits/6 (rounded down), bits/6
-    (rounded down) replaces m. If m is above 2 bits/5 (rounded down), 2 bits/5 (rounded down) replaces m.
+    the last vector is a^chain 8^(chain-1) eps. The last vector must have :data:`LEFT` correct bits, so this
+    error must be at most 2^-LEFT. Let m be the largest integer for which the angle a = 2^m satisfies this
+    condition. Two bounds are applied to m. The lower bound is bits/6, rounded down. The upper bound is
+    (2/5)*bits, rounded down. If m is below the lower bound, m is replaced by the lower bound. If m is above
+    the upper bound, m is replaced by the upper bound. The result is the square of the angle 2^m.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

@@ -136,9 +136,11 @@ def family_order(
       ``family``, so the order in ``family`` is at most ``bound.order``.
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
-    - ``brief``: if true, the search ends at ``bound.order``, and the result contains the failing conditions
-      of ``bound``. If false, the search ends at ``bound.order`` only if
-      ``bound.order >= family.search_limit``. Otherwise the search continues beyond ``bound.order``.
+    - ``brief``: used only if ``bound`` is given. If ``brief`` is true, the search ends at ``bound.order``,
+      and the result contains the failing conditions of ``bound``. If ``brief`` is false, the end of the
+      search depends on ``bound.order``. For ``bound.order >= family.search_limit``, the search ends as if
+      ``brief`` were true. For ``bound.order < family.search_limit``, the search continues with the conditions
+      of order ``bound.order + 1``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get
@@ -159,9 +161,9 @@ def family_order(
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
     """Return a tuple with one condition of order ``order`` that the method of ``tableau`` violates.
 
-    The condition is ``family.first_unmet(order)``. No method of the family satisfies this condition. The
-    method of ``tableau`` is only needed for the residual. The tuple is empty if no such condition is known,
-    or if the residual is a ball that contains zero.
+    Only the condition ``family.first_unmet(order)`` is tested. The residual of this condition is computed for
+    the method of ``tableau``. The tuple is empty in three cases: ``family.first_unmet(order)`` is None, the
+    residual is zero, or the residual is a ball that contains zero.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find

@@ -224,11 +224,13 @@ Reading = tuple[Tableau, Family, int | None]
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return additional families. The order in an additional family can be a bound of the order in a wanted
-    family.
+    """Return families that are not in ``wanted``. Each family is returned with a tableau and a claimed order.
 
-    If all claimed and required orders are below the ``search_limit`` of the family, no bounds are needed, and
-    the result is empty.
+    The orders of ``tableau`` in the returned families are computed first. An upper bound of the order of
+    ``tableau`` in a family of ``wanted`` may follow from the computed orders.
+
+    No upper bounds are needed if each family F of ``wanted`` has the following property: ``required`` and the
+    claimed order in F are below ``F.search_limit``. In this case the result is empty.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []

@@ -102,9 +102,12 @@ class Values:
     functions: dict[str, str] = field(default_factory=dict)
     """A map from the imported name of a function to its original name."""
     sources: dict[str, tuple[frozenset[str], frozenset[int]]] = field(default_factory=dict)
-    """A map from a variable to two sets: names of variables, and values of :attr:`Array.memory`. If the value
-    of the variable is unknown, the value may refer to the variables in the first set, and to the arrays whose
-    ``memory`` is in the second set. Both sets are empty for an evaluated variable.
+    """A map from the name of a variable to a pair of sets.
+
+    The first set contains names of variables. The second set contains integers. If the value of the variable
+    is unknown, the value may refer to the variables in the first set, and to each array whose attribute
+    :attr:`Array.memory` is an integer in the second set. If the value of the variable is not unknown, both
+    sets are empty.
     """
     active: set[str] = field(default_factory=set)
     """Names of functions, classes and instances. The use of such a name may execute code of the module."""
@@ -144,8 +147,10 @@ class Values:
         """Return two sets: the variables and the arrays to which the values of ``names`` may refer.
 
         The first set contains ``names`` and the variables that :attr:`sources` lists for ``names``. The
-        second set contains values of :attr:`Array.memory`: the values that :attr:`sources` lists for
-        ``names``, and the values of all arrays that are values of variables in the first set.
+        second set contains integers. Each integer is the attribute :attr:`Array.memory` of an array. The
+        second set contains the integers that :attr:`sources` lists for ``names``. If the value of a variable
+        in the first set is an array, the second set also contains the integers that :meth:`Array.parts`
+        returns for this array.
         """
         reached, memories = set(names), set[int]()
         for name in names:
@@ -175,9 +180,10 @@ class Values:
     def _forget_others(self, changed: Array, line: int) -> None:
         """Mark arrays as unknown if they may share memory with ``changed``.
 
-        The argument ``changed`` is an array with a new entry, or a row with a new entry. The array
-        ``changed`` stays known. If an array contains the object ``changed`` as a row, the array contains the
-        new entry and stays known.
+        A value was assigned to an entry of ``changed``. The array ``changed`` stays known. A row of an array
+        is an :class:`Array`, so ``changed`` can be a row of a larger array. If a larger array contains the
+        object ``changed`` as a row, the larger array stays known, because the assignment has also changed
+        this row of the larger array.
         """
         for name, other in self.known.items():
             if isinstance(other, Array) and changed.memory in other.parts() and not _contains(other, changed):
