@@ -57,10 +57,11 @@ def optimise(
 class Optimiser:
     """Runs the passes on ``program``, and compares each new program with ``program``.
 
-    If the step repeats a shorter method in several substeps (:mod:`codegen.lower.substeps`), ``composed`` is
-    another program for the step. The statements of ``composed`` compute only one substep. The list
-    ``composed.substeps`` contains all substeps. If ``composed`` is given, the passes rewrite ``composed``
-    instead of ``program``. :class:`codegen.ir.verify.IllFormed` is raised if a pass changes the results.
+    The statements of ``program`` compute a whole step. If the step repeats a shorter method in several
+    substeps (:mod:`codegen.lower.substeps`), the step can be described by a second program, ``composed``. The
+    statements of ``composed`` compute only one substep. These statements are executed once for each substep
+    in the list ``composed.substeps``. If ``composed`` is given, the passes rewrite ``composed`` instead of
+    ``program``. :class:`codegen.ir.verify.IllFormed` is raised if a pass changes the results.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:

@@ -85,7 +85,8 @@ class _Framing:
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # The position q is E q with the identity E. The entry None represents the identity.
+        # Each position Q has the form E q, where q is the position at the start of the step. For Q = q, the
+        # factor E is the identity. The entry None represents the identity.
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:

@@ -234,8 +234,9 @@ class Reference:
 
         Return a description of the difference, or '' if there is no difference. ``program`` fails in a step
         if an exception is raised, for example because an iteration does not converge, or if a result is NaN.
-        If no step can be compared, the result describes the last step in which ``program`` fails and the
-        reference succeeds. If no such step exists, the result is None.
+        If ``program`` fails in a step, a shorter step is tried. If no step can be compared, the result
+        describes the failure of ``program`` in the shortest step that the reference can compute. If the
+        reference can compute none of the steps, the result is None.
         """
         failure = None
         for step in point.results():

@@ -52,8 +52,8 @@ def rows(program: Program, scene: Problem) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
-        # The product is ``assign.targets[0]``. ``own`` is True if the velocity or the force is evaluated at
-        # this product, and if this product is not an output of the program.
+        # The product is ``assign.targets[0]``. ``own`` is True if two conditions hold. First, the velocity or
+        # the force is evaluated at this product. Second, this product is not an output of the program.
         own = assign.targets[0] in fields and assign.targets[0] not in kept
         if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)
@@ -118,11 +118,12 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Append a sum that has one term for each entry (s, (y, W, v)) of ``parts``.
+    """Append a sum that has one term for each entry of ``parts``.
 
-    Let F be the function whose factors are in ``word``. The function W is a product of factors. The term is c
-    F(s ad_y) W(ad_y) v. The number c is the coefficient of the corresponding term in the sum ``total``. The
-    result is the variable of the new sum.
+    Each entry of ``parts`` is a tuple (s, (y, W, v)). In this tuple, s is a rational number, y and v are
+    variables, and W is a function, given by its factors. Let F be the function whose factors are in ``word``.
+    The term for the entry is c F(s ad_y) W(ad_y) v. The number c is the coefficient of the corresponding term
+    in the sum ``total``. The result is the variable of the new sum.
     """
     terms = []
     for scale, (y, inner, v) in parts:

@@ -89,8 +89,9 @@ def _worthwhile(program: Program) -> set[Share]:
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
     """Collect the terms a_k L(x_k) of the sum ``assign`` for each linear map L.
 
-    For each map L, let c be the first coefficient a_k. The result maps the pairs (L(x_k), a_k/c) to c. These
-    pairs are a :data:`Share`.
+    The result is a dictionary. Each key belongs to one map L. The key is the tuple of all pairs
+    (L(x_k), a_k/c), where c is the first of the coefficients a_k. Such a tuple is a :data:`Share`. The value
+    of the key is c.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:

@@ -239,10 +239,10 @@ class ArrayLoops:
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
         """Return a function that yields statements for a group of columns.
 
-        The number :data:`_ENTRY` is the entry of a constant matrix at ``row`` and ``column``. The statements
-        compute the product of :data:`_ENTRY` and a row of ``a.matrix``. The index of this row is ``column``.
-        If ``added`` is True, the product is added to row ``row`` of ``a.target``. Otherwise the product
-        replaces this row.
+        Let i be the index ``row``, and let j be the index ``column``. The number :data:`_ENTRY` is the entry
+        of a constant matrix in row i and column j. The statements multiply row j of ``a.matrix`` by
+        :data:`_ENTRY`. If ``added`` is True, the product is added to row i of ``a.target``. Otherwise the
+        product replaces row i of ``a.target``.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:

@@ -169,10 +169,12 @@ class _Exponential:
 
         B is the basis of the step, S is the core, and G = B^T B is the Gram matrix
         (:mod:`codegen.ir.array_step`). Let the n x k matrix X_0 be the state at the beginning of the step.
-        The function stores the displacement D in place of X = X_0 + B D.
+        A point X = X_0 + B D is represented by the matrix D, which is called the displacement of X. The
+        function reads the displacement of X and computes the displacement of the product exp(B S B^T) X.
 
         The first k columns of B are X_0. Let C be D with 1 added to the entries D_11, ..., D_kk. Then
-        X = B C. The displacement of the product is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
+        X = B C. The displacement of the product exp(B S B^T) X is D + S phi(G S) G C, where
+        phi(z) = (exp(z) - 1)/z.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows

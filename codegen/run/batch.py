@@ -137,10 +137,11 @@ def near(name: str) -> str:
 
 
 def complete(name: str) -> str:
-    """Return the name of a variant of the function ``name``. The variant accepts every argument.
+    """Return the name of the function that computes ``name`` for arguments of every size.
 
-    For an argument near zero, the variants ``complete(name)`` and ``near(name)`` return the same number. See
-    :func:`near`.
+    The result is ``name`` itself, except for the sine and the cosine. The function with the name
+    ``near(name)`` (:func:`near`) may be wrong for large arguments. For an argument near zero, the functions
+    with the names ``complete(name)`` and ``near(name)`` return the same number.
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')

@@ -256,8 +256,10 @@ class _Step:
             *norms,
             # Halving X cannot make an infinite norm finite.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
-            # Products with X are multiplied by ``scale``. The letters are not scaled, because a commutator of
-            # two scaled letters would have the factor ``scale``^2.
+            # The exponential of ``scale`` times X is applied ``parts`` times. The matrix X is a linear
+            # combination of given matrices (the letters) and of commutators of these matrices. The factor
+            # ``scale`` multiplies the product of X and a vector. If each letter were multiplied by ``scale``,
+            # the commutator of two letters would be multiplied by ``scale``^2.
             Assign(scale, number(1.0)),
             Assign(parts, whole(1)),
             While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),

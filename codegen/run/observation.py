@@ -329,8 +329,8 @@ class Observation:
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
         """Return two tuples of statements. An event is enclosed between ``low`` and ``high``.
 
-        The first tuple replaces the upper end ``high`` of the interval by the fraction ``middle``. The second
-        tuple replaces the lower end ``low`` by ``middle``.
+        The numbers ``low`` < ``middle`` < ``high`` are fractions of the step. The first tuple sets ``high``
+        to ``middle``. The second tuple sets ``low`` to ``middle``.
         """
         # If one end of the interval moves twice in a row, the Illinois method halves the weight of the values
         # at the other end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.

@@ -40,7 +40,7 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
-        # A variation is the last block of the state, so no further block begins at the ``start`` that is
-        # computed after a variation.
+        # After a variation, the new value of ``start`` is meaningless, because a variation is not in the
+        # array ``state``. This value is never used, because a variation is the last block of the state.
         start += n
     return tuple(result)

@@ -16,7 +16,11 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of two record types. An argument of one of these types has the name of its type."""
+"""The names of two record types in the emitted code.
+
+An argument of the type ``memory`` has the name ``memory``. An argument of the type ``statistics`` has the
+name ``statistics``.
+"""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""

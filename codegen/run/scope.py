@@ -37,8 +37,9 @@ class Declarations:
     """The declarations of a function, in two dictionaries with the keys ``id(statement)``.
 
     - ``before`` contains the variables that are declared before a statement, as pairs (identifier, term).
-    - ``by`` contains one dictionary for each statement that itself declares variables. The keys of this inner
-      dictionary are the identifiers of the variables, and a value is True for a constant.
+    - ``by[id(statement)]`` is a dictionary of the variables that the statement itself declares. Each key of
+      ``by[id(statement)]`` is the identifier of a variable. The value is True if this variable is constant,
+      and False if this variable is assigned more than once.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)

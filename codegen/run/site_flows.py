@@ -131,8 +131,9 @@ class _Part:
         _, inside, _ = split(self.own.kernel, set())
         # The functions ``sqrt``, ``fabs`` and ``choose`` never have branches, so they need no fast variant.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
-        # All functions except those in VECTORISED and the Stumpff functions have branches. A loop with such a
-        # function cannot use vector instructions, so fast variants of sines would save no time in this loop.
+        # The functions in VECTORISED and the Stumpff functions can be computed without branches. A function
+        # that is neither in VECTORISED nor a Stumpff function has branches. A loop with such a function
+        # cannot use vector instructions, so fast variants of sines would save no time in this loop.
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
         return bool(called) and able
 

@@ -90,7 +90,8 @@ def padded(sites: Count) -> Count:
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
     """
-    # The result is 16 k + 8, where k is the integer quotient. This is the odd multiple 2 k + 1 of 8.
+    # Let k be the integer quotient (sites + 7) // 16. The result is 16 k + 8 = 8 (2 k + 1), and the factor
+    # 2 k + 1 is odd.
     return (sites + 7) // 16 * 16 + 8
 
 

@@ -350,16 +350,20 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return a limit of the step time in ns, for solvers that were not tried before.
+        """Return a limit in ns. A second solver is tried only if a step may take less time than this limit.
 
-        Usually, such a solver s is tried only if the lower bound ``least(s)`` of the step time is below the
-        limit. ``candidate`` uses ``solver`` and converges in its first trial.
+        The first solver is ``solver``. The argument ``candidate`` contains the trials of ``solver``, and the
+        first of these trials converged. Let s be the second solver. The step time of s is not known before a
+        trial, so the lower bound ``least(s)`` of this step time is compared with the limit. There is one
+        exception in :meth:`consider`. Newton's method is always tried if the equations are linear and
+        fixed-point iteration is not robust.
         """
-        # If ``candidate`` is robust, the limit is the step time of ``candidate``. Otherwise the limit is
-        # PRICE times this time, because a slower solver is preferred up to this limit if the slower solver is
-        # robust. The factor PRICE is also omitted if Newton's method converges for more than LARGE unknowns.
-        # With the smaller limit, simplified Newton is tried less often. A trial of simplified Newton with
-        # more than LARGE unknowns is slow.
+        # If ``candidate`` is robust, the limit is the step time of ``candidate``. If ``candidate`` is not
+        # robust, the limit is usually PRICE times the step time of ``candidate``. The reason is that a robust
+        # solver is preferred to ``solver`` even if a step with the robust solver takes PRICE times as long.
+        # The factor PRICE is replaced by 1 if ``solver`` is Newton's method and the equations have more than
+        # LARGE unknowns. With the smaller limit, simplified Newton is tried less often. A trial of simplified
+        # Newton with more than LARGE unknowns is slow.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -381,7 +385,9 @@ class _Selection:
             # The product of the inverse and a vector takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
             # Simplified Newton inverts a matrix in each step or substep. Newton's method may use one inverse
-            # for several steps. The lower bound assumes one inverse for all steps of a trial run.
+            # for several steps. For Newton's method, the lower bound assumes that all steps of the first
+            # trial use one inverse. If a step has substeps, the lower bound assumes one inverse for each
+            # substep.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -396,10 +402,11 @@ class _Selection:
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
         """Return the candidate that solves block number k with the solver ``best[k]``.
 
-        ``robust`` contains the allowed candidates. In some cases (see :meth:`chosen`), ``robust`` also
-        contains candidates that are not robust. The fastest candidate f in ``robust`` is returned in place of
-        the combination ``best`` in two cases. In the first case, the combination does not converge. In the
-        second case, f is robust and the combination is not robust.
+        ``robust`` contains the allowed candidates. Usually, only robust candidates are allowed. Sometimes
+        :meth:`chosen` allows every candidate whose first trial converges, robust or not. The fastest
+        candidate f in ``robust`` is returned in place of the combination ``best`` in two cases. In the first
+        case, the combination does not converge. In the second case, f is robust and the combination is not
+        robust.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:

@@ -244,9 +244,11 @@ class Controlled:
         """Return the statements that are executed after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p). ``most`` is FLOOR^(-SHARE/p), the upper limit of ``previous``.
-        # ``previous`` is the minimum of ``most`` and the ``root`` of the previous accepted step. If the
-        # caller gave no step size, ``proposed`` becomes SAFETY norm^(-1/p) after the first accepted step.
+        # Let norm be the error norm of the accepted step, and let p be the order of the error estimate. The
+        # number norm^(-SHARE/p) is assigned to ``root``. The number ``most`` is FLOOR^(-SHARE/p). The minimum
+        # of ``root`` and ``most`` is stored in ``previous`` for the next accepted step. Before this
+        # assignment, ``trend`` reads the value of ``previous`` that the previous accepted step has stored. If
+        # the caller gave no step size, ``proposed`` becomes SAFETY norm^(-1/p) after the first accepted step.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # If the trial directly before this step was rejected, the step size does not grow after this step
         # (Hairer, Norsett and Wanner).

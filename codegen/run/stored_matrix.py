@@ -264,10 +264,10 @@ class FullMatrix(StoredMatrix):
         return self.nodes * (1 + self.node_size)
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that store the linear combination ``letter`` in the array ``target``.
+        """Return the statements that store data on the linear combination ``letter`` in the array ``target``.
 
-        The entries of the linear combination are not computed here. The array ``target`` contains the data
-        for computing an entry later. First come the coefficients of ``letter``, multiplied by the step
+        The data are not the matrix entries of the linear combination. A matrix entry is computed from the
+        data whenever the entry is needed. First come the coefficients of ``letter``, multiplied by the step
         size h. Copies of the arrays in ``nodes`` follow.
         """
         weights = dict(letter)

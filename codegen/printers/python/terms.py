@@ -1,8 +1,9 @@
 """Prints terms (:mod:`codegen.run.terms`) in Python.
 
-In double precision, a real constant is printed as a literal. In single precision, the name of a float32
-number of NumPy is printed. A literal would be wrong in single precision: before NumPy 2, the product of a
-float32 number and a literal is a double.
+In double precision, a real constant is printed as a literal. In single precision, the emitted module defines
+a variable for the constant. The value of this variable is a float32 number of NumPy, and the name of this
+variable is printed. A literal would be wrong in single precision: before NumPy 2, the product of a float32
+number and a literal is a double.
 """
 
 from __future__ import annotations
