@@ -40,9 +40,10 @@ def hamiltonian(tree: levels.Tree) -> str:
 def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
-    ``f[x]`` is the derivative of the vector field f along the vector field x. ``f[x y]`` is the derivative of
-    ``f[y]`` along x. In the differentiation along x, the components of y in a frame of invariant vector
-    fields are treated as constants.
+    ``f[x]`` is the derivative of the vector field f along the vector field x. To define ``f[x y]``, write the
+    vector field y as a linear combination of invariant vector fields. The coefficients of this linear
+    combination are functions. ``f[x y]`` is the derivative of ``f[y]`` along x, but in this derivative the
+    coefficients of the linear combination are treated as constants.
 
     The operator of a forest is the product of the operators of its trees (Munthe-Kaas and Wright, Found.
     Comput. Math. 8 (2008) 227).

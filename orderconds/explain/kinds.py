@@ -294,8 +294,10 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # Here each byte is read as a colour, not as a direction. A vertex is white if the edge between the
-        # vertex and the parent points to the root. All other vertices are black.
+        # Each byte of ``tree`` encodes the direction of the edge between a vertex and the parent of the
+        # vertex. The function ``partitioned_differential`` reads the direction as the colour of the vertex. A
+        # vertex is white if the edge between the vertex and the parent points to the root. All other vertices
+        # are black.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

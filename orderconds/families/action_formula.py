@@ -42,9 +42,9 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word whose letters are action trees. One letter can be the name of a stage. In the series of the velocity
-of this stage, the letter has the coefficient one. In the series of all other velocities, the letter has the
-coefficient zero."""
+"""A word whose letters are action trees. One letter can be the name of a stage. The velocity of each stage is
+a linear combination of letters. A letter that is the name of a stage has the coefficient one in the velocity
+of the named stage, and the coefficient zero in the velocities of all other stages."""
 
 
 def multiplier(tree: Velocity) -> int:
@@ -193,11 +193,12 @@ class ExponentialsFormula(ActionFormula):
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
         """Return the coefficient of the word (``before``, x, ``after``) in a product of exponentials.
 
+        Here x is a new letter. Each exponent in the product is a linear combination of letters. The letter x
+        has the coefficient one in the exponent with index ``place``, and the coefficient zero in all other
+        exponents.
+
         The product of exponentials belongs to stage ``row``. If ``row`` is None, the product of exponentials
         belongs to the update.
-
-        Here x is a new letter. Its coefficient is one in the exponent with index ``place``, and zero in all
-        other exponents.
         """
         terms = []
         for r in range(len(before) + 1):

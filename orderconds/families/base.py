@@ -51,8 +51,8 @@ class Family(ABC):
     has_tableau: ClassVar[bool] = True
     """False if each method of the family is defined by a label such as ``taylor(12)``, not by a tableau."""
     source: ClassVar[str] = ""
-    """The publication that defines the methods. A tableau file can name a publication, so the text is empty
-    if ``has_tableau`` is true."""
+    """The publication that defines the methods. If ``has_tableau`` is true, the text is empty. The
+    publication that defines a method with a tableau can be stated in the tableau file."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False

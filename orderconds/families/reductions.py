@@ -57,8 +57,9 @@ class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
     ``even`` is true if the method is symmetric. ``substitute`` is None, or contains a family whose conditions
-    imply the conditions of the original family. ``cut`` is None, or a test (:class:`UnseenCut`). The
-    conditions that pass the test hold although dexpinv is truncated.
+    imply the conditions of the original family. ``cut`` is None, or a test (:class:`UnseenCut`) whether the
+    truncation of dexpinv changes a condition. A condition of order at most ``cut.order`` holds if the test
+    shows that the truncation does not change the condition.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]

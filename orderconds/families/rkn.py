@@ -3,8 +3,10 @@
 Let x and y be functions of q alone. Then [x,[T,y]] is also a function of q alone, because T is quadratic in
 p. Let F be the smallest set that contains V and, for all x and y in F, also [x,[T,y]]. All elements of F are
 functions of q alone, so [x,y] = 0 for all x and y in F. For example, [V,[V,[V,T]]] = 0. The free algebra over
-T and V has no such relations. In the free algebra, define a set F of brackets by the rule above. The brackets
-[x,y] of all x and y in this set F generate an ideal.
+T and V has no such relations. Let B be the smallest set of elements of the free algebra that contains V and,
+for all x and y in B, also [x,[T,y]]. The brackets [x,y] of all x and y in B generate an ideal of the free
+algebra. If T is quadratic in p and V depends on q only, every element of the ideal is zero. Therefore the
+part of the local error that lies in the ideal is zero, and this part gives no order conditions.
 
 A functional is a linear combination of words over T and V. Consider the functionals that are zero on the
 ideal. Each element of a basis of these functionals gives one condition. The numbers of independent conditions
@@ -214,10 +216,10 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return elements of the set F: those with ``weight`` letters in each word. The module docstring defines
-    F.
+    """Return elements of a set B of linear combinations of words. Each word in a returned element has
+    ``weight`` letters. B is the smallest set that contains V and, for all x and y in B, also [x,[T,y]].
 
-    For x and y in F, [x,[T,y]] and [y,[T,x]] are equal modulo the ideal of the module docstring. The result
+    For x and y in B, [x,[T,y]] and [y,[T,x]] are equal modulo the ideal of the module docstring. The result
     contains only one of these two brackets.
     """
     if weight == 1:

@@ -126,8 +126,9 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # A coefficient is its own key. If only one factor is not a coefficient, this factor gets the key None,
-    # because ``_shape`` is slow.
+    # Factors with equal keys are collected into one power. A coefficient is its own key. The key of every
+    # other factor is computed by ``_shape``, which is slow. If only one factor is not a coefficient, no
+    # second factor can have an equal key. In this case the key None is used, and ``_shape`` is not called.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:

@@ -187,7 +187,8 @@ class _Value:
     and the product of the right-hand sides.
 
     - ``factors``: the conditions.
-    - ``members``: the product of the left-hand sides for each random method.
+    - ``members``: a vector with one entry for each method in a list of random methods. The entry is the
+      product of the left-hand sides, evaluated for this method.
     - ``flow``: the product of the right-hand sides.
     """
 
@@ -218,8 +219,9 @@ class _Sampling:
         """Return the two sides of each condition. The left-hand side is evaluated for ``count`` random
         methods.
 
-        If ``root`` is not None, this residue replaces the square root in the formulas. If ``root`` is None,
-        random residues replace all roots in the formulas, including square roots.
+        ``root`` is None or a residue modulo ``prime``. If ``root`` is a residue, ``root`` replaces every
+        square root in the formulas of the sub-family. If ``root`` is None, random residues replace all roots
+        in the formulas, including square roots.
         """
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
@@ -249,10 +251,10 @@ class _Members(Samples):
     def root(self, x: Sample, index: int) -> Sample:
         """Return the element that replaces the root x^(1/index).
 
-        The root need not exist modulo ``prime``. Therefore random residues replace the root. A polynomial
-        identity for all values of the root also holds for the true value. If the argument ``square_root`` of
-        the constructor is an integer, this integer replaces every square root. Equal arguments give equal
-        residues.
+        The root need not exist modulo ``prime``. Therefore random residues replace the root. If a polynomial
+        identity holds for random residues, the identity very probably holds for all values of the root. The
+        true value of the root is one of these values. If the argument ``square_root`` of the constructor is
+        an integer, this integer replaces every square root. Equal arguments give equal residues.
         """
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)

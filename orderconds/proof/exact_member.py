@@ -102,10 +102,12 @@ class ExactMember:
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
         """Return True if the polynomial ``combination`` expresses ``condition`` through other conditions.
 
-        At the random member, the left-hand side of ``condition`` must be equal to the value of the
-        polynomial. The equality must also hold if the right-hand sides of the conditions replace the
-        left-hand sides. If the result is True, the probability of an error is negligible. Return False if
-        ``combination`` is None.
+        The variables of the polynomial are the left-hand sides of order conditions. Two equalities are
+        tested. First, evaluate these left-hand sides at the random member of the sub-family, and insert the
+        values into the polynomial. The result must be equal to the left-hand side of ``condition`` at the
+        random member. Second, insert the right-hand sides of the order conditions into the polynomial in
+        place of the left-hand sides. The result must be equal to the right-hand side of ``condition``. If the
+        result is True, the probability of an error is negligible. Return False if ``combination`` is None.
         """
         if combination is None:
             return False

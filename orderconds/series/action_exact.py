@@ -2,17 +2,20 @@
 
 The formulas for numerical methods are given in :mod:`orderconds.series.action`. The formulas for the exact
 flow have a time s in place of the index i of a stage, and integrals over times in place of sums over stages.
-The function :func:`tau` returns ``tau_t(s)`` for a tree t. Let w be a word with the letters t_1, ..., t_k:
+The function :func:`tau` returns ``tau_t(s)`` for a tree t of a velocity. The function :func:`psi` returns
+``psi_p(s)`` for a tree p of a momentum. Such a tree p has the form H(u*v|M) or L(w), where u, v and w are
+words of trees, and M is a multiset of trees. Let w be a word with the letters t_1, ..., t_k:
 
 - ``Phi_w(s)`` is the integral of the product ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)`` over all times with 0 <=
   s_1 <= ... <= s_k <= s. The integral of the same product over all times with s <= s_1 <= ... <= s_k <= s' is
   ``Phi_w(s, s')``.
 - ``psi_{L(w)}(s)`` is the integral of the same product over all times with 1 >= s_1 >= ... >= s_k >= s.
-- ``psi_{H(u*v|M)}(s)``, for words u and v and a multiset M of trees, is the integral of ``Phi_u(s) Phi_v(s,
-  s') prod_{p in M} psi_p(s')`` over the times s' from s to 1.
+- Let ``g(s')`` be the product of ``psi_m(s')`` over all trees m in M. Then ``psi_{H(u*v|M)}(s)`` is the
+  integral of the product ``Phi_u(s) Phi_v(s, s') g(s')`` over the times s' from s to 1.
 
-Let r_k be the first k letters of v in reverse order, and let v_k be the remaining letters of v. The integral
-``Phi_v(s, s')`` is equal to ``sum_k (-1)^k Phi_{r_k}(s) Phi_{v_k}(s')``.
+For each k from 0 to the number of letters of v, divide the word v after k letters. Let r_k be the first part
+in reverse order: r_k begins with letter k of v and ends with letter 1 of v. Let v_k be the second part in the
+original order. The integral ``Phi_v(s, s')`` is equal to ``sum_k (-1)^k Phi_{r_k}(s) Phi_{v_k}(s')``.
 """
 
 from __future__ import annotations

@@ -197,16 +197,17 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # A step also determines the initial momentum from the initial position and the final momentum.
-            # The sum of all ``weight * change`` is the error of this initial momentum. The error of the final
-            # momentum has the opposite sign.
+            # The initial position and the final momentum of a step are the independent variables here. The
+            # initial momentum is a function of these two variables. The sum of all ``weight * change`` is the
+            # error of this initial momentum. The error of the final momentum has the opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
         """Return the coordinates of a covector. There is one coordinate for each basis vector x of the Lie
-        algebra g. The coordinate is a mixed derivative of the Hamiltonian H(q, mu). The directions in q are x
-        and the velocities of ``tree.word``. The directions in mu are the covectors of ``tree.momenta``."""
+        algebra g. The coordinate of x is a mixed derivative of the Hamiltonian H(q, mu). The first direction
+        in q is x. Each letter of ``tree.word`` gives one more direction in q: the elementary velocity of the
+        letter. The directions in mu are the covectors of ``tree.momenta``."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

@@ -6,8 +6,10 @@ b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
 The coefficient of a g*-valued tree (:mod:`orderconds.series.action`) depends on coefficients of words (u, x,
-v). Here x is a new letter. This letter denotes an additional term in the velocity xi_j of one stage j. The
-function ``insertion`` has the arguments ``before`` = u and ``after`` = v.
+v). Here u and v are words of trees, and x is a letter that is not a tree. To obtain these coefficients,
+replace the velocity xi_j of one stage j by xi_j + x, and expand the changed group elements. The method
+``insertion`` returns the coefficient of the word (u, x, v) in one changed group element. The argument
+``before`` is u, the argument ``after`` is v, and the argument ``stage`` is j.
 """
 
 from __future__ import annotations
@@ -29,9 +31,10 @@ product acts first. Hence X^m acts before xi, and X^n acts after xi. The exponen
 because X^m acts first."""
 
 Varied = dict[int, Element]
-"""A map from stage indices to coefficients, for one word (u, x, v) and one series in the stage velocities
-xi_1, xi_2, .... For each stage j, add the letter x as a term to xi_j only. Entry j of the map is the
-coefficient of the word (u, x, v) in the changed series. If a key is missing, the coefficient is zero."""
+"""A map from stage indices to coefficients. Each map belongs to one word (u, x, v) and to one series S in the
+stage velocities xi_1, xi_2, .... Here u and v are words of trees, and x is a letter that is not a tree. To
+obtain entry j of the map, replace xi_j by xi_j + x in S, and leave all other velocities unchanged. Entry j is
+the coefficient of the word (u, x, v) in the changed series. If a key is missing, the coefficient is zero."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -96,10 +99,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return coefficients of the word (``before``, x, ``after``) in group elements. If ``update`` is 0,
-        the list contains one map (:data:`Varied`) for the group element exp(X_i) of each stage i. If
-        ``update`` is 1, the list contains only the map for the group element exp(Y) of the update. The module
-        docstring defines x, X_i and Y."""
+        """Return a list of maps (:data:`Varied`), one map for each group element. If ``update`` is 0, the
+        group elements are exp(X_i) for all stages i. If ``update`` is 1, the only group element is exp(Y),
+        the group element of the update. To obtain entry j of a map, replace the velocity xi_j by xi_j + x in
+        the group element. Entry j is the coefficient of the word (``before``, x, ``after``) in the changed
+        group element. The module docstring defines x, X_i and Y."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -214,10 +218,12 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
-        word (``before``, x, ``after``, xi_j, ``behind``) in the series dexpinv_{(r),X_j} xi_j. In this word,
-        xi_j counts as one letter, and the new letter x belongs to the expansion of X_j. The module docstring
-        defines the series, the number r, the letter x, and the exponent X_j."""
+        """Return a list with one map (:data:`Varied`) for each stage j. Let S_j be the series
+        dexpinv_{(r),X_j} xi_j. The exponent X_j is expanded in words of trees, but the factor xi_j of S_j is
+        kept as one letter. To obtain entry i of the map for stage j, replace xi_i by xi_i + x in the
+        expansion of X_j. Entry i is the coefficient of the word (``before``, x, ``after``, xi_j, ``behind``)
+        in the changed series S_j. The module docstring defines the series, the number r, the letter x, and
+        the exponent X_j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -227,10 +233,12 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
-        word (``first``, xi_j, ``before``, x, ``after``) in the series dexpinv_{(r),X_j} xi_j. In this word,
-        xi_j counts as one letter, and the new letter x belongs to the expansion of X_j. The module docstring
-        defines the series, the number r, the letter x, and the exponent X_j."""
+        """Return a list with one map (:data:`Varied`) for each stage j. Let S_j be the series
+        dexpinv_{(r),X_j} xi_j. The exponent X_j is expanded in words of trees, but the factor xi_j of S_j is
+        kept as one letter. To obtain entry i of the map for stage j, replace xi_i by xi_i + x in the
+        expansion of X_j. Entry i is the coefficient of the word (``first``, xi_j, ``before``, x, ``after``)
+        in the changed series S_j. The module docstring defines the series, the number r, the letter x, and
+        the exponent X_j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -240,8 +248,9 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
         """Return the terms of dexpinv_X xi that contain words with ``before`` letters before xi and
-        ``behind`` letters behind xi. The first letter of a word acts first, but the last factor of a product
-        acts first. A triple (q, m, n) represents q X^n xi X^m, where X^m acts first. Hence X^m gives the
+        ``behind`` letters behind xi. The letters of a word act on a point of the Lie group in the order from
+        left to right. The factors of a product act on a point in the order from right to left. A triple (q,
+        m, n) represents the product q X^n xi X^m, in which X^m acts on the point first. Hence X^m gives the
         letters before xi."""
         known = self._in_sight.get((before, behind))
         if known is None:
