@@ -38,10 +38,10 @@ multiplied by the left-hand sides of the order conditions of these trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a polynomial for each tree that has n vertices and is not in ``independent``. Here n is the
-    length of ``independent``. For each method of the family, the polynomial is equal to the left-hand side of
-    the order condition of the tree. The variables of the polynomial are the left-hand sides of the order
-    conditions of the trees in ``independent``.
+    """Return a map from trees to polynomials. Let n be the length of ``independent``. The map contains each
+    tree that has n vertices and is not in ``independent``. The variables of each polynomial are the left-hand
+    sides of the order conditions of the trees in ``independent``. For each method of the family, the
+    polynomial of a tree is equal to the left-hand side of the order condition of this tree.
 
     ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
     ..., n. The polynomials are wrong with a probability of about 10^-8.

@@ -8,24 +8,31 @@ q_(i-1) are called new, and the letters q_1, ..., q_(m-1) are called old. Let N 
 new letters in a program for u_1, ..., u_i.
 
 First bound: for each of the arguments u_1, ..., u_i, form the sum of the terms that have at least two letters
-and contain a new letter. Only the N brackets with new letters contribute to these sums. Therefore N is at
-least the dimension of the space that the sums span.
+and contain a new letter. Each argument is a linear combination of letters and brackets. A term that has at
+least two letters and contains a new letter cannot come from a single letter, and cannot come from a bracket
+of old letters. Hence only the N brackets with new letters contribute to these sums. Therefore N is at least
+the dimension of the space that the sums span.
 
 Second bound: for each argument, form the sum of the terms that have at least two letters and exactly one new
 letter. This sum is called the linear part of the argument. Let ad_q be the operator with ad_q y = [q, y]. To
-obtain the operator ad_(P) for a polynomial P, replace each letter q in P by the operator ad_q. The linear
-part has the form sum_n ad_(P_n) q_n, where q_n are the new letters, and P_n are polynomials in the old
-letters. Let S be the space that the linear parts of u_1, ..., u_i span, and let d be the dimension of S.
+obtain the operator ad_(P) for a polynomial P, replace each letter q in P by the operator ad_q. For example,
+let q_1 and q_2 be old letters, and let q_n be a new letter. With the polynomial P = q_2 q_1, ad_(P) q_n is
+the bracket [q_2, [q_1, q_n]]. In general, the antisymmetry of the bracket and the Jacobi identity imply that
+each linear part has the form sum_n ad_(P_n) q_n. This sum is over the new letters q_n, and each P_n is a
+polynomial in the old letters. Let S be the space that the linear parts of u_1, ..., u_i span, and let d be
+the dimension of S.
 
 The linear part of a bracket is defined in the same way. The linear parts of the N brackets span a space that
-contains S. Hence N is at least d. Now assume that S contains no non-zero element sum_n ad_(P_n) q_n in which
-all polynomials P_n are Lie elements. Then N is greater than d. Of the N brackets, let B be the one that the
-program computes first, and let x be the linear part of B. The two factors of B contain no brackets with new
-letters. Hence each factor is the sum of a Lie element in the old letters and a linear combination of new
-letters. Therefore x has the form sum_n ad_(P_n) q_n with Lie elements P_n. By assumption, S contains no
-non-zero element of this form. Hence x is zero or not in S. If x is zero, the linear parts of the other N - 1
-brackets span a space that contains S. If x is not in S, the N linear parts span a space that is larger than
-S.
+contains S. Hence N is at least d. A Lie element is a linear combination of letters and of brackets of
+letters. Let L be the set of all sums sum_n ad_(P_n) q_n over the new letters q_n, where every P_n is a Lie
+element in the old letters. Now assume that d > 0, and that zero is the only common element of S and L. Then N
+is greater than d. Of the N brackets, let B be the one that the program computes first, and let x be the
+linear part of B. Each of the two factors of B is a linear combination of letters and of brackets that the
+program computes before B. These brackets contain only old letters, because B is the first bracket with new
+letters. Hence each factor of B is the sum of two elements: a Lie element in the old letters, and a linear
+combination of new letters. Therefore x is an element of L. By assumption, x is zero or not in S. If x is
+zero, the linear parts of the other N - 1 brackets span a space that contains S. If x is not in S, the N
+linear parts span a space that is larger than S.
 
 The number of brackets without new letters has a similar lower bound. The sum of the lower bounds for the two
 numbers is a lower bound for the number of all brackets.
@@ -93,8 +100,10 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # ``known`` omits terms of grade ``algebra.largest``. In the argument u of the step, these terms
-        # affect the order of the method. Hence one entry of ``spans`` contains u with all terms.
+        # Let g be ``algebra.largest``. The polynomials in ``known`` are the arguments without their terms of
+        # grade g. In the argument of the step, which is ``arguments[last]``, the terms of grade g affect the
+        # order of the method. Therefore, if i is ``last``, an additional list in ``spans`` contains one
+        # polynomial: the argument of the step with its terms of grade g.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))

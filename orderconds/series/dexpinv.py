@@ -79,9 +79,10 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word`` in u_i^n for each stage i if ``step`` is 0. Let u be the
-        argument of the step, which maps y0 to exp(u) y0. If ``step`` is 1, return a list that contains only
-        the coefficient of ``word`` in u^n."""
+        """Return a list of coefficients of ``word``. The method computes the value k_i = f(exp(u_i) y0) of
+        each stage i and the result y1 = exp(u) y0. If ``step`` is 0, the list contains the coefficient of
+        ``word`` in u_i^n for each stage i. If ``step`` is 1, the list contains only the coefficient of
+        ``word`` in u^n."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -126,10 +127,11 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q u^n x u^m of dexpinv_u x that may contribute to a word v x w, as triples (q, m,
-        n). The first letter of a word acts first, but the last factor of a product acts first. Therefore the
-        last factor u^m contributes the first part v of the word, and the first factor u^n contributes the
-        last part w. The word v has ``before`` letters, and w has ``behind`` letters."""
+        """Return terms of the series dexpinv_u x, where u is a linear combination of words, and x is a
+        letter. A triple (q, m, n) in the result denotes the term q u^n x u^m with the coefficient q. Let v be
+        a word with ``before`` letters, and let w be a word with ``behind`` letters. The result contains the
+        terms in which the word v x w may occur. In the product A B of two series, each word is a word of B
+        followed by a word of A. Therefore v must be a word of u^m, and w must be a word of u^n."""
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
             longest = before + behind

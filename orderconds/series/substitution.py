@@ -83,9 +83,10 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # The sum over all partitions is ``flow(tree)``. The summand of the partition into one component is
-        # step(vertex) field(tree), where step(vertex) = 1. Hence field(tree) is ``flow(tree)`` minus the
-        # summands of all other partitions.
+        # The sum over all partitions is ``flow(tree)``. In one of the partitions, the only component is
+        # ``tree`` itself, and the quotient tree is a single vertex. The summand of this partition is
+        # step(vertex) multiplied by field(tree). The factor step(vertex) is 1, because the method is
+        # consistent. Hence field(tree) is ``flow(tree)`` minus the summands of all other partitions.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)

@@ -31,9 +31,10 @@ from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
 """A product of derivatives along vector fields, from left to right. Each entry of the tuple denotes one
-vector field. The entry None denotes the vector field of the equation y' = k y. If an entry is a tuple, the
-entry is a product P of derivatives, and denotes the vector field P f. To obtain P f, apply the product P to
-the right-hand side f."""
+vector field. The entry None denotes the vector field of the equation y' = k y. An entry that is not None is
+itself a tuple of this type, and hence a product P of derivatives. Let y' = f(y) y be the differential
+equation that the scheme solves. The product P is applied to f, and the result is a function P f. The entry
+denotes the vector field of the equation y' = (P f) y."""
 
 Combination = dict[Operator, int]
 
@@ -206,8 +207,8 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Let a summand be the product of derivatives in which ``act`` is applied to only one of the factors.
-    Return the sum of these summands over all factors. Factors that are None are skipped."""
+    """Return a sum with one summand for each factor of ``product`` that is not None. To form the summand of a
+    factor, apply ``act`` to this factor, and leave all other factors of ``product`` unchanged."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

@@ -145,12 +145,12 @@ def symmetric_transport(
     - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
-    The abscissa m_i determines the sum of row i of ``own``. By symmetry, the column equation in the module
-    docstring becomes sum_i b_i (x_ij - x_ik) = C_j for each column j in the first half. Here k = s + 1 - j,
-    the sum is over the rows of ``own``, b_i are the weights, and C_j does not depend on ``own``.
-
-    The result contains formulas for each C_j and for two sets of entries of ``own``: the last entry of each
-    row, and the first half of the last row. In the formulas, y_J is the sum of row J of ``update``.
+    The abscissa m_i determines the sum of row i of ``own``. Let b_i be the weights, and a_ij the sum of the
+    coefficients of stage j in all exponentials of stage i. Each column j satisfies the equation
+    sum_i b_i a_ij = b_j (1 - m_j). For a column j in the first half, let k = s + 1 - j. By symmetry, the
+    equation becomes sum_i b_i (x_ij - x_ik) = C_j, where the sum is over the rows of ``own``. The number C_j
+    does not depend on ``own``. The result contains formulas for each C_j, for the last entry of each row of
+    ``own``, and for the first r entries of row r, the last row. Here y_J is the sum of row J of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

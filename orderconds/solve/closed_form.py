@@ -43,13 +43,13 @@ def closed_forms(
     """Return the numbers as elements of one number field. Return None if no common field is found, or if a
     closed form has more than :data:`MAX_TEXT` characters.
 
-    ``bits`` is the precision of the numbers in bits. ``radicals`` maps texts of square roots to their values.
-    Each number must have a degree of at most :data:`MAX_DEGREE`. A closed form is a rational combination of
-    basis elements. Three bases are tried:
+    ``bits`` is the precision of the numbers in bits. ``radicals`` maps the text of each square root, for
+    example ``sqrt(3)``, to the value of this square root. Each number must have a degree of at most
+    :data:`MAX_DEGREE`. A closed form is a rational combination of basis elements. Three bases are tried:
 
     - 1 and the square roots
-    - the products e r^k, where e is an element of the first basis, r is one of the numbers, d is the degree
-      of r, and k = 0, ..., d - 1
+    - the products of an element of the first basis and a power r^0, ..., r^(d-1), where r is one of the
+      numbers, and d is the degree of r
     - the powers r^0, ..., r^(d-1), where r generates the field of a number of the highest degree d
 
     Without ``radicals``, only the third basis is tried.

@@ -12,9 +12,12 @@ For each p, the solution of least norm is used, with one exception. If the first
 the solution for p = 1 is beta_{1,1} = 1 and beta_{1,i} = 0 for i > 1. Then the derivative of the extension at
 theta = 0 is exact.
 
-Finally, the coefficients of the highest power of theta are changed to obtain b_i(1) = b_i. The coefficients
-of the two highest powers are changed if three conditions hold: q > 1, the first stage is the initial value,
-and the last stage is the final value. Then the derivative at theta = 1 is exact, too.
+Finally, some of the coefficients beta_{p,i} are changed to obtain b_i(1) = b_i for each stage i. There are
+two cases. In the first case, three conditions hold: q > 1, the first stage is the initial value, and the last
+stage is the final value. In this case, the coefficients of two powers of theta are changed such that the
+derivative of the extension at theta = 1 is exact, too. The two powers are theta^2 and theta^3 if q = 2, and
+theta^(q-1) and theta^q if q > 2. In the second case, at least one of the three conditions does not hold, and
+only the coefficients of theta^q are changed.
 """
 
 from __future__ import annotations

@@ -7,9 +7,10 @@ stage. The method is symmetric if two conditions hold:
 
 - The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
   original sequence.
-- For every stage i, take the sequence from y0 to the value of stage i. Replace each exponential by the
-  inverse of the conjugate of this exponential, and keep the order of the sequence. The new sequence leads
-  from y1 to the value of stage s + 1 - i.
+- For every stage i, take the sequence from y0 to the value of stage i. Let X be the exponent of an
+  exponential in this sequence, and let Y be the exponent with the s coefficients of X in reverse order.
+  Replace exp(X) by exp(-Y). Replace every exponential of the sequence in this way, and do not change the
+  order of the exponentials. The new sequence leads from y1 to the value of stage s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """

@@ -1,6 +1,8 @@
 """The table ``[proof]`` of a tableau file, and the unknowns of the equations.
 
-The table ``[proof]`` names order conditions in which the decimals with ``~`` are the unknowns.
+A coefficient in a tableau file can contain a rounded decimal, which is marked by ``~``, for example
+``0.81772~``. The table ``[proof]`` selects order conditions of the method. The selected conditions are
+equations, and the rounded decimals are approximate values of the unknowns in these equations.
 
 ::
 
@@ -11,9 +13,11 @@ The table ``[proof]`` names order conditions in which the decimals with ``~`` ar
     reduction = "symmetric"    # optional: a reason why fewer equations suffice
     printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
-The name of an unknown is its name under ``numbers``, or its position in the file, for example ``A[2][1]``. If
-a named number or a coefficient contains several decimals with ``~``, the name of each of these unknowns ends
-with the value of the decimal, for example ``A[2][1]: 0.25``. Equal decimals are one unknown.
+Each unknown has a name. If the rounded decimal occurs in a number of the table ``numbers``, the name of the
+unknown is the name of this number. Otherwise, the name is the position of the coefficient that contains the
+decimal, for example ``A[2][1]``. If one number or one coefficient contains several rounded decimals, the
+value of each decimal is appended to the name of the corresponding unknown, for example ``A[2][1]: 0.25``.
+Equal decimals are one unknown.
 """
 
 from __future__ import annotations
