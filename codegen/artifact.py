@@ -47,9 +47,10 @@ class Artifact:
         If the folder contains an old module with the name and the target of the new module, the old module is
         replaced.
 
-        InputError is raised if the folder cannot be written to, or if the old module belongs to another scene
-        or method. This error has one exception: if the option ``--prefix`` was used for one of the two
-        modules, the old module is replaced even if it belongs to another scene or method.
+        InputError is raised in two cases:
+        - The folder cannot be written to.
+        - The old module and the new module belong to different scenes or to different methods, and the option
+          ``--prefix`` was used for neither of these two modules.
         """
         folder = Path(directory)
         try:

@@ -155,8 +155,10 @@ class CompiledIntegrator(Integrator):
 
         The first list is for the run-time inputs, and the second list is for the iteration counts.
 
-        The caller uses the lists in a ``with`` block. If the user's function for the run-time inputs raises
-        an error in this block, the error is raised again at the end of the block.
+        This method is a context manager. In the body of the ``with`` statement, the caller passes both lists
+        to the C function. The C function calls the user's Python function that computes the run-time inputs.
+        If the Python function raises an error, the C function cannot pass on the error. Therefore this method
+        raises this error at the end of the ``with`` statement.
         """
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix

@@ -444,8 +444,10 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return tuples of indices of coordinates. For each of these tuples, :meth:`complete` can compute the
-        coordinates with the indices in the tuple from all coordinates with indices outside the tuple.
+        """Return tuples of indices of coordinates. The method :meth:`complete` accepts each of these tuples.
+
+        Let T be one of these tuples. Suppose that only the coordinates whose indices are in T are unknown.
+        The known coordinates determine the unknown coordinates.
         """
 
     @abstractmethod

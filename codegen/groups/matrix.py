@@ -203,8 +203,10 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        The result is the momentum of the product exp(x, n) (q, mu) in the group T*G. This momentum does not
-        depend on q.
+        The cotangent bundle T*G of the group G is a group, too. Let (x, n) be an element of the Lie algebra
+        of T*G, and let (q, mu) be an element of T*G. The exponential map of T*G maps (x, n) to an element of
+        T*G. The product of this element and (q, mu) is (exp(x) q, p). The result of this method is the
+        momentum p. This momentum does not depend on q.
         """
         if self.algebra.nilpotency:
             return super().transport(d, x, n, mu)

@@ -44,9 +44,11 @@ class MatrixAlgebra:
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """The non-zero entries of the dual basis matrices: one tuple of pairs for each position, row by row.
+        """The non-zero entries of the dual basis matrices, grouped by position.
 
-        A pair (i, x) means that matrix i of the dual basis has the entry x.
+        A position is a pair (row, column) of an n x n matrix. The result contains one tuple for each of the
+        n^2 positions. The positions are ordered row by row. A pair (i, x) in a tuple means that matrix i of
+        the dual basis has the entry x at the position of the tuple.
         """
         return _by_place(self.dual, self.n**2)
 

@@ -65,10 +65,12 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Find the powers of y = 1/sqrt x to rewrite as quotients, for example y^3 as 1/(x sqrt x).
+    """Find the powers of y = 1/sqrt x that are rewritten as quotients.
 
-    The result maps the node number of each power y^n to the pair (node number of y, n). A power may be
-    multiplied by a number.
+
+    For example, y^3 is rewritten as 1/(x sqrt x). The result maps the node number of each power y^n to the
+    pair (node number of y, n). A power may have a numeric factor c. The node number of the product c y^n is
+    mapped to the pair (node number of y, n).
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
@@ -85,8 +87,9 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # A node is read if it is a root, or if at least one of its parents is not in ``ranks``. ``read`` contains
-    # the values of ``ranks`` for these nodes.
+    # ``ranks`` maps the node number of each node c y^n to the pair (node number of y, n). ``read`` contains
+    # the pair of a node c y^n only if this node is a root, or if this node is an argument of a node that is
+    # not in ``ranks``.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     # If y or an even power of y is in ``read``, no power of y is rewritten.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}

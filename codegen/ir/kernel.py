@@ -155,13 +155,16 @@ class Loop:
         In Newton's method, the values of ``body`` are computed before the last change is added to the
         unknowns. So these values are less accurate than the unknowns.
         """
-        # The error of the unknowns is smaller than the last change. If only the unknowns are read, the last
-        # change may therefore be larger than ``tolerance`` times the largest unknown.
+        # If ``only_unknowns_read`` is true, the code after the loop does not read the values of ``body``,
+        # which are less accurate than the unknowns. The error of the unknowns is smaller than the last change
+        # of the unknowns. Therefore the loop may end although the last change is larger than ``tolerance``
+        # times the largest unknown.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         # If Newton's matrix is expanded in h, the loop converges only for small h. The errors in the values
-        # of ``body`` are smaller for small h than for large h. So the factor ``tolerance`` is sufficient for
-        # these loops. All remaining loops use the factor ``tolerance`` / 16.
+        # of ``body`` are smaller for small h than for large h. Therefore a loop with an expanded matrix may
+        # end at a larger change than a loop without an expanded matrix. The result is ``tolerance`` for a
+        # loop with an expanded matrix, and ``tolerance`` / 16 for all remaining loops.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -175,16 +178,17 @@ class Start:
     step, u2 the solution of the step before it, and so on. The extrapolations of degree 0, 1 and 2 are u1,
     2 u1 - u2 and 3 u1 - 3 u2 + u3.
 
-    The backward differences are u1 - u2 (order 1), u1 - 2 u2 + u3 (order 2), and so on. The degree d of the
-    extrapolation becomes d + 1 or d - 1 only if the backward difference of this order is smaller than the
-    backward difference of order d. Let c be the change of the unknowns from one step to the next. If the
-    estimated error of the first values is larger than ``ROUGH`` times c, all stored solutions except u1 are
-    discarded.
+    The backward differences are u1 - u2 (order 1), u1 - 2 u2 + u3 (order 2), and so on. Let d be the degree
+    of the extrapolation. The degree increases to d + 1 only if the backward difference of order d + 1 is
+    smaller than the backward difference of order d. The degree decreases to d - 1 only if the backward
+    difference of order d - 1 is smaller than the backward difference of order d. Let c be the change of the
+    unknowns from one step to the next. If the estimated error of the first values is larger than ``ROUGH``
+    times c, all stored solutions except u1 are discarded.
 
     A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then the
-    step size grows to h. Each solution provides the first values for the next larger step size. The
-    continuation fails after ``TRIES`` attempts. The growth factor is the quotient of the next step size and
-    the last successful step size. The continuation also fails if the growth factor is 1 + ``SHORTEST`` or
+    step size grows to h. Each solution provides the first values for the next larger step size. After a
+    successful step size s < h, the next step size is s times a growth factor, but at most h. The continuation
+    fails after ``TRIES`` attempts. The continuation also fails if the growth factor is 1 + ``SHORTEST`` or
     less.
     """
 

@@ -61,9 +61,10 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
     ``jet`` contains the entries of an n x n matrix A, followed by the entries of its derivatives.
 
     Let |X| be the largest absolute value of an entry of a matrix X. Let e be the maximum of
-    |E| over all derivatives E of A in ``jet``. The error of an entry is at most:
-    - 2^-``bits`` |exp(A)| in exp(A),
-    - 2^-``bits`` max(|D|, |exp(A)| (e + e^2)) in a derivative D of exp(A).
+    |E| over all derivatives E of A in ``jet``. The errors of the results have these bounds:
+    - The error of each entry of exp(A) is at most 2^-``bits`` |exp(A)|.
+    - Let D be a derivative of exp(A). The error of each entry of D is at most
+      2^-``bits`` max(|D|, |exp(A)| (e + e^2)).
 
     OverflowError is raised in three cases:
     - An entry of ``jet`` is not finite.

@@ -30,8 +30,8 @@ DEGREES = (4, 8, 12, 16)
 """The degrees of the Taylor polynomials."""
 
 LEAST_DIGITS = 10
-"""The least number of correct bits in the exponential. If the estimated error of exp(A) is larger than
-2^-LEAST_DIGITS times the Frobenius norm of exp(A), all results are NaN.
+"""The least number of correct binary digits in the exponential exp(A) of a matrix A. If the estimated error
+of exp(A) is larger than 2^-LEAST_DIGITS times the Frobenius norm of exp(A), all results are NaN.
 """
 
 Pairs = tuple[tuple[tuple[int, int], ...], ...]
@@ -182,9 +182,10 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 
 
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
-    """Square the jet ``total`` ``squarings`` times, and return the resulting jet.
+    """Square a jet repeatedly, and return the resulting jet.
 
-    A jet is a list with the entries of several n x n matrices: a matrix and its derivatives.
+    The list ``total`` contains the jet, and ``squarings`` is the number of squarings. A jet is a list
+    with the entries of several n x n matrices: a matrix and its derivatives.
 
     The first matrix of ``total`` (its first n^2 entries) has a spectral norm of at most ``growth``. The error
     of the first matrix of the result is estimated. If the estimate is too large (:data:`LEAST_DIGITS`), all

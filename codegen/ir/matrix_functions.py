@@ -102,10 +102,12 @@ class MatrixExponential(VectorFunction):
         ``args`` contains a matrix A, followed by its derivatives. The matrix of the constant terms of A must
         be nilpotent.
         """
-        # The matrix C of the constant terms of A satisfies C^n = 0. A power of the jet is a sum of products.
-        # A non-zero product has fewer than n successive factors C. Every factor different from C is either a
-        # multiple of h or a derivative of A. A non-zero product has at most ``ring.order`` multiples of h and
-        # at most ``level`` derivatives of A as factors.
+        # Power k of the jet is a sum of products with k factors. Each factor is a multiple of h, a derivative
+        # of A, or the matrix C of the constant terms of A. A non-zero product has at most ``ring.order``
+        # multiples of h and at most ``level`` derivatives of A as factors. Let f be the sum of ``ring.order``
+        # and ``level``. A non-zero product has at most f factors that are not C. These factors divide the
+        # factors C into at most f + 1 sequences. Since C^n = 0, each sequence in a non-zero product has at
+        # most n - 1 factors. Therefore a non-zero product has fewer than n (f + 1) factors.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 

@@ -65,15 +65,17 @@ class Sweep:
 
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
-    - ``outside`` is a kernel for sites at the boundary of the lattice. If the neighbour
-      ``read_outside[k].neighbour`` of a site does not exist, output k of ``outside`` is the value of
-      the symbol ``read_outside[k].symbol``.
+    - ``outside`` is a kernel for sites at the boundary of the lattice, or None. The property ``read_outside``
+      is the tuple of the loads that read a number from a neighbour. If the neighbour of the load
+      ``read_outside[k]`` does not exist, output k of ``outside`` replaces the number that this load would
+      read.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
-      single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, a load reads the number from the second
-      site of the pair if ``Load.neighbour`` is 0. The second half of ``stores`` contains the rows for the
-      second site.
+      single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, a load with ``neighbour`` = :data:`OWN`
+      reads a number from the first site of the pair. A load with ``neighbour`` = 0 reads a number from the
+      second site of the pair. The second half of ``stores`` contains the rows for the second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
-      values g(u). Newton's method stores g(u) - u.
+      values g(u). In fixed-point iteration, the sweep stores g(u). In Newton's method, the sweep stores
+      the difference g(u) - u.
     - ``measured`` is empty, or contains two rows for the stopping test of fixed-point iteration. For each
       site, these rows contain the largest change and the largest absolute value of an unknown.
     - ``sums`` contains a pair (name, row) for each sum over all sites. The row contains the terms of the sum.

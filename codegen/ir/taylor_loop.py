@@ -71,8 +71,9 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
     The scalars of ``recurrence`` must be expressions of ``space``, and ``recurrence.scale`` must be 1.
     """
-    # The list ``start`` contains only the coefficient with index 1 of each coordinate. The coefficients with
-    # larger indices are computed for the method ``_Loop.constant``.
+    # The list ``start`` contains only the coefficient with index 1 of each coordinate. The call of ``extend``
+    # below computes the coefficients with the indices 0, ..., ``PROBED``. The method ``_Loop.constant`` uses
+    # the coefficients with larger indices to find the series that are constant in time.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
     # Coefficient n + 1 of a coordinate is 1/(n + 1) times coefficient n of the derivative of the coordinate.
@@ -261,8 +262,10 @@ class _Loop:
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
-                # In the derivative p y' - q x' of the angle, the term q x' is zero if x is constant, and the
-                # term p y' is zero if y is constant.
+                # The angle of the point (x, y) has the derivative p y' - q x', where p and q are functions of
+                # x and y. If x is constant, the term q x' is zero. If y is constant, the term p y' is zero.
+                # ``mean`` is computed from the only non-zero term. If this term is q x', the result has a
+                # minus sign. ``slopes[0]`` represents y'.
                 (mean,) = means
                 return space.sym(INVERSE) * (mean if self.known[id(slopes[0])] is not None else -mean)
             case Antiderivative(slope=slope, rate=rate):

@@ -82,8 +82,9 @@ class _Builder:
         if base is not node:
             return (base,)
         if node.op == "div":
-            # The divisor is written as c x^e with numbers c and e. The series of the quotient is built from
-            # the series of x. The series of the divisor is not needed. Here x is ``divisor``.
+            # The second argument of the quotient equals c x^e, where c and e are numbers and x is an
+            # expression. The series of the quotient is built from the series of x. The series of c x^e is not
+            # needed. The variable ``divisor`` denotes x, not c x^e.
             _, divisor, _ = self.monomial(node.args[1])
             return node.args[0], divisor
         return node.args

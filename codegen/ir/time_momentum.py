@@ -49,7 +49,8 @@ class TimeMomentum(Operation):
 
         Let Q and P be the positions and the momenta after the step. The change of u is (Q.P' - P.Q')/2. The
         dot denotes the scalar product of two vectors. The prime denotes the derivative with respect to the
-        time t for fixed y and fixed step size h, where y is the point before the step without u.
+        time t. In this derivative, the step size h is fixed. The positions and the momenta before the step
+        are fixed, too.
         """
         # The point after the step is differentiated with respect to t. Hence y and t are symbols.
         formal = ExprDomain()

@@ -247,8 +247,10 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         # The entry (j, k) of u_0 I + u_1 H + u_2 H^2 is p + i q. For v in place of u, the entry is r + i s.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
-        # The matrices u_0 I + u_1 H + u_2 H^2 and v_0 I + v_1 H + v_2 H^2 are Hermitian. Therefore the entry
-        # (k, j) of the first matrix is p - i q, and the entry (k, j) of the second matrix is r - i s.
+        # Let U = u_0 I + u_1 H + u_2 H^2 and V = v_0 I + v_1 H + v_2 H^2. The entry (j, k) of U is p + i q,
+        # and the entry (j, k) of V is r + i s. Both matrices are Hermitian. Therefore the entry (k, j) of U
+        # is p - i q, and the entry (k, j) of V is r - i s. The two lines below store the entries (j, k) and
+        # (k, j) of U + i V.
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
         real[ROWS * k + j], imaginary[ROWS * k + j] = p + s, r - q
     return [*real, *imaginary]
