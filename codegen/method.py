@@ -433,9 +433,9 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"no cut-off, or a family with a cut-off: {' or '.join(cutting)}",
         )
-    # A commutator-free tableau may claim an order for the family rk. This claim belongs to the method on R^n,
-    # which is a Runge-Kutta method. A coefficient a_ij of this Runge-Kutta method is the sum of the
-    # coefficients of k_j in all exponentials of stage i.
+    # The file of a commutator-free tableau can state an order for the family rk (Runge-Kutta methods on R^n).
+    # This order belongs to the method on R^n, which is a Runge-Kutta method. A coefficient a_ij of this
+    # Runge-Kutta method is the sum of the coefficients of k_j in all exponentials of stage i.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

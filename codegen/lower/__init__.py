@@ -90,8 +90,9 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
             expected=f"one of {', '.join(scene.steps)}" if scene.steps else "a scene that defines steps",
             hint='define the step in the argument "steps" of LinearScene',
         )
-    # Only scenes with a linear equation define steps. The class that forms the programs of ``magnus`` methods
-    # also forms the programs of such steps.
+    # The step NAME is a formula for a matrix M, and the method is y1 = M y0. Only LinearScene has an argument
+    # for such formulas, so the differential equation of the scene is linear. The class that forms the
+    # programs of ``magnus`` methods also forms the programs of such steps.
     return Method("magnus", None, step=name)
 
 

@@ -26,8 +26,8 @@ class CayleyLowering(LinearLowering):
 
         The family accepts a scene if the equation has the form y' = A(t).y and the group has a Cayley map.
         """
-        # ``linear`` is the objection to an equation that does not have the form y' = A(t).y. If the equation
-        # has this form, ``linear`` is None.
+        # If the equation does not have the form y' = A(t).y, the base class returns the reason why the family
+        # does not accept the scene. If the equation has this form, the base class returns None.
         linear = super().objection(scene)
         group = scene.as_field().group
         if linear is not None or group.offers(CayleyMap) is not None:

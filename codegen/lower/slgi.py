@@ -2,7 +2,8 @@
 
 A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau are a_ij and b_i. Let
 (xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. The unknowns are the xi_i and n_i. The
-point Q_i of stage i and the force nu_j of stage j, transported to the point q0, are defined by
+point of stage i is Q_i. The force n_j of stage j acts at the point Q_j, and nu_j is this force after the
+transport from Q_j to q0. The exponents X_i and Y, the points Q_i and the transported forces nu_j are
 
     X_i = h sum_j a_ij xi_j,   Y = h sum_j b_j xi_j,   Q_i = exp(X_i) q0,   nu_j = Ad*_{exp X_j} n_j.
 
@@ -11,8 +12,9 @@ The stage momenta M_i and the result of the step are
     M_i = dexp*_{-Y}(mu0 + h sum_j b_j nu_j) - h sum_j (b_j a_ji/b_i) dexp*_{X_j} n_j,
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j nu_j).
 
-The order is at most two. The thesis includes the factor h in f. The theta-method has one stage, a_11 = theta
-and b_1 = 1. Without the index of the stage, its formulas are
+The order of every symplectic Lie group integrator of this form is at most two. The thesis includes the factor
+h in f. The theta-method has one stage, a_11 = theta and b_1 = 1. For the theta-method, let xi, n and M be the
+velocity xi_1, the force n_1 and the momentum M_1 of this stage. The momenta M and mu1 of the theta-method are
 
     M = dexp*_{-h xi} mu0 + h (1 - theta) dexp*_{-(1 - theta) h xi} n,
     mu1 = Ad*_{exp(-h xi)} mu0 + h Ad*_{exp(-(1 - theta) h xi)} n.

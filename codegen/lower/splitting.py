@@ -148,6 +148,6 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha
-    # The durations of A and of B have the same sum. The final ``carried`` is the difference of these sums, so
-    # the final ``carried`` is zero.
+    # After the loop, the variable ``carried`` is the sum of the durations of A minus the sum of the durations
+    # of B. The two sums are equal, so ``carried`` is zero.
     return composed

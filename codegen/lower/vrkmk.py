@@ -11,8 +11,9 @@ xi_i and n_i be the velocity and the force of stage i, (xi_i, n_i) = f(exp(X_i) 
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-In general, the unknowns are v_i and m_i. If stage i satisfies a_ji = 0 for every j <= i, m_i is not an
-unknown. The program computes this m_i from the unknown Lambda and from lambda_j with j > i.
+In general, the unknowns are v_i and m_i for all stages i. If stage i satisfies a_ji = 0 for j = 1, ..., i,
+the equation for m_i contains only Lambda and the lambda_j with j > i. In this case, m_i is not an unknown,
+but Lambda is an unknown. The program computes m_i from Lambda and from the lambda_j with j > i.
 """
 
 from __future__ import annotations

@@ -95,9 +95,10 @@ class _Step(ExpandedStep):
         (ad*_x)^i M for i = 0, ..., r - 1.
         """
         terms: Terms = []
-        # Let u = ad_x^k v. The dual of the derivative of u with respect to x maps M to the sum of the vectors
-        # ad*_w (ad*_x)^i M for i = 0, ..., k - 1, where w = -ad_x^{k-1-i} v depends on i and k. For each i,
-        # z_i is the sum of w/(k+1)! for k = i + 1, ..., r.
+        # Let w_ik = -ad_x^{k-1-i} v. The product rule gives the derivative of ad_x^k v with respect to x. The
+        # derivative in the direction d is the sum of the vectors ad_x^i ad_{w_ik} d for i = 0, ..., k - 1.
+        # The dual of the linear map ad_x^i ad_{w_ik} maps M to ad*_{w_ik} (ad*_x)^i M. For each i, z_i is the
+        # sum of w_ik/(k+1)! for k = i + 1, ..., r.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             subscript = self.build.lin("z", Kind.ALG, inner)
@@ -109,12 +110,14 @@ class _Step(ExpandedStep):
         build, times_h = self.build, self.stages.times_h
         # The equation for M_i in the module docstring is divided by b_i. The left-hand side of the divided
         # equation is dexp*_{(r),X_i} M_i, a series that begins with M_i. All other terms of the series are
-        # moved to the right-hand side. With changed signs, these are the terms in corrections[i].
+        # moved to the right-hand side, which changes the signs of the moved terms. The list corrections[i]
+        # contains the moved terms with the changed signs.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The exponent X_j contains the term h a_ji v_i. In the divided equation, the two vectors
-            # R*_(r)(X_j, v_j) M_j and dexp*_{X_j} n_j are multiplied by -h b_j a_ji/b_i. The variable
-            # slopes[j] contains the first of these two vectors.
+            # The exponent X_j contains the term h a_ji v_i. In the divided equation, two vectors are
+            # multiplied by ``factor``, which is -h b_j a_ji/b_i. One vector is dexp*_{X_j} n_j, where n_j is
+            # the force forces[j] of stage j. The second vector is R*_(r)(X_j, v_j) M_j, which is the variable
+            # slopes[j].
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))

@@ -182,9 +182,10 @@ class Racer:
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the result for the fastest run that reaches an error.
 
-        ``best`` is the least CPU time in seconds of the other recipes. The search ends after a run that takes
-        much longer than ``best`` (:data:`PATIENT`). If the error is not reached, the attribute ``reached`` of
-        the result is False.
+        A recipe is a method on one form of the equations, with equal steps or with step-size control.
+        ``best`` is a CPU time in seconds in which another recipe reaches ``error``. The search ends after a
+        run that takes much longer than ``best`` (:data:`PATIENT`). If the error is not reached, the attribute
+        ``reached`` of the result is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)

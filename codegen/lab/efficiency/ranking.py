@@ -100,8 +100,9 @@ def in_form(label: str, form: str) -> str:
 def frontier(rows: Sequence[Row]) -> list[Row]:
     """Return the successful runs of one integrator on the fastest forms of the equations.
 
-    A run on one form is omitted if a run on another form reaches the error of the omitted run in less CPU
-    time. If there are several forms, the result is sorted by error, from large to small.
+    Let e be the error of a run, and let t be the CPU time of the run. The run is omitted if runs on a
+    different form of the equations reach the error e in less CPU time than t. If there are several forms, the
+    result is sorted by error, from large to small.
     """
     forms = by_form(rows)
     good = [r for r in rows if r.error and r.seconds]

@@ -66,10 +66,10 @@ The remaining budget is the time that is left after the computation of the refer
 UNREACHED = 1e-3
 """The gain of a recipe for a goal, if the gain cannot be computed from estimated CPU times.
 
-The gain measures how much faster than the fastest measured recipe a recipe may be (:meth:`Search._next`). In
-two cases, the gain cannot be computed. Either the estimated CPU times of all recipes are infinite, or the
-estimate for the recipe is unreliable and exceeds the time of the fastest measured recipe. Recipes with larger
-gains are measured earlier.
+Let a be the CPU time of the fastest measured recipe, and let b be the estimated CPU time of the recipe. If
+b < a, the gain is log(a/b) (:meth:`Search._next`). In two cases, the gain cannot be computed. Either the
+estimated CPU times of all recipes are infinite, or the estimate for the recipe is unreliable and exceeds the
+time of the fastest measured recipe. Recipes with larger gains are measured earlier.
 """
 
 LONG_STEPS = 20_000

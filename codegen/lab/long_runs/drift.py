@@ -97,8 +97,9 @@ Before the comparison with TINY, the variance is divided by the square of the la
 FINE, NEAR, FAR = 100, 5, 20
 """The tests with :data:`WALKING`, :data:`CONFINED` and :data:`STRAIGHT` use at most FINE blocks.
 
-The variance ratio is computed for k = NEAR and for k = FAR. If a record has too few blocks for k = FAR, a
-smaller k is used.
+The variance ratio V_k/(k V_1) is defined at :data:`WALKING`. Here V_k compares each block i with the block
+i + k. The variance ratio is computed for k = NEAR and for k = FAR. If a record has too few blocks for
+k = FAR, a smaller k is used.
 """
 
 
@@ -140,7 +141,8 @@ class Drift:
     def law(self) -> str:
         """The verdict on the deviation: the first of the following strings whose condition is true.
 
-        - ``lost``: the deviation reaches the size of the quantity, or saturates at half this size or more.
+        - ``lost``: the largest deviation, relative to the size of the quantity, is at least 1. If the
+          deviation saturates, the bound is 1/2 instead of 1.
         - ``exact``: all deviations are zero.
         - ``rounding``: the deviation is so small that rounding errors can cause it.
         - ``drift``: the attributes ``is_drift``, ``persists`` and ``unlike_walk`` are all True.

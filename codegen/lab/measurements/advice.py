@@ -187,9 +187,11 @@ def completed(
     """Return a copy of ``lines`` in which faster methods from ``known`` replace slower methods.
 
     ``lines`` is the result of an unfinished search. ``known`` contains the properties of the other methods,
-    and ``entries`` contains runs. Suppose that a method in ``known`` satisfies the requirement of a line.
-    This method replaces the method that the search found for an error, if the search found a slower method or
-    no method. Requirements on long times are not changed, because only the search makes long runs.
+    and ``entries`` contains runs. The entry of a line for the error 10^-k is a method, or None if the search
+    found no method. Let M be the fastest method in ``known`` that satisfies the requirement of the line and
+    reaches the error 10^-k. If the entry is None, M becomes the entry. If the method in the entry needs more
+    CPU time than M, M replaces this method. Requirements on long times are not changed, because only the
+    search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -209,11 +211,13 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return a copy of ``line`` in which no error takes more CPU time than a smaller error.
+    """Return a copy of ``line`` in which the CPU time does not decrease if the error becomes smaller.
 
     For each error 10^-k, ``line.best`` contains a method or None. A method that reaches a smaller error also
-    reaches the error 10^-k. If such a method is faster than the method for 10^-k, or if the entry for 10^-k
-    is None, the copy contains the method for the smaller error as the entry for 10^-k.
+    reaches the error 10^-k. The function changes the entries one after the other, from the smallest error to
+    the largest. Let M be the method for the next smaller error. If the entry for 10^-k is None, M becomes the
+    entry. If the method in the entry needs more CPU time than M, M replaces this method. If there is no
+    method M, the entry for 10^-k is not changed.
     """
     best = list(line.best)
     for i in reversed(range(len(best) - 1)):

@@ -159,11 +159,13 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
     """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
 
     No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as the slopes
-    have settled. For both values of ``to_rounding``, the function stops if an earlier run is usable and the
-    last error is too small to be measured.
+    have settled. A run is excluded if the run fails, or if the error of the run is too small to be measured.
+    For both values of ``to_rounding``, the function stops after a run with an error that is too small to be
+    measured, provided that an earlier run is not excluded.
 
-    The function adds runs if the slopes have not settled, the last run is excluded and other runs are usable.
-    The added runs are:
+    A run is usable if the run belongs to the longest sequence of consecutive runs that are not excluded. The
+    function adds runs under three conditions: the slopes have not settled, the last run is excluded, and at
+    least one run is usable. The added runs are:
 
     - runs with the numbers of steps in :data:`LONGER`,
     - two runs with 6/5 n and 7/5 n steps for each usable run with n steps.

@@ -27,17 +27,18 @@ TRIAL = 1000
 class Endurance:
     """The result of a long run: a run forward, or a run forward followed by a run back to the initial time.
 
-    - ``steps``: the number of steps in one direction. If a step fails, only the completed steps in the
-      direction of this step are counted.
+    - ``steps``: the number of steps in one direction. If a step of the run forward fails, ``steps`` is the
+      number of completed steps forward. If a step of the run back fails, ``steps`` is the number of completed
+      steps back.
     - ``defect``: the largest absolute residual of the equations of the manifold after a run forward, or None
       for a vector space. If the final state is not finite, ``defect`` is infinite.
     - ``returned``: the distance of the final state from the initial state after a run forward and back.
     - ``failure``: the error message of the integrator if a step failed.
 
-    The test detects only unreported failures. A run with an error message passes. A complete run forward
-    passes if ``defect`` is None, or if ``defect`` is at most 64 * ``steps`` * 2^-53 (a bound for rounding
-    errors). A complete run forward and back passes if ``returned`` is finite. A large ``returned`` is
-    permitted.
+    The test detects only unreported failures. A run that ends with an error message passes the test, because
+    the failure is reported. A complete run forward passes if ``defect`` is None, or if ``defect`` is at most
+    64 * ``steps`` * 2^-53 (a bound for rounding errors). A complete run forward and back passes if
+    ``returned`` is finite. A large ``returned`` is permitted.
     """
 
     name: str
