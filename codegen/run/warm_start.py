@@ -243,7 +243,7 @@ class WarmStart:
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
         body += self.chosen(place)
         body += [
-            Note("compute a guess: the backward difference of order degree + 1 must be zero"),
+            Note("extrapolate the polynomial through the latest solutions"),
             # For a polynomial of degree k, the backward difference of order k + 1 is zero. This difference is
             # a linear combination of the value at the next step and of previous values. The coefficient of
             # the value at the next step is 1. Therefore the guess for this value is minus the sum of all

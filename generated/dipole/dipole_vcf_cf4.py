@@ -475,7 +475,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree, or only once in 8 steps if the ring buffer is full
+    # adapt the degree, but only in every 8th step if the ring buffer is full
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
         grows = False
@@ -488,7 +488,7 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # compute a guess: the backward difference of order degree + 1 must be zero
+    # extrapolate the polynomial through the latest solutions
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 

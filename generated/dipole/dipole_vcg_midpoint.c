@@ -348,7 +348,7 @@ static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memor
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree, or only once in 8 steps if the ring buffer is full */
+    /* adapt the degree, but only in every 8th step if the ring buffer is full */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcg_midpoint_difference_size(memory, memory->degree);
         int grows = 0;
@@ -365,7 +365,7 @@ static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memor
             }
         }
     }
-    /* compute a guess: the backward difference of order degree + 1 must be zero */
+    /* extrapolate the polynomial through the latest solutions */
     dipole_vcg_midpoint_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

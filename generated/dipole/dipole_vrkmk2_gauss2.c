@@ -453,7 +453,7 @@ static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_mem
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree, or only once in 8 steps if the ring buffer is full */
+    /* adapt the degree, but only in every 8th step if the ring buffer is full */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vrkmk2_gauss2_difference_size(memory, memory->degree);
         int grows = 0;
@@ -470,7 +470,7 @@ static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_mem
             }
         }
     }
-    /* compute a guess: the backward difference of order degree + 1 must be zero */
+    /* extrapolate the polynomial through the latest solutions */
     dipole_vrkmk2_gauss2_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

@@ -389,7 +389,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree, or only once in 8 steps if the ring buffer is full */
+    /* adapt the degree, but only in every 8th step if the ring buffer is full */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = free_rigid_body_s3_discrete_gradient_midpoint_difference_size(memory,
             memory->degree);
@@ -409,7 +409,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
             }
         }
     }
-    /* compute a guess: the backward difference of order degree + 1 must be zero */
+    /* extrapolate the polynomial through the latest solutions */
     free_rigid_body_s3_discrete_gradient_midpoint_difference(memory, memory->degree + 1, 1,
         -1.0, memory->guess);
 }

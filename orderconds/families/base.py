@@ -338,9 +338,9 @@ class Family(ABC):
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return a condition of the given order that no method of the family satisfies.
+        """Return a condition of the given order that contradicts other conditions of at most this order.
 
-        Return None if no such condition is known.
+        No method of the family satisfies all these conditions. Return None if no such condition is known.
         """
         return None
 

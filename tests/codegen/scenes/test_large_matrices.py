@@ -375,13 +375,13 @@ class TestRefusals:
     def test_measurements_in_coordinates_are_refused(self, command):
         done = CliRunner().invoke(program, [command, str(EXAMPLE), "--method", "rkmk:rk4"])
         assert done.exit_code == 2
-        assert "without formulas in coordinates" in done.stderr
+        assert "no formulas in coordinates" in done.stderr
 
     def test_operations_of_the_group_are_refused(self):
         scene = tridiagonal(40)
         with pytest.raises(SceneError, match="a method of the family rkmk, cf or cg"):
             scene.group.exp(FloatDomain(0.0), (0.0,) * scene.group.dim)
-        with pytest.raises(SceneError, match="without formulas"):
+        with pytest.raises(SceneError, match="no formulas"):
             scene.require_formulas()
 
     def test_a_step_that_cannot_be_computed_has_a_cause(self):
