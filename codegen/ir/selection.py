@@ -5,7 +5,7 @@
 - A :class:`codegen.ir.table.PiecewisePolynomial` at x selects the polynomial of the interval that contains x.
 
 The argument x may be a power series in the step size. :class:`Kink` is raised if the constant term of the
-series is, or may be, a boundary between two formulas.
+series is a boundary between two formulas, or if this cannot be decided.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ SELECTING = (CHOOSE, ABSOLUTE)
 
 
 class Kink(ArithmeticError):
-    """Raised if the constant term of a power series x is, or may be, a boundary between two formulas."""
+    """Raised if the constant term of a power series x is a boundary between two formulas, or if this cannot
+    be decided."""
 
 
 def selects(function: str) -> bool:

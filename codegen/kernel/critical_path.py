@@ -66,8 +66,7 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     for let in lets:
         times.append(_measured(let.value, ready))
         ready[let.value.space.sym(let.name).id] = times[-1]
-    # The sorted order is valid, because no value is ready before its arguments. Assignments with equal times
-    # keep their order.
+    # The sorted order is valid, because no value is ready before its arguments.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 

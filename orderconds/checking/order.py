@@ -137,10 +137,9 @@ def family_order(
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
     - ``brief``: used only if ``bound`` is given. If ``brief`` is true, the search ends at ``bound.order``,
-      and the result contains the failing conditions of ``bound``. If ``brief`` is false, the end of the
-      search depends on ``bound.order``. For ``bound.order >= family.search_limit``, the search ends as if
-      ``brief`` were true. For ``bound.order < family.search_limit``, the search continues with the conditions
-      of order ``bound.order + 1``.
+      and the result contains the failing conditions of ``bound``. If ``brief`` is false and
+      ``bound.order < family.search_limit``, the failing conditions of ``family`` of order ``bound.order + 1``
+      are computed, too.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get

@@ -111,8 +111,8 @@ class SymbolicCoefficients(Struct, frozen=True):
         return evaluate_in(_Substituted(ring, known), expression, self.numbers, self.where)[name]
 
     def decimals(self) -> tuple[Unknown, ...]:
-        """Return the rounded decimals of the file, each once: first the decimals in named numbers, then the
-        decimals in the coefficients."""
+        """Return each rounded decimal of the file once. The decimals of the named numbers in the file come
+        before the decimals of the coefficients."""
         names_of: dict[Constant, str] = {}
         for name, definition in (*self.numbers.items(), *self.expressions.items()):
             for constant in rounded_and_exact(definition):
