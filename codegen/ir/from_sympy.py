@@ -171,9 +171,10 @@ class _Reader:
                 expected="a last branch (formula, True)",
             )
         # ``e`` may be nested in a branch of a larger Piecewise formula. Let B be this branch. ``outer`` is an
-        # expression with the value 1 if B is selected, and with the value -1 if B is not selected. If ``e``
-        # is not nested, ``outer`` is None. In each pass of the loop, ``rest`` is true if B is selected and
-        # all earlier conditions of ``e`` are false. If ``e`` is not nested, B counts as selected.
+        # expression with the value 1 if B is selected, and with the value -1 if B is not selected. In each
+        # pass of the loop, ``rest`` is true if B is selected and all earlier conditions of ``e`` are false.
+        # If ``e`` is not nested, ``outer`` is None, and ``rest`` is true if all earlier conditions of ``e``
+        # are false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
         for formula, condition in e.args:

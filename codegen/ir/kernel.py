@@ -162,9 +162,10 @@ class Loop:
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         # If Newton's matrix is expanded in h, the loop converges only for small h. The errors in the values
-        # of ``body`` are smaller for small h than for large h. Therefore a loop with an expanded matrix may
-        # end at a larger change than a loop without an expanded matrix. The result is ``tolerance`` for a
-        # loop with an expanded matrix, and ``tolerance`` / 16 for all remaining loops.
+        # of ``body`` are smaller for small h than for large h. Because of these two facts, the factor
+        # ``close`` is larger for a loop with an expanded matrix than for a loop without an expanded matrix.
+        # The result is ``tolerance`` for a loop with an expanded matrix, and ``tolerance`` / 16 for all
+        # remaining loops.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 

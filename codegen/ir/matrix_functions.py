@@ -106,8 +106,9 @@ class MatrixExponential(VectorFunction):
         # of A, or the matrix C of the constant terms of A. A non-zero product has at most ``ring.order``
         # multiples of h and at most ``level`` derivatives of A as factors. Let f be the sum of ``ring.order``
         # and ``level``. A non-zero product has at most f factors that are not C. These factors divide the
-        # factors C into at most f + 1 sequences. Since C^n = 0, each sequence in a non-zero product has at
-        # most n - 1 factors. Therefore a non-zero product has fewer than n (f + 1) factors.
+        # factors C into at most f + 1 sequences. The n x n matrix C is nilpotent, and therefore C^n = 0.
+        # Hence each sequence in a non-zero product has at most n - 1 factors. Therefore a non-zero product
+        # has at most f + (f + 1) (n - 1) factors. This bound is equal to ``longest`` - 1.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 

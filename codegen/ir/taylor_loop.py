@@ -73,7 +73,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
     """
     # The list ``start`` contains only the coefficient with index 1 of each coordinate. The call of ``extend``
     # below computes the coefficients with the indices 0, ..., ``PROBED``. The method ``_Loop.constant`` uses
-    # the coefficients with larger indices to find the series that are constant in time.
+    # the coefficients with the indices 1, ..., ``PROBED`` - 1 to find the series that are constant in time.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
     # Coefficient n + 1 of a coordinate is 1/(n + 1) times coefficient n of the derivative of the coordinate.

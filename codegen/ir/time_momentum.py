@@ -45,12 +45,12 @@ class TimeMomentum(Operation):
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
-        """Return the change of the momentum u in the step, as a scalar of ``domain``.
+        """Return the change of the momentum conjugate to the time, as a scalar of ``domain``.
 
-        Let Q and P be the positions and the momenta after the step. The change of u is (Q.P' - P.Q')/2. The
-        dot denotes the scalar product of two vectors. The prime denotes the derivative with respect to the
-        time t. In this derivative, the step size h is fixed. The positions and the momenta before the step
-        are fixed, too.
+        Let u be the momentum conjugate to the time t. Let Q and P be the positions and the momenta after the
+        step. The momentum u is not a component of P. The change of u is (Q.P' - P.Q')/2. The dot denotes the
+        scalar product of two vectors. The prime denotes the derivative with respect to the time t. In this
+        derivative, the step size h is fixed. The positions and the momenta before the step are fixed, too.
         """
         # The point after the step is differentiated with respect to t. Hence y and t are symbols.
         formal = ExprDomain()

@@ -115,10 +115,9 @@ class Trees:
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Only a result with a single reader can be joined. Let w = d v be the result of an earlier
-        # assignment. Before the replacement, ``assign`` computes c w and is a reader of w. After the
-        # replacement, ``assign`` computes (c d) v and does not read w. Thus w loses one reader. If one reader
-        # of w is left, the assignment of w can be joined with this reader.
+        # ``assign`` computes c v. Suppose that v is the result d w of an earlier assignment, where d is a
+        # coefficient and w is a variable. In this case, ``assign`` is replaced by an assignment that computes
+        # (c d) w and does not read v.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)

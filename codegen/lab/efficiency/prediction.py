@@ -157,10 +157,11 @@ class Bar:
     - ``seconds``: the largest accepted CPU time in seconds.
     - ``least``: triples (family, explicit, e). Let p be the order of the recipe. For all methods of the
       orders p + 1 and p + 2, the error in a run with the CPU time ``seconds`` is predicted. The number e is
-      the least of these errors. If e is too large, the recipe is excluded (:data:`FAR`). If the entry
-      ``explicit`` of the triple is True, only explicit methods are compared, and otherwise only implicit
-      methods. If ``family`` is not '', only methods of this family are compared.
-    - ``steps``: the number of steps of the first run in the interpreter.
+      the least of these errors. The recipe is assumed to be less accurate than these methods of higher order.
+      Therefore the recipe is excluded if e is too large (:data:`FAR`). If the entry ``explicit`` of the
+      triple is True, only explicit methods are compared, and otherwise only implicit methods. If ``family``
+      is not '', only methods of this family are compared.
+    - ``steps``: the smallest number of steps of an interpreted run with equal steps over the whole time span.
     - ``explicit``: True if methods that solve equations are excluded.
     """
 
@@ -247,9 +248,8 @@ class Predictor:
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
         # If all runs over the whole time span fail, further runs cover only the first part of the time span.
-        # If the most accurate run has a large error, such further runs are made only if ``most`` is
-        # at least MANY_STEPS. If ``most`` is smaller, the time limits in ``bars`` permit no more steps over
-        # the whole time span.
+        # If the most accurate run has a large error, such further runs are made only if ``most`` is at least
+        # MANY_STEPS.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)

@@ -160,12 +160,12 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
 
     No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as the slopes
     have settled. A run is excluded if the run fails, or if the error of the run is too small to be measured.
-    For both values of ``to_rounding``, the function stops after a run with an error that is too small to be
-    measured, provided that an earlier run is not excluded.
+    After the first run that is not excluded, the doubling of the number of steps ends as soon as the error of
+    a run is too small to be measured.
 
-    A run is usable if the run belongs to the longest sequence of consecutive runs that are not excluded. The
-    function adds runs under three conditions: the slopes have not settled, the last run is excluded, and at
-    least one run is usable. The added runs are:
+    A run is usable if the run belongs to the longest sequence of consecutive runs that are not excluded.
+    After the doubling, the function adds runs if all of the following three conditions hold: the slopes have
+    not settled, the last run is excluded, and at least one run is usable. The added runs are:
 
     - runs with the numbers of steps in :data:`LONGER`,
     - two runs with 6/5 n and 7/5 n steps for each usable run with n steps.
