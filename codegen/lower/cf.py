@@ -79,8 +79,7 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
         exponent = second_exponent(method.commutator_free(), second, method.ring)
         # Let k_i be the value of the field at stage i. An embedded method can have the following form: one
         # exponential exp(h sum_i D_i k_i) acts on the result of ``method``. If ``exponent`` is None, the
-        # embedded method does not have this form. Such an embedded method needs all stage values k_i, but a
-        # low-storage scheme overwrites stage values.
+        # embedded method does not have this form.
         if exponent is None:
             return None
     # If ``holds`` is True, the scheme and the tableau define the same step.

@@ -114,10 +114,9 @@ class _Step(ExpandedStep):
         # contains the moved terms with the changed signs.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The exponent X_j contains the term h a_ji v_i. In the divided equation, two vectors are
-            # multiplied by ``factor``, which is -h b_j a_ji/b_i. One vector is dexp*_{X_j} n_j, where n_j is
-            # the force forces[j] of stage j. The second vector is R*_(r)(X_j, v_j) M_j, which is the variable
-            # slopes[j].
+            # The exponent X_j contains the term h a_ji v_i. Two vectors are multiplied by ``factor``, which
+            # is -h b_j a_ji/b_i. One vector is dexp*_{X_j} n_j, where n_j is the force forces[j] of stage j.
+            # The second vector is R*_(r)(X_j, v_j) M_j, which is the variable slopes[j].
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))

@@ -218,10 +218,7 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # empty) or an unknown of the block.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
-    # The assignments of ``route`` keep their old arguments. Let b = A a be an assignment of ``route`` with an
-    # invertible map A. The new variable a' for a is computed from the new variable b' for b: a' = A^{-1} b'.
-    # If the assignment b = A a read a' in place of a, the result b would always be b'. The equation for
-    # ``route.unknown`` would hold for every value of ``route.unknown``.
+    # The assignments of ``route`` keep their old arguments.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))

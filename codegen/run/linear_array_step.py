@@ -256,10 +256,8 @@ class _Step:
             *norms,
             # Halving X cannot make an infinite norm finite.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
-            # The exponential of ``scale`` times X is applied ``parts`` times. The matrix X is a linear
-            # combination of given matrices (the letters) and of commutators of these matrices. The factor
-            # ``scale`` multiplies the product of X and a vector. If each letter were multiplied by ``scale``,
-            # the commutator of two letters would be multiplied by ``scale``^2.
+            # The loop over ``_PART`` multiplies the state by exp(X/``parts``) in each of ``parts``
+            # iterations. The number ``scale`` is 1/``parts``.
             Assign(scale, number(1.0)),
             Assign(parts, whole(1)),
             While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),

@@ -40,7 +40,7 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
-        # After a variation, the new value of ``start`` is meaningless, because a variation is not in the
-        # array ``state``. This value is never used, because a variation is the last block of the state.
+        # If ``kernel.state`` contains a variation, the variation is the last element of ``kernel.state``. The
+        # value of ``start`` is not used after the last element.
         start += n
     return tuple(result)

@@ -350,20 +350,18 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return a limit in ns. A second solver is tried only if a step may take less time than this limit.
+        """Return a limit in ns. A solver s is tried only if ``self.least(s)`` is below this limit.
 
-        The first solver is ``solver``. The argument ``candidate`` contains the trials of ``solver``, and the
-        first of these trials converged. Let s be the second solver. The step time of s is not known before a
-        trial, so the lower bound ``least(s)`` of this step time is compared with the limit. There is one
+        The number ``self.least(s)`` is a lower bound of the time of a step with the solver s. The argument
+        ``candidate`` contains the trials of ``solver``, and the first of these trials converged. There is one
         exception in :meth:`consider`. Newton's method is always tried if the equations are linear and
         fixed-point iteration is not robust.
         """
-        # If ``candidate`` is robust, the limit is the step time of ``candidate``. If ``candidate`` is not
-        # robust, the limit is usually PRICE times the step time of ``candidate``. The reason is that a robust
-        # solver is preferred to ``solver`` even if a step with the robust solver takes PRICE times as long.
-        # The factor PRICE is replaced by 1 if ``solver`` is Newton's method and the equations have more than
-        # LARGE unknowns. With the smaller limit, simplified Newton is tried less often. A trial of simplified
-        # Newton with more than LARGE unknowns is slow.
+        # The result is the step time of ``candidate``, multiplied by a factor. If ``candidate`` is robust,
+        # the factor is 1. If ``candidate`` is not robust, the factor is usually PRICE, because a slower
+        # robust solver can be preferred to ``candidate``. The factor PRICE is replaced by 1 if ``solver`` is
+        # Newton's method and the equations have more than LARGE unknowns. With the factor 1, simplified
+        # Newton is tried less often. A trial of simplified Newton with more than LARGE unknowns is slow.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -384,10 +382,10 @@ class _Selection:
             n = len(loop.unknowns)
             # The product of the inverse and a vector takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
-            # Simplified Newton inverts a matrix in each step or substep. Newton's method may use one inverse
-            # for several steps. For Newton's method, the lower bound assumes that all steps of the first
-            # trial use one inverse. If a step has substeps, the lower bound assumes one inverse for each
-            # substep.
+            # The number ``self.parts`` is the number of substeps in a step, or 1 if a step has no substeps.
+            # Simplified Newton computes ``self.parts`` inverses in each step. Newton's method may use an
+            # inverse for several steps. For Newton's method, the lower bound assumes that
+            # ``trial_steps(self.fixed)`` steps together compute only ``self.parts`` inverses.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -400,13 +398,12 @@ class _Selection:
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
-        """Return the candidate that solves block number k with the solver ``best[k]``.
+        """Return the candidate of a combination: for each k, the solver ``best[k]`` solves block number k.
 
-        ``robust`` contains the allowed candidates. Usually, only robust candidates are allowed. Sometimes
-        :meth:`chosen` allows every candidate whose first trial converges, robust or not. The fastest
-        candidate f in ``robust`` is returned in place of the combination ``best`` in two cases. In the first
-        case, the combination does not converge. In the second case, f is robust and the combination is not
-        robust.
+        ``robust`` contains the allowed candidates. In spite of the name, ``robust`` can contain candidates
+        that are not robust. The fastest candidate f in ``robust`` is returned in place of the combination
+        ``best`` in two cases. In the first case, the combination does not converge. In the second case, f is
+        robust and the combination is not robust.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
