@@ -112,13 +112,10 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # The change ``best`` is yielded in two cases: ``best`` replaces a factor of the group by a covering
-        # group, or ``covered`` is False and ``best`` uses the body frame. There are two cases in which
-        # ``best`` is not yielded. If ``covered`` is False and ``best`` uses the space frame, ``best`` keeps
-        # the coordinates of the scene. These coordinates give the first classical form, which
-        # :func:`classical_forms` adds. If ``covered`` is True but no factor of the group has a covering
-        # group, the first iteration of the loop over ``covered`` has found the same change of coordinates as
-        # ``best``.
+        # The change ``best`` is computed twice: for ``covered`` = False and for ``covered`` = True. If no
+        # factor of the group has a covering group, the two results are equal, and are not yielded twice. If
+        # ``best`` uses neither a covering group nor the body frame, ``best`` keeps the coordinates of the
+        # scene, and is not yielded.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 

@@ -84,10 +84,8 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 def small(scene: Problem) -> Problem:
     """Return one problem with the equations of all sites of a small lattice.
 
-    In a periodic lattice, no site is its own neighbour. An open lattice contains at least one site with no
-    missing neighbour. If an open lattice with this property needs more than :data:`MOST_SITES` sites, a
-    smaller open lattice is used. It is possible that all sites of this smaller open lattice have missing
-    neighbours.
+    The size of the lattice is chosen such that no site is its own neighbour. :class:`SceneError` is raised if
+    the lattice has more than :data:`MOST_SITES` sites.
     """
     assert scene.sites is not None
     offsets, dimension = scene.sites.offsets, scene.sites.dimension

@@ -136,10 +136,9 @@ def family_order(
       ``family``, so the order in ``family`` is at most ``bound.order``.
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
-    - ``brief``: used only if ``bound`` is given. If ``brief`` is true, the search ends at ``bound.order``,
-      and the result contains the failing conditions of ``bound``. If ``brief`` is false and
-      ``bound.order < family.search_limit``, the failing conditions of ``family`` of order ``bound.order + 1``
-      are computed, too.
+    - ``brief``: used only if the computed order is equal to ``bound.order``. If ``brief`` is true or
+      ``bound.order`` is at least ``family.search_limit``, the result contains the failing conditions of
+      ``bound``. Otherwise, the result contains failing conditions of ``family`` of order ``bound.order + 1``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get

@@ -226,11 +226,11 @@ Reading = tuple[Tableau, Family, int | None]
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
     """Return families that are not in ``wanted``. Each family is returned with a tableau and a claimed order.
 
-    The orders of ``tableau`` in the returned families are computed first. An upper bound of the order of
-    ``tableau`` in a family of ``wanted`` may follow from the computed orders.
+    The order of ``tableau`` in a returned family can imply an upper bound of the order of ``tableau`` in a
+    family of ``wanted``.
 
-    No upper bounds are needed if each family F of ``wanted`` has the following property: ``required`` and the
-    claimed order in F are below ``F.search_limit``. In this case the result is empty.
+    The result is empty if each family F of ``wanted`` has the following property: ``required`` and the
+    claimed order in F are below ``F.search_limit``.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []

@@ -144,13 +144,11 @@ class Values:
             self.sources[name] = traced
 
     def _traced(self, names: Collection[str]) -> tuple[frozenset[str], frozenset[int]]:
-        """Return two sets: the variables and the arrays to which the values of ``names`` may refer.
+        """Return two sets. The sets describe the variables and the arrays to which the values of ``names``
+        may refer.
 
-        The first set contains ``names`` and the variables that :attr:`sources` lists for ``names``. The
-        second set contains integers. Each integer is the attribute :attr:`Array.memory` of an array. The
-        second set contains the integers that :attr:`sources` lists for ``names``. If the value of a variable
-        in the first set is an array, the second set also contains the integers that :meth:`Array.parts`
-        returns for this array.
+        The first set contains names of variables, including all elements of ``names``. The second set
+        contains integers. Each integer is the attribute :attr:`Array.memory` of an array.
         """
         reached, memories = set(names), set[int]()
         for name in names:

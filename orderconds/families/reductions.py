@@ -58,8 +58,9 @@ class Reductions(Struct, frozen=True):
 
     ``even`` is true if the method is symmetric. ``substitute`` is None, or contains a family whose conditions
     imply the conditions of the original family. ``cut`` is None, or a test (:class:`UnseenCut`) whether the
-    truncation of dexpinv changes a condition. A condition of order at most ``cut.order`` holds if the test
-    shows that the truncation does not change the condition.
+    truncation of dexpinv changes a condition. The method without the truncation satisfies every condition of
+    order at most ``cut.order``. Therefore the method with the truncation satisfies each of these conditions
+    that the truncation does not change.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]

@@ -106,8 +106,9 @@ class ExactMember:
         tested. First, evaluate these left-hand sides at the random member of the sub-family, and insert the
         values into the polynomial. The result must be equal to the left-hand side of ``condition`` at the
         random member. Second, insert the right-hand sides of the order conditions into the polynomial in
-        place of the left-hand sides. The result must be equal to the right-hand side of ``condition``. If the
-        result is True, the probability of an error is negligible. Return False if ``combination`` is None.
+        place of the left-hand sides. The result must be equal to the right-hand side of ``condition``. If
+        this method returns True, the probability of an error is negligible. Return False if ``combination``
+        is None.
         """
         if combination is None:
             return False

@@ -12,13 +12,14 @@ The formulas for psi_p(i) contain derivatives with respect to the velocity of st
 derivatives as coefficients of words, introduce a letter x that is not a tree. Replace the velocity xi_i of
 stage i by xi_i + x, and leave the velocities of all other stages unchanged. The group elements depend on
 xi_i. Therefore the expansions of the changed group elements contain words (u, x, v), where u and v are words
-of trees. Let [(u, x, v) at stage j] be the coefficient of the word (u, x, v) in the changed group element of
-stage j. Let [(u, x, v) at the update] be the coefficient of the word (u, x, v) in the changed group element
-of the update. The coefficients of the trees in the expansions of stage i are
+of trees. Let c_{(u, x, v)}(j, i) be the coefficient of the word (u, x, v) in the changed group element of
+stage j, where i is the stage with the changed velocity. Let d_{(u, x, v)}(i) be the coefficient of the word
+(u, x, v) in the changed group element of the update, where i is the stage with the changed velocity. The
+coefficients of the trees in the expansions of stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
-- ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [(u, x, v) at stage j]``,
-- ``psi_{L(w)}(i) = (1/b_i) [(x, reverse(w)) at the update]``.
+- ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) c_{(u, x, v)}(j, i)``,
+- ``psi_{L(w)}(i) = (1/b_i) d_{(x, reverse(w))}(i)``.
 
 The order condition of a tree t is: ``sum_i b_i tau_t(i)`` is equal to the coefficient of t in the exact flow.
 A method has order n if and only if the conditions of all trees t = (w, M) with at most n vertices hold.

@@ -161,12 +161,11 @@ def _chosen(
 ) -> Iterator[tuple[int, Momenta]]:
     """Yield pairs (cost, multiset). The elements of each multiset are g*-valued trees that have ``vertices``
     vertices in total. The cost of each multiset is at most ``rest``. The trees are entries of the lists
-    ``_momenta(n, limit)`` with n <= ``largest``. If ``bound`` is an integer, only the entries with an index
-    of at most ``bound`` are used from the list with n = ``largest``. The lists with n < ``largest`` have no
-    such restriction. The function calls itself to choose the elements of a multiset one by one. In each inner
-    call, ``largest`` is the number of vertices of the previous element, and ``bound`` is the index of the
-    previous element. Hence the elements of a multiset are chosen in only one order, and no multiset is
-    yielded twice."""
+    ``_momenta(n, limit)`` with n <= ``largest``. If ``bound`` is an integer, the list with n = ``largest`` is
+    cut off after the entry with the index ``bound``. The lists with n < ``largest`` have no such restriction.
+    The function calls itself to choose the elements of a multiset one by one. In each inner call, ``largest``
+    is the number of vertices of the previous element, and ``bound`` is the index of the previous element.
+    Hence the elements of a multiset are chosen in only one order, and no multiset is yielded twice."""
     if vertices == 0:
         yield 0, ()
         return

@@ -197,9 +197,9 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # The initial position and the final momentum of a step are the independent variables here. The
-            # initial momentum is a function of these two variables. The sum of all ``weight * change`` is the
-            # error of this initial momentum. The error of the final momentum has the opposite sign.
+            # The local error of the momentum is the final momentum of the method minus the exact final
+            # momentum. The leading coefficient of this local error is the sum of ``-weight * change`` over
+            # all words.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 

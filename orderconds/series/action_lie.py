@@ -218,12 +218,12 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. Let S_j be the series
-        dexpinv_{(r),X_j} xi_j. The exponent X_j is expanded in words of trees, but the factor xi_j of S_j is
-        kept as one letter. To obtain entry i of the map for stage j, replace xi_i by xi_i + x in the
-        expansion of X_j. Entry i is the coefficient of the word (``before``, x, ``after``, xi_j, ``behind``)
-        in the changed series S_j. The module docstring defines the series, the number r, the letter x, and
-        the exponent X_j."""
+        """Return a list with one map (:data:`Varied`) for each stage j. To obtain entry i of the map for
+        stage j, change the series dexpinv_{(r),X_j} xi_j in two steps. First, replace the velocity xi_i by
+        xi_i + x in the exponent X_j. Second, expand X_j in words of trees and x. In both steps, the factor
+        xi_j behind dexpinv stays one letter, even if i = j. Entry i is the coefficient of the word
+        (``before``, x, ``after``, xi_j, ``behind``) in the changed series. The module docstring defines the
+        series, the number r, the letter x, and the exponent X_j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -233,12 +233,12 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. Let S_j be the series
-        dexpinv_{(r),X_j} xi_j. The exponent X_j is expanded in words of trees, but the factor xi_j of S_j is
-        kept as one letter. To obtain entry i of the map for stage j, replace xi_i by xi_i + x in the
-        expansion of X_j. Entry i is the coefficient of the word (``first``, xi_j, ``before``, x, ``after``)
-        in the changed series S_j. The module docstring defines the series, the number r, the letter x, and
-        the exponent X_j."""
+        """Return a list with one map (:data:`Varied`) for each stage j. To obtain entry i of the map for
+        stage j, change the series dexpinv_{(r),X_j} xi_j in two steps. First, replace the velocity xi_i by
+        xi_i + x in the exponent X_j. Second, expand X_j in words of trees and x. In both steps, the factor
+        xi_j behind dexpinv stays one letter, even if i = j. Entry i is the coefficient of the word
+        (``first``, xi_j, ``before``, x, ``after``) in the changed series. The module docstring defines the
+        series, the number r, the letter x, and the exponent X_j."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -247,11 +247,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms of dexpinv_X xi that contain words with ``before`` letters before xi and
-        ``behind`` letters behind xi. The letters of a word act on a point of the Lie group in the order from
-        left to right. The factors of a product act on a point in the order from right to left. A triple (q,
-        m, n) represents the product q X^n xi X^m, in which X^m acts on the point first. Hence X^m gives the
-        letters before xi."""
+        """Return terms q X^n xi X^m of the series dexpinv_X xi, as triples (q, m, n). A term is returned if
+        the expansion of the term may contain a word that has ``before`` letters on the left of xi and
+        ``behind`` letters on the right of xi. A word lists the factors of a product from right to left.
+        Therefore the letters on the left of xi come from X^m, and the letters on the right of xi come from
+        X^n."""
         known = self._in_sight.get((before, behind))
         if known is None:
             known = self._in_sight[before, behind] = [
