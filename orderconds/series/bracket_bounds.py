@@ -17,22 +17,15 @@ Second bound: for each argument, form the sum of the terms that have at least tw
 letter. This sum is called the linear part of the argument. Let ad_q be the operator with ad_q y = [q, y]. To
 obtain the operator ad_(P) for a polynomial P, replace each letter q in P by the operator ad_q. For example,
 let q_1 and q_2 be old letters, and let q_n be a new letter. With the polynomial P = q_2 q_1, ad_(P) q_n is
-the bracket [q_2, [q_1, q_n]]. In general, the antisymmetry of the bracket and the Jacobi identity imply that
-each linear part has the form sum_n ad_(P_n) q_n. This sum is over the new letters q_n, and each P_n is a
-polynomial in the old letters. Let S be the space that the linear parts of u_1, ..., u_i span, and let d be
-the dimension of S.
+the bracket [q_2, [q_1, q_n]]. In general, each linear part has the form sum_n ad_(P_n) q_n. This sum is over
+the new letters q_n, and each P_n is a polynomial in the old letters. Let S be the space that the linear parts
+of u_1, ..., u_i span, and let d be the dimension of S.
 
 The linear part of a bracket is defined in the same way. The linear parts of the N brackets span a space that
 contains S. Hence N is at least d. A Lie element is a linear combination of letters and of brackets of
 letters. Let L be the set of all sums sum_n ad_(P_n) q_n over the new letters q_n, where every P_n is a Lie
 element in the old letters. Now assume that d > 0, and that zero is the only common element of S and L. Then N
-is greater than d. Of the N brackets, let B be the one that the program computes first, and let x be the
-linear part of B. Each of the two factors of B is a linear combination of letters and of brackets that the
-program computes before B. These brackets contain only old letters, because B is the first bracket with new
-letters. Hence each factor of B is the sum of two elements: a Lie element in the old letters, and a linear
-combination of new letters. Therefore x is an element of L. By assumption, x is zero or not in S. If x is
-zero, the linear parts of the other N - 1 brackets span a space that contains S. If x is not in S, the N
-linear parts span a space that is larger than S.
+is greater than d.
 
 The number of brackets without new letters has a similar lower bound. The sum of the lower bounds for the two
 numbers is a lower bound for the number of all brackets.
@@ -100,10 +93,9 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # Let g be ``algebra.largest``. The polynomials in ``known`` are the arguments without their terms of
-        # grade g. In the argument of the step, which is ``arguments[last]``, the terms of grade g affect the
-        # order of the method. Therefore, if i is ``last``, an additional list in ``spans`` contains one
-        # polynomial: the argument of the step with its terms of grade g.
+        # The polynomials in ``known`` have no terms of grade ``algebra.largest``. In the argument of the
+        # step, which is ``arguments[last]``, the terms of this grade affect the order of the method. For this
+        # reason, ``spans`` contains the complete ``arguments[last]``, too, if i is ``last``.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))

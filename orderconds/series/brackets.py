@@ -164,13 +164,10 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return a map from stages to lists of polynomials. The arguments u_1, u_2, ... of the stages are
     polynomials in the elements q_1, q_2, ... (module docstring). The list of stage i contains polynomials d =
-    u_j - c u_i with j > i and a number c.
+    v - c u_i with a number c. Here v is the argument u_j of a stage j > i, without the terms that are
+    multiples of a single element q_n with n >= i.
 
-    The purpose is a polynomial d that needs fewer brackets than u_i, and fewer brackets than u_j. For a
-    polynomial x, let x' be the sum of the terms of x that have at least two letters and contain the letter
-    q_(i-1) exactly once. The number c is chosen such that d' is a single bracket [P, q_(i-1)], where P is a
-    linear combination of the letters q_1, ..., q_(i-2) and of brackets of these letters. Neither u_i' nor
-    u_j' is such a bracket. Terms of d that are multiples of a single element q_n with n >= i are omitted.
+    The purpose is a polynomial d that needs fewer brackets than u_i, and fewer brackets than u_j.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]

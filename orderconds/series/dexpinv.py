@@ -127,11 +127,10 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return terms of the series dexpinv_u x, where u is a linear combination of words, and x is a
-        letter. A triple (q, m, n) in the result denotes the term q u^n x u^m with the coefficient q. Let v be
-        a word with ``before`` letters, and let w be a word with ``behind`` letters. The result contains the
-        terms in which the word v x w may occur. In the product A B of two series, each word is a word of B
-        followed by a word of A. Therefore v must be a word of u^m, and w must be a word of u^n."""
+        """Return terms of the truncated series dexpinv_u x, where u is a linear combination of words, and x
+        is a letter. A triple (q, m, n) in the result denotes the term q u^n x u^m with the coefficient q. The
+        result contains the terms with four properties: m <= ``before``, n <= ``behind``, m is zero if and
+        only if ``before`` is zero, and n is zero if and only if ``behind`` is zero."""
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
             longest = before + behind

@@ -120,9 +120,10 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return a list. Entry p of the list is the coefficient of the non-empty word ``word`` in partial
-        product p of the exponentials. The first number in each triple of ``places`` is the index of a partial
-        product. If p is not the first number in a triple of ``places``, entry p is zero."""
+        """Return a list of coefficients of the non-empty word ``word``. The first number p in each triple of
+        ``places`` is the index of a partial product of exponentials. For each of these numbers p, entry p of
+        the list is the coefficient of ``word`` in partial product p. All entries of the list that are not
+        computed are set to zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # In summand r, the last r letters of the word come from the exponential number ``row``.

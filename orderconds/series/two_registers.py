@@ -31,10 +31,10 @@ from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
 """A product of derivatives along vector fields, from left to right. Each entry of the tuple denotes one
-vector field. The entry None denotes the vector field of the equation y' = k y. An entry that is not None is
-itself a tuple of this type, and hence a product P of derivatives. Let y' = f(y) y be the differential
-equation that the scheme solves. The product P is applied to f, and the result is a function P f. The entry
-denotes the vector field of the equation y' = (P f) y."""
+vector field. The scheme solves the differential equation y' = f(y) y with two registers y and k. The entry
+None denotes the vector field of the equation y' = k y, where the register k is constant. An entry that is not
+None is itself a tuple of this type, and hence a product P of derivatives. The product P is applied to f, and
+the result is a function P f. The entry denotes the vector field of the equation y' = (P f) y."""
 
 Combination = dict[Operator, int]
 
@@ -207,8 +207,8 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Return a sum with one summand for each factor of ``product`` that is not None. To form the summand of a
-    factor, apply ``act`` to this factor, and leave all other factors of ``product`` unchanged."""
+    """Return a sum. Each factor in the tuple ``product`` is a tuple or None. The sum has one summand for each
+    factor that is a tuple: the product in which ``act`` is applied to this factor and to no other factor."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

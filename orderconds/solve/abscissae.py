@@ -145,12 +145,11 @@ def symmetric_transport(
     - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
-    The abscissa m_i determines the sum of row i of ``own``. Let b_i be the weights, and a_ij the sum of the
-    coefficients of stage j in all exponentials of stage i. Each column j satisfies the equation
-    sum_i b_i a_ij = b_j (1 - m_j). For a column j in the first half, let k = s + 1 - j. By symmetry, the
-    equation becomes sum_i b_i (x_ij - x_ik) = C_j, where the sum is over the rows of ``own``. The number C_j
-    does not depend on ``own``. The result contains formulas for each C_j, for the last entry of each row of
-    ``own``, and for the first r entries of row r, the last row. Here y_J is the sum of row J of ``update``.
+    Let b_i be the weights, and let a_ij be the sum of the coefficients of stage j in all exponentials of
+    stage i. With the formulas, sum_j a_ij = m_i for each stage i, and sum_i b_i a_ij = b_j (1 - m_j) for each
+    stage j. Let r be the number of rows of ``own``. The result contains formulas for the last entry of each
+    row of ``own``, for the first r entries of the last row of ``own``, and for auxiliary numbers C1, ..., Cr.
+    In the formulas, y1, y2, ... are the sums of the rows of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

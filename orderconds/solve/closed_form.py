@@ -50,7 +50,8 @@ def closed_forms(
     - 1 and the square roots
     - the products of an element of the first basis and a power r^0, ..., r^(d-1), where r is one of the
       numbers, and d is the degree of r
-    - the powers r^0, ..., r^(d-1), where r generates the field of a number of the highest degree d
+    - the powers r^0, ..., r^(d-1) of an algebraic number r of degree d, where d is the largest of the degrees
+      of the numbers
 
     Without ``radicals``, only the third basis is tried.
 

@@ -10,14 +10,15 @@ equations, and the rounded decimals are approximate values of the unknowns in th
     conditions = "cg"          # the equations are the independent conditions of this family
     order = 4                  # all conditions up to this order
     pins = ["a31", "a42"]      # these decimals count as exact numbers, not as unknowns
-    reduction = "symmetric"    # optional: a reason why fewer equations suffice
+    reduction = "symmetric"    # optional: the method is symmetric, and equations of even order are omitted
     printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
 Each unknown has a name. If the rounded decimal occurs in a number of the table ``numbers``, the name of the
 unknown is the name of this number. Otherwise, the name is the position of the coefficient that contains the
 decimal, for example ``A[2][1]``. If one number or one coefficient contains several rounded decimals, the
 value of each decimal is appended to the name of the corresponding unknown, for example ``A[2][1]: 0.25``.
-Equal decimals are one unknown.
+Equal decimals in the file are one unknown. The first of the equal decimals determines the name of the
+unknown.
 """
 
 from __future__ import annotations
