@@ -69,14 +69,14 @@ class Linear(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """If the formula has a linear flow, return the part with this flow.
+    """Return the part of the Hamiltonian with this formula, together with a linear flow if there is one.
 
-    The flow solves z' = L z + c, where z = (q, mu). The matrix L is J times the Hessian matrix of the
+    A linear flow solves z' = L z + c, where z = (q, mu). The matrix L is J times the Hessian matrix of the
     formula. J is the block matrix with the rows (0, I) and (-I, 0).
 
     If the group is not abelian, the result is None. For an abelian group, two conditions are tested: the
     formula is quadratic in z, and L^2 is diagonal without positive entries. If a condition is violated, the
-    result has no flow, and ``reason`` in the result names the violation.
+    part is returned without a flow, and its ``reason`` names the violated condition.
     """
     if not formula.problem.group.abelian:
         return None

@@ -168,7 +168,7 @@ class AlgebraVectors(Representation):
         return group.require(Coadjoint).Adtinv(d, g, p)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return [x, v]."""
+        """Return the bracket [x, v] of the Lie algebra."""
         return group.ad(d, x, v)
 
     def dual_velocity(self, d: Domain, group: LieGroup, x: Vector[S], p: Vector[S]) -> Vector[S]:

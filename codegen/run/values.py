@@ -39,7 +39,7 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
         first += size
         array = _part(arguments)
         if array is None:
-            # The new name contains spaces. Names of kernel variables contain no spaces.
+            # This name contains spaces, so it differs from the names of all kernel variables.
             array = own(f"{statement.name} given {number}", size)
             declared.append(Array(array, tuple(map(value, arguments))))
         given.append(array)

@@ -68,11 +68,12 @@ class Evolution:
     def leave(
         self, domain: Domain, moved: Vector[S], y: Vector[S], frame: Coadjoint | None = None
     ) -> Vector[S]:
-        """Convert the coordinates ``moved`` after a step to a state, and project the state onto the manifold.
+        """Convert coordinates to a state, and project the state onto the manifold.
 
+        - ``moved``: the coordinates after a step.
         - ``y``: the state before the step.
-        - ``frame``: the group of q if y and the result contain the momentum in the body frame, otherwise
-          None.
+        - ``frame``: None if the momentum in a state is the momentum in the space frame. If it is the momentum
+          in the body frame, ``frame`` is the group of the configuration q.
         """
         z = self._completed(domain, moved)
         if self.body is None:

@@ -164,7 +164,10 @@ class _Compiler:
                 yield c, (self.factor(formula, transposed),)
 
     def factor(self, formula: MatrixFormula, transposed: bool) -> _Factor:
-        """Return a formula as a factor; raise :class:`SceneError` for a matrix variable other than X."""
+        """Return the factor that consists of ``formula``. The factor is transposed if ``transposed`` is true.
+
+        :class:`SceneError` is raised for a matrix variable other than ``self.x``.
+        """
         if isinstance(formula, Unknown) and formula is not self.x:
             raise SceneError(
                 "the velocity contains an unknown matrix other than x",

@@ -33,7 +33,7 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
     - ``largest``: the largest angle that can be reduced.
     - ``per_quarter``: 2/pi.
     - ``parts``: numbers whose sum is pi/2.
-    - ``round``: the constant that rounds 2x/pi to an integer (see the docstring of this module).
+    - ``round``: a constant c. In floating-point arithmetic, (y + c) - c is y = 2x/pi rounded to an integer.
 
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])

@@ -184,7 +184,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
             raise InputError(
                 "no such folder", where=f"{option} {given}", expected="a file in an existing folder"
             )
-    # os.path.realpath accepts a link to itself, but Path.resolve raises a RuntimeError.
+    # If a symbolic link points to itself, Path.resolve raises a RuntimeError. os.path.realpath does not.
     if output and path and os.path.realpath(output) == os.path.realpath(path):
         raise InputError(
             "--checkpoint and --output name the same file",

@@ -51,8 +51,7 @@ class Family(ABC):
     has_tableau: ClassVar[bool] = True
     """False if each method of the family is defined by a label such as ``taylor(12)``, not by a tableau."""
     source: ClassVar[str] = ""
-    """The publication that defines the methods. If ``has_tableau`` is true, the text is empty. The
-    publication that defines a method with a tableau can be stated in the tableau file."""
+    """The publication that defines the methods, if the methods have no tableaux. Otherwise an empty text."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False

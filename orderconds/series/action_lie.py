@@ -247,11 +247,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return terms q X^n xi X^m of the series dexpinv_X xi, as triples (q, m, n). A term is returned if
-        the expansion of the term may contain a word that has ``before`` letters on the left of xi and
-        ``behind`` letters on the right of xi. A word lists the factors of a product from right to left.
-        Therefore the letters on the left of xi come from X^m, and the letters on the right of xi come from
-        X^n."""
+        """Return triples (q, m, n), one for each selected term q X^n xi X^m of the series dexpinv_X xi. The
+        coefficient q is a number. A term is selected if its expansion may contain a word that has ``before``
+        letters on the left of xi and ``behind`` letters on the right of xi. A word lists the factors of a
+        product from right to left."""
         known = self._in_sight.get((before, behind))
         if known is None:
             known = self._in_sight[before, behind] = [

@@ -343,8 +343,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau that ``data`` defines. The order of an embedded method is computed and stored in
-    ``data``, because the file format requires it."""
+    """Return the tableau that ``data`` defines. The file format requires the order of an embedded method, so
+    this order is computed and stored in ``data``."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:

@@ -59,8 +59,8 @@ class Unknown(Struct, frozen=True):
 class Proof:
     """The table ``[proof]`` of a file: equations that the rounded decimals of the file satisfy approximately.
 
-    The equations are the order conditions of the family ``conditions`` up to order ``order``. The decimals in
-    ``unknowns`` are the unknowns of the equations. The decimals in ``pinned`` count as exact numbers.
+    The equations are the order conditions of the family ``conditions`` up to order ``order``. The equations
+    are solved for the decimals in ``unknowns``. The decimals in ``pinned`` count as exact numbers.
     ``printed`` maps the names of numbers in the file to their decimals in the cited publication.
     """
 

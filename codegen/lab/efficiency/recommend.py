@@ -126,9 +126,9 @@ def place_json(task: Task, place: Result) -> dict[str, object]:
 
 
 def step_of(task: Task, place: Result) -> float | None:
-    """Return the step size of a run, or None.
+    """Return the step size of the run in ``place``.
 
-    The result is None if the recipe has step-size control, or if every run failed.
+    The result is None if the recipe has step-size control, or if no run of the recipe was successful.
     """
     first, last = task.problem().span
     return None if place.entry.recipe.adaptive or not place.steps else float((last - first) / place.steps)
