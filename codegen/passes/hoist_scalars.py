@@ -81,8 +81,9 @@ def _added(program: Program) -> Program:
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
-    # Values u and v form a group if there are two numbers a and b with this property: every sum that contains
-    # u or v contains a multiple of a u + b v.
+    # Two values u and v belong to one group only if two conditions hold. First, every sum contains both u and
+    # v, or neither of them. Second, the quotient (coefficient of u)/(coefficient of v) is equal in all sums
+    # that contain u and v.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]

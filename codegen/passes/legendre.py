@@ -149,10 +149,13 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append assignments that compute the other variables of ``route`` from ``route.unknown``.
+    """Append assignments that compute the momentum ``route.base`` from the unknown ``route.unknown``.
+
+    The maps of ``route`` compute ``route.unknown`` from ``route.base``. The new assignments apply the
+    inverses of these maps, in reverse order.
 
     The first result is a dictionary. A key is a variable of ``route``, and the value is the variable that can
-    replace the key. The second result is the new variable for ``route.base``.
+    replace the key. The second result is the variable that can replace ``route.base``.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -176,8 +179,9 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     :func:`_values` computes n from the unknown.
     """
     replaced, computed = _values(build, route)
-    # The residual compares two computations of the variable ``given``. This variable is ``route.base``, or
-    # the momentum P, or the result of the first map in ``route.inward``.
+    # Let P be the momentum of the stage, ``route.velocity.args[1]``. Below, ``given`` is the momentum m, and
+    # ``replaced.get(given, computed)`` is the momentum n. By default, m is ``route.base``. Each of the two
+    # branches below replaces this default by another momentum.
     given = route.base
     # If P = Ad*_{exp x} m, and m is a sum of terms f(ad*_x) v, then P is also a sum of such terms.
     if _function_of_one(block, route):
@@ -214,8 +218,8 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # A later pass removes the new variables that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The variable ``route.base`` is replaced only if ``route.base`` is the momentum P (``route.inward`` is
-    # empty) or an unknown of the block.
+    # Assignments outside ``route`` still read the old variable ``route.base`` if two conditions hold. First,
+    # ``route.inward`` is not empty. Second, ``route.base`` is not an unknown of ``block``.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # The assignments of ``route`` keep their old arguments.

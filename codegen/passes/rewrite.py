@@ -61,7 +61,8 @@ class Rewriter:
         starts = tuple(self.now(v) for v in statement.starts)
         for assign in statement.body:
             self._visit(assign)
-        # Images and residuals are renamed after the body is rewritten: the body computes them.
+        # The body computes the images and the residuals. Therefore the new names of images and residuals are
+        # known only after the body is rewritten.
         images = tuple(self.now(v) for v in statement.images)
         residuals = tuple(self.now(v) for v in statement.residuals)
         body = tuple(self._out)

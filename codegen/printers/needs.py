@@ -9,7 +9,9 @@ from codegen.run.language import LANGUAGE, Call, Unit, statements, terms
 def functions_of(unit: Unit) -> tuple[str, ...]:
     """Return the sorted names of functions that a module calls, but does not define.
 
-    Terms with the operation ``call`` are ignored.
+    The names are collected from two places: from statements of the class :class:`Call`, and from calls inside
+    the expression ``term.value`` of a term. A term can also be a call itself, with ``term.op`` equal to
+    ``call``. The names in such terms are not collected.
     """
     names: set[str] = set()
     for function in unit.functions:

@@ -182,8 +182,8 @@ class _Exponential:
         target = Matrix("result", move.target.rows, k)
         start = None if move.start is None else Matrix("start", move.start.rows, k)
         self.core, self.gram, self.target, self.start = core, gram, target, start
-        # ``matrix`` is the product G S. ``total`` is the sum of the series for phi(G S) G C, and ``term`` is
-        # the current term.
+        # ``matrix`` is the product of the leading m x m block of ``gram`` and the matrix ``core``. ``total``
+        # is the partial sum of a power series in ``matrix``, and ``term`` is the current term of this series.
         self.matrix = Matrix("matrix", m, m)
         self.total, self.term, self.next = (Matrix(n, m, k) for n in ("total", "term", "next"))
         given = [core, gram, *([start] if start is not None else []), target]
@@ -280,7 +280,9 @@ class _Exponential:
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # If ``part`` is 0 and ``self.start`` is None, D is zero and G D is not added.
+        # The statements ``displaced`` multiply the first m rows of ``self.gram`` by ``self.target``, and add
+        # the product to ``self.total``. If ``self.start`` is None and ``part`` is 0, ``self.target`` is zero,
+        # so the addition is omitted.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (

@@ -1,9 +1,9 @@
 """Continuation in h: find the solution of a step from the solutions of shorter steps.
 
-If a step of size h fails, the first attempt has the same size h. Its initial guess does not use the solutions
-of earlier steps. If the first attempt fails, the step is halved until an attempt succeeds. Each solution is
-then the initial guess for a longer step. The continuation finds the solution that changes continuously as h
-grows from 0.
+If a step of size h fails, the step is attempted again. The first new attempt has the size h of the failed
+step. The initial guess of the first new attempt does not use the solutions of earlier steps. If the first new
+attempt fails, the step is halved until an attempt succeeds. Each solution is then the initial guess for a
+longer step. The continuation finds the solution that changes continuously as h grows from 0.
 """
 
 from __future__ import annotations
@@ -135,7 +135,9 @@ class _Continuation:
         There is one exception: the result is TOO_FAR in place of NOT_FINITE if a shorter step succeeded and
         the problem has no run-time inputs.
         """
-        # If a run-time input is NaN at a later time, a shorter step can succeed. The cause is then the input.
+        # A run-time input can be NaN near the end of the full step. In this case, a shorter step can succeed,
+        # but the length of the full step is not the cause of the failure. Therefore the result is not TOO_FAR
+        # if the problem has run-time inputs.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))

@@ -248,8 +248,9 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # The emitted code evaluates ``elapsed`` after it has increased LATE for the current step. Repeated
-        # additions of h would have one rounding error for each step.
+        # The emitted code evaluates ``elapsed`` after it has increased LATE for the current step. The emitted
+        # code computes ``elapsed`` as a product, because a product has a single rounding error. If the
+        # emitted code added STEP to ``elapsed`` in every step, each addition would have a rounding error.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),

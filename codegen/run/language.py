@@ -63,7 +63,8 @@ class For:
     independent: bool = False
     parallel: bool = False
     reductions: tuple[tuple[str, Term], ...] = ()
-    # For a short loop ``when`` may be false: several processors would be slower than one.
+    # If the test ``when`` is false, one processor executes the whole loop. For a short loop, one processor is
+    # faster than several processors.
     when: Term | None = None
 
 

@@ -1,8 +1,8 @@
 """Choose where a target language such as C declares each scalar variable.
 
-A variable is declared in the innermost block that contains all its uses, as late as possible. Exception:
-several inner blocks contain all uses, and each inner block assigns the variable before reading it. Then each
-inner block declares the variable.
+A variable is declared in the innermost block that contains all its uses, as late as possible. There is one
+exception. Suppose that the variable is used only inside several separate inner blocks, and that each of these
+inner blocks assigns the variable before reading it. Then each of these inner blocks declares the variable.
 
 Let S be the first statement of the block that mentions the variable. If S assigns only this variable and does
 not read it, S also declares it, as in ``double x = 1.0;``. If then no other statement of the block assigns

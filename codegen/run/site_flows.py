@@ -195,8 +195,9 @@ class _Part:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
         loop = For(INDEX, NUMBER, tuple(body), independent=True)
-        # If ``strided`` is True, the two sites of a pair are adjacent in memory, and one start index is
-        # enough.
+        # If ``strided`` is True, pair number k consists of the sites SITE + 2 k and SITE + 2 k + 1, so one
+        # start index is enough. If ``strided`` is False, pair number k consists of the sites SITE + k and
+        # _START + k.
         starts = (SITE, _START) if self.paired and not self.strided else (SITE,)
         parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
         about = f"Consecutive sites: {self.own.about}."

@@ -63,8 +63,9 @@ class _Stopping(Stopping):
     def lost(self) -> Term:
         """Return the test *lost* of the stopping rule (:mod:`codegen.run.stopping`).
 
-        Let h be the step size. The test is true if h times CHANGE is below the rounding errors of the states.
-        If the test is true, the effect of the change on the states is lost in rounding errors.
+        Let h be the step size, and let CHANGE be the largest change of an unknown in the last iteration.
+        Because of this change, the states change by about h times CHANGE. The test is true if h times CHANGE
+        is not larger than the rounding errors of the states.
         """
         return CHANGE * size(STEP) <= self.plan.format.scaled(LOST) * _REACH
 

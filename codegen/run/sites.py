@@ -377,7 +377,11 @@ class Loop:
         return body
 
     def _peeled(self, number: Term, column: Term) -> For:
-        """Return a loop that calls ``site_K`` for ``number`` sites. ``column`` is the column of a site."""
+        """Return a loop that calls ``site_K`` for ``number`` sites.
+
+        All these sites are in one row of the lattice. ``column`` is the position of a site in this row, as an
+        expression that contains the loop index.
+        """
         arguments = (column, COLUMNS, *self.rows(), SITES, *self.arrays, *self.scalars)
         return For(INDEX, number, tuple(self._called("site", arguments)))
 

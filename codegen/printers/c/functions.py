@@ -214,7 +214,11 @@ class _Body:
         return [*loads, *(f"(void){name};" for name in unread), *self.block(self.function.body)]
 
     def block(self, body: Body) -> list[str]:
-        """Return the lines of ``body``. Long sequences of short statements (over MANY) share lines."""
+        """Return the lines of ``body``.
+
+        If more than ``MANY`` short statements follow each other, one line can contain several of these
+        statements.
+        """
         groups: list[tuple[bool, list[str]]] = []
         for statement in body:
             before = self.before(statement)

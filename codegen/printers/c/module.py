@@ -104,7 +104,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "statuses": statuses(unit),
         "adaptive": interface.adaptive,
         "batch": interface.batch,
-        # A batch module may have no loop over lanes, so the test searches for LANES.
+        # ``LANES`` is the name of the function that advances many systems in one vectorised loop. Some batch
+        # modules do not contain this function.
         "vectorised": LANES in unit.parts or bool(interface.dimension),
         "optimised": " ".join(VECTOR_FLAGS) if interface.batch or interface.dimension else "-O2",
         "dimension": interface.dimension,
@@ -288,7 +289,9 @@ def prototypes(interface: Interface) -> str:
         f"int {prefix}run({real} *state, {time}{real} h, size_t steps, {parameters}{sampled}"
         f"{real} *trajectory, size_t stride, {statistics}size_t *completed);\n"
     )
-    # The inputs are constant during the step of a Jacobian, so an array replaces the callback.
+    # The function ``run`` receives a callback that computes the inputs at a time t. The function ``jacobian``
+    # computes the Jacobian of a single step. The inputs are constant during this step, so ``jacobian``
+    # receives an array of inputs.
     held = f"const {real} *inputs, " if interface.inputs else ""
     derived = (
         f"int {prefix}jacobian(const {real} *state, {time}{real} h, {parameters}{held}{real} *jacobian);\n"

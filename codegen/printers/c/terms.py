@@ -138,7 +138,12 @@ class Terms(Infix):
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return the text of a name. For a user function, the text has two arguments: function and data."""
+        """Return the text of a name.
+
+        A callback is a function that the user supplies. If the name denotes a callback, the text contains two
+        C arguments, separated by a comma. The first argument is the callback. The second argument is a
+        pointer to the data of the callback.
+        """
         # C has no closures, so the user passes the data of the function separately.
         if term.kind is Kind.SIGNAL:
             return "input, context"

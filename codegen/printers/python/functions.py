@@ -159,10 +159,10 @@ class _Body:
         return lines
 
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
-        """Return the assignments at the beginning of ``body`` that one statement can replace.
+        """Return a group of assignments. One Python statement can replace the whole group.
 
-        Either all these assignments read consecutive entries of one list, or all of them write consecutive
-        entries of one list.
+        The group contains the first assignments of ``body``. Either all these assignments read consecutive
+        entries of one list, or all of them write consecutive entries of one list.
         """
         group: list[Assign] = []
         for statement in body:

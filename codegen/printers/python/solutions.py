@@ -35,7 +35,7 @@ def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: flo
     try:
         integrator.run(list(state), h, 1, t)
     finally:
-        # A failed step must not leave the function ``observe`` in the module.
+        # The module gets the original function ``_remember`` back, even if the step fails.
         vars(module)["_remember"] = remember
     # The unknowns were inserted in the order of the substeps, and a dictionary keeps this order.
     return list(solved.values())
