@@ -194,9 +194,9 @@ class _Exponential:
         parameters = tuple(loops.arrays[x.name] for x in given)
         body = (*(Array(loops.arrays[x.name]) for x in local), *self.statements())
         about = (
-            "Multiply the point X by the matrix exponential exp(B S B^T). The matrix B is the basis of the "
-            "step, and X_0 is the state at the beginning of the step. The point X_0 + B D is stored as its "
-            f"displacement D. The argument core is the {m} x {m} matrix S. The argument gram is B^T B."
+            "Multiply the point X by the matrix exponential exp(B S B^T). Let X_0 be the state at the "
+            "beginning of the step. All points of the step are X_0 + B D with the same matrix B, and only D "
+            f"is stored. The argument core is the {m} x {m} matrix S. The argument gram is B^T B."
         )
         return Function(self.name, about, parameters, tuple(body))
 

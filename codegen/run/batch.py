@@ -193,7 +193,7 @@ def _advance_lanes(plan: Plan) -> Function:
     about = (
         "Make one step of 'number' lanes. The index of the first lane is 'first'. The loop over lanes has no "
         "branches, so compilers can use vector instructions. A lane keeps its state if it has stopped, or if "
-        "its new state is not finite. The array 'failed' is 1 for these lanes, and 0 for all others."
+        "its new state is not finite. The array 'failed' is 1 for lanes that keep their state, otherwise 0."
     )
     parameters = _lane_parameters(plan, stopped, failed)
     return Function(LANES, about, parameters, (*before, loop), often=True, near=True)

@@ -123,9 +123,9 @@ class _Continuation:
         part = "substep" if plan.parts else "step"
         # If a step consists of substeps, the function repeats only the substep that failed.
         about = (
-            f"Repeat a {part} that failed. The first attempt ignores the solutions of earlier steps, because "
-            "they are bad initial guesses if the motion has changed. If the first attempt fails, shorter "
-            "steps are tried. Each solution is the initial guess for a longer step (continuation in h)."
+            f"Repeat a {part} that failed. The first attempt does not use the solutions of earlier steps. If "
+            "this attempt fails, the equations are first solved for shorter steps. Each solution is the "
+            "initial guess for the next longer step (continuation in h)."
         )
         return Function(CONTINUED, about, parameters, body, Kind.STATUS)
 

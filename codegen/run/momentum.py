@@ -64,8 +64,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         Call("to_space", (moving, before)),
     )
     about = (
-        "Write the state with the momentum in the body frame into 'moving'. Convert this momentum back to "
-        "the space frame, and write it into 'before'."
+        "Write the state with the momentum in the body frame into 'moving'. Convert the momentum in "
+        "'moving' to the space frame, and write the result into 'before'."
     )
     return Function(ENTER, about, (state, moving, before), body)
 
@@ -87,7 +87,7 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Return(code(OK)),
     )
     about = (
-        "Update the state at the end of a run. In the space frame, the increase of the momentum is added to "
-        "the old momentum."
+        "Update the state at the end of a run. The increase of the momentum is computed in the space frame, "
+        "and is added to the momentum of the state."
     )
     return Function(LEAVE, about, (moving, before, state), body, Kind.STATUS)

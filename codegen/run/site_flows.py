@@ -315,7 +315,10 @@ class _Part:
             body = [loop if e else distributed(loop)]
         parameters = (WHOLE, shape, _COLOUR, SITES, *self.arrays, *self.scalars)
         first = [Assign(COLUMNS, shape[last])]
-        about = f"Pairs whose first site has an even (colour 0) or odd (colour 1) index: {self.own.about}."
+        about = (
+            f"Pairs of sites: {self.own.about}. With colour 0, the first site of each pair has an even index. "
+            "With colour 1, the first site has an odd index."
+        )
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 
     def _rows(self, outer: list[Term], shape: Term) -> list[Statement]:

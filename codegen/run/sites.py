@@ -332,7 +332,9 @@ class Loop:
             loop = For(outer[e], shape[e], tuple(body))
             body = [loop if e else distributed(loop, bad)]
         parameters = (WHOLE, shape, SITES, *self.arrays, *self.scalars)
-        about = f"All sites of sweep {self.index}. If 'whole' is true, a function is called for each site."
+        about = (
+            f"All sites of sweep {self.index}. If 'whole' is true, {self.name('site')} computes each site."
+        )
         first = [Assign(COLUMNS, shape[step.dimension - 1])]
         return self.function(self.name("pass"), about, parameters, [*first, *body])
 
