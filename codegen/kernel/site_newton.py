@@ -71,7 +71,9 @@ class Linearisation:
                 hint="use the option --solver fixed-point",
             )
         self.taken = {*self.problem.symbols, *self.problem.runtime, "h", TIME}
-        # Values from the loop body may depend on the unknowns, so derivatives include these values.
+        # The variables in ``inside`` are computed in each iteration, and can depend on the unknowns u.
+        # Newton's matrix contains derivatives with respect to u. Therefore :meth:`value` returns a formula
+        # for each variable in ``inside``, and never a symbol for a stored number.
         self.inside = {t for assign in solve.body for t in assign.targets}
         # ``images`` contains the expressions g(u) at one site.
         images = [x for v in solve.images for x in flatten(v.kind, self.value(v, OWN))]
@@ -157,9 +159,10 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a site, computed from the stage values of the site and of its neighbours."""
-        # The field at a neighbouring site reads values at a distance of two sites. If the equations at a site
-        # contain the field at a neighbouring site, Newton's matrix is not block-tridiagonal. Such equations
-        # contain nested evaluations: one evaluation of the field reads the result of another evaluation.
+        # The field at site i + 1 reads values at site i + 2. If the equations at site i contain the field at
+        # site i + 1, these equations depend on values at site i + 2. In this case, Newton's matrix is not
+        # block-tridiagonal. Such equations contain nested evaluations: one evaluation of the field reads the
+        # result of another evaluation.
         if site != OWN:
             raise MethodError(
                 "on a chain, Newton's method cannot solve equations with nested evaluations of the field",

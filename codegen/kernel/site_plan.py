@@ -199,7 +199,12 @@ class Planner:
             least = last + 1
 
     def _without_renamed(self, solve: Solve) -> Solve:
-        """Replace each image g(u) of an earlier system by its unknown u, and return the new ``solve``."""
+        """Return a copy of ``solve`` that reads the unknowns of earlier systems in place of their images.
+
+        ``solve`` is a system of equations u = g(u). The variables u are the unknowns of the system. The
+        variables with the values g(u) are the images of the system. After an earlier system is solved, its
+        unknowns and its images are equal, so the copy can read the unknowns.
+        """
         starts = tuple(self.renamed.get(v, v) for v in solve.starts)
         return replace(solve, starts=starts, body=tuple(map(self._rename, solve.body)))
 
@@ -277,8 +282,9 @@ class Planner:
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
         for number in range(len(needs)):
             for var in self._terms(number):
-                # The sweep ``number`` stores the terms of a sum. The sum is computed between this sweep and
-                # the next sweep. Until then, the terms must not be overwritten.
+                # The variable ``var`` is a term of a sum over all sites. The sweep with the index ``number``
+                # stores this term. The sum is computed between this sweep and the next sweep. Until then, the
+                # term must not be overwritten.
                 used[var] = max(used.get(var, 0), number + 1)
         for block in self.blocks:
             repeated = needs[block.first : block.last + 1]

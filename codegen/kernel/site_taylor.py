@@ -127,8 +127,10 @@ class TaylorSweeps:
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
         """Return ``terms``, possibly with zeros in place of None.
 
-        None represents a coefficient that is zero at all sites. Sweeps do not load this coefficient. If
-        coefficients outside the lattice may be nonzero, zeros replace None.
+        None represents a coefficient that is zero at all sites. Sweeps do not load this coefficient. At a
+        neighbour outside the lattice, however, a given formula defines the coefficient. If the value of the
+        formula may be nonzero, sweeps must load the coefficient. In this case, zeros replace None, because
+        sweeps load every coefficient except None.
         """
         if degree == self.degree:
             return terms
@@ -254,8 +256,9 @@ class TaylorSweeps:
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # Each sweep reads the rows in ``rows`` only at the site of the computed values, never at
-            # neighbouring sites. Therefore the last sweep that reads a row may also overwrite this row.
+            # ``rows`` contains the rows of the stored expressions. When a sweep computes the values at a
+            # site, the sweep reads the entries of these rows at this site, but no entries at neighbouring
+            # sites. Therefore the last sweep that reads a row may also overwrite this row.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
             # The values in ``names`` were stored by earlier sweeps.

@@ -192,9 +192,10 @@ class _Translation:
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # ``compared`` replaces the images g(u) of the equations by residuals. With variations,
-        # :func:`_varied` must differentiate the images g(u). Therefore ``compared`` is not called with
-        # variations.
+        # ``entered`` contains the expressions g(u) of the equations u = g(u). The result of ``compared``
+        # contains residuals in place of g(u). If variations are computed, the function :func:`_varied` must
+        # differentiate the equations u = g(u), and needs g(u). Therefore ``compared`` is called only if no
+        # variations are computed.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
         # The block ``residuals`` already contains Newton's matrix.
@@ -299,9 +300,9 @@ class _Translation:
         Computations are outlined only if outlining makes the kernel much shorter.
         """
         # ``before`` contains the names that are in use before ``schedule`` creates new names. When outlining
-        # begins, ``self.taken`` is reset to ``before``. Thus outlining may create the names of ``schedule`` a
-        # second time. This is allowed, because the kernel contains either the assignments of ``schedule`` or
-        # the outlined assignments, but never both.
+        # begins, ``self.taken`` is reset to ``before``. After this reset, outlining can create names that
+        # ``schedule`` has already created. Equal names do no harm, because the kernel contains either the
+        # assignments of ``schedule`` or the outlined assignments, but never both.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()

@@ -75,10 +75,11 @@ class Variations:
         return seeds
 
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
-        """Return the variation of ``state``, the state after a step.
+        """Return the variation of the state after a step.
 
-        Each coordinate of ``state`` is a function of the old state. ``rates`` contains the derivatives of
-        these functions along the variation of the old state.
+        ``state`` contains the coordinates of the state after the step. Each coordinate is a function of the
+        old state. ``rates[k]`` is the derivative of coordinate k in the direction of the variation of the old
+        state.
         """
         rates_of_end: list[Expr] = []
         for group, symbols in self.parts:

@@ -70,7 +70,12 @@ class Exhausted:
     codes: set[str] = field(default_factory=set)
 
     def best(self, error: float) -> float:
-        """Return the least CPU time in seconds that this or the usual search measured for ``error``."""
+        """Return the least measured CPU time in seconds for the required error ``error``.
+
+        The measurements of two searches are compared. ``known`` contains the CPU times from the usual search,
+        and ``results`` contains the runs of this exhaustive search. A run in ``results`` counts only if the
+        run reached the required error.
+        """
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
 

@@ -19,7 +19,12 @@ MARGIN = 5.0
 """A recipe is too slow if its predicted CPU time exceeds MARGIN times the least predicted time."""
 
 FRESH = 8
-"""A :class:`Bar` from n predictions is updated after about 1 + n/FRESH further predictions."""
+"""A constant that determines how often the limits in a :class:`Bar` are updated.
+
+A bar contains limits on the error and the CPU time of a recipe. The limits are computed from the predictions
+for earlier recipes. Let n be the number of predictions at the last computation of the limits. The limits are
+updated only after at least 1 + n // FRESH further predictions.
+"""
 
 
 EVEN = 4.0
@@ -30,16 +35,21 @@ delay. The next recipe comes from the queue with the smallest delay. All recipes
 (:data:`Kind`) and the same order.
 
 - n is the number of recipes that were taken from the queue.
-- d is the distance between the order of the recipes and the nearest usual order (:func:`usual_order`).
-- s = log2(T1/T2) is the slowness of the queue. T1 is the least predicted CPU time of recipes of the same
-  kind. T2 is the least predicted CPU time of all recipes.
+- d is the distance between two orders of convergence: the order of the recipes in the queue, and the nearest
+  usual order. A usual order is the typical order of the fastest methods for a required error
+  (:func:`usual_order`).
+- s = log2(T1/T2) is the slowness of the queue. Let K be the kind of the recipes in the queue. T1 is the least
+  predicted CPU time of all recipes of the kind K, whatever their order. T2 is the least predicted CPU time of
+  all recipes.
 """
 
 FAILED = 4.0
-"""The value that replaces the slowness s = log2(T1/T2) of a queue of recipes if the time T1 is infinite.
+"""The slowness of a queue of recipes, if no recipe of the same kind has a finite predicted CPU time.
 
 All recipes in a queue have the same kind (:data:`Kind`). T1 is the least predicted CPU time of recipes of
-this kind. T2 is the least predicted CPU time of all recipes.
+this kind. T2 is the least predicted CPU time of all recipes. The slowness of the queue is log2(T1/T2) if T1
+is finite, and FAILED if T1 is infinite. Recipes from a queue with a large slowness are predicted late
+(:data:`EVEN`).
 """
 
 

@@ -155,12 +155,14 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e). Let p be the order of the recipe. For all methods of the
-      orders p + 1 and p + 2, the error in a run with the CPU time ``seconds`` is predicted. The number e is
-      the least of these errors. The recipe is assumed to be less accurate than these methods of higher order.
-      Therefore the recipe is excluded if e is too large (:data:`FAR`). If the entry ``explicit`` of the
-      triple is True, only explicit methods are compared, and otherwise only implicit methods. If ``family``
-      is not '', only methods of this family are compared.
+    - ``least``: triples (family, explicit, e) that serve to exclude inaccurate recipes. The entries
+      ``family`` and ``explicit`` of a triple define a set of methods. If ``family`` is not '', the set
+      contains only methods of this family. If ``family`` is '', the set contains methods of all families. If
+      ``explicit`` is True, the set contains only explicit methods, and otherwise only implicit methods. Let p
+      be the order of the recipe. All methods in the set have the order p + 1 or p + 2. For each method in the
+      set, the error in a run with the CPU time ``seconds`` is predicted. The number e is the least of these
+      errors. The recipe is assumed to be less accurate than these methods of higher order. Therefore the
+      recipe is excluded if e is too large (:data:`FAR`).
     - ``steps``: the smallest number of steps of an interpreted run with equal steps over the whole time span.
     - ``explicit``: True if methods that solve equations are excluded.
     """
@@ -178,10 +180,13 @@ class Bar:
 
         - The predicted CPU time of one step, ``step_seconds``, exceeds the time limit of the bar.
         - The bar requires explicit methods, and the argument ``explicit`` is False.
-        - The attribute ``least`` of the bar contains a triple (family, explicit, e) with the given family and
-          the given value of ``explicit``, and the predicted error e exceeds :data:`FAR` times the largest
-          accepted error. If ``least`` contains no triple with these values of ``family`` and ``explicit``,
-          the triple ('', explicit, e) is used.
+        - The error e that is predicted for methods of higher order exceeds :data:`FAR` times the largest
+          accepted error.
+
+        The attribute ``least`` of the bar contains triples (family, explicit, e). In the third case, e is the
+        last entry of the triple whose first two entries are equal to the arguments ``family`` and
+        ``explicit``. If there is no such triple, e is the last entry of the triple ('', explicit, e). The
+        empty name '' represents all families. If both triples are missing, the third case does not occur.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -206,11 +211,13 @@ class Predictor:
     """Predicts the CPU times of recipes for one form of the equations of a scene.
 
     - ``exact``: the reference solution.
-    - ``beginning``: a function with two results: the equations on the first interval of the time span
-      (:data:`PARTS`), and the reference solution at the end of the first interval.
+    - ``beginning``: a function that returns a pair. The first entry contains the equations on the first
+      interval of the time span. The second entry is the reference solution at the end of this interval. The
+      time span is divided into :data:`PARTS` equal intervals.
     - ``failures``: for each kind of method, the number of consecutive methods that failed with equal steps
       (:data:`TRIES`).
-    - ``uncontrolled``: the same numbers for failures with step-size control.
+    - ``uncontrolled``: for each kind of method, the number of consecutive methods that failed with step-size
+      control (:data:`TRIES`).
     - ``costs``: for each operation, the predicted time in nanoseconds and the number of components of each
       result.
     """

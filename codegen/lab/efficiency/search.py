@@ -64,12 +64,13 @@ The remaining budget is the time that is left after the computation of the refer
 """
 
 UNREACHED = 1e-3
-"""The gain of a recipe for a goal, if the gain cannot be computed from estimated CPU times.
+"""A default value for the gain of a recipe, used if the gain cannot be computed.
 
-Let a be the CPU time of the fastest measured recipe, and let b be the estimated CPU time of the recipe. If
-b < a, the gain is log(a/b) (:meth:`Search._next`). In two cases, the gain cannot be computed. Either the
-estimated CPU times of all recipes are infinite, or the estimate for the recipe is unreliable and exceeds the
-time of the fastest measured recipe. Recipes with larger gains are measured earlier.
+Recipes with larger gains are measured earlier. Let a be the CPU time of the fastest measured recipe, and let
+b be the estimated CPU time of the recipe. If b < a, the gain is log(a/b) (:meth:`Search._next`). In two
+cases, the gain cannot be computed. Either the estimated CPU times of all recipes are infinite, or the
+estimate for the recipe is unreliable and exceeds the time of the fastest measured recipe. If the search has
+several goals, the gains of the recipe for all goals are added.
 """
 
 LONG_STEPS = 20_000
@@ -362,7 +363,9 @@ class Search:
             if shorter is None:
                 self.lost[goal][recipe] = None
             else:
-                # The results in ``ranked[:kept]`` have passed their long runs.
+                # For each result in ``ranked[:kept]``, a long run has already shown that no conserved
+                # quantity is lost. These results keep their places, and only the remaining results are
+                # sorted.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked
 

@@ -6,12 +6,18 @@ Student's distribution (method of batch means).
 
 A slope different from zero can have three causes:
 
-- The deviation may vary slowly. The slope counts as a drift only if the means over five consecutive sections
-  of the record are monotone.
-- The deviation may be a random walk. The slope counts as a drift only if at least one of two tests excludes a
-  random walk (:data:`STRAIGHT`, :data:`STEADY`). The first test is due to J. D. Sargan and A. Bhargava,
+- The deviation varies slowly.
+- The deviation is a random walk.
+- The deviation grows systematically.
+
+Only systematic growth is called a drift. The slope counts as a drift only if both of the following conditions
+hold:
+
+- The means over five consecutive sections of the record are monotone. If the deviation only varies slowly,
+  these means are usually not monotone.
+- At least one of two tests shows that the deviation is not a random walk. The limits of the tests are
+  :data:`STRAIGHT` and :data:`STEADY`. The test with :data:`STRAIGHT` is due to J. D. Sargan and A. Bhargava,
   Econometrica 51 (1983) 153.
-- The deviation may grow systematically. Only systematic growth is called a drift.
 """
 
 from __future__ import annotations
@@ -61,8 +67,9 @@ STAYS times its largest value.
 WALKING = (0.5, 1.6)
 """Limits for the variance ratio V_k/(k V_1) of a random walk.
 
-V_k is the mean of (r_(i+k) - r_i)^2 over all i. A line is fitted to the block means. The residual for block i
-is r_i. For k = :data:`FAR`, only the lower limit is used.
+The record of the deviations is cut into blocks. A line is fitted to the means of the deviations over the
+blocks. Let r_i be the residual for block i, which is the mean over block i minus the value of the line. V_k
+is the mean of (r_(i+k) - r_i)^2 over all i. For k = :data:`FAR`, only the lower limit is used.
 """
 
 CONFINED = 0.04
@@ -97,9 +104,9 @@ Before the comparison with TINY, the variance is divided by the square of the la
 FINE, NEAR, FAR = 100, 5, 20
 """The tests with :data:`WALKING`, :data:`CONFINED` and :data:`STRAIGHT` use at most FINE blocks.
 
-The variance ratio V_k/(k V_1) is defined at :data:`WALKING`. Here V_k compares each block i with the block
-i + k. The variance ratio is computed for k = NEAR and for k = FAR. If a record has too few blocks for
-k = FAR, a smaller k is used.
+The variance ratio V_k/(k V_1) is defined at :data:`WALKING`. In this definition, k is the distance between
+two blocks, such as block i and block i + k. The variance ratio is computed for k = NEAR and for k = FAR. If a
+record has too few blocks for k = FAR, a smaller k is used.
 """
 
 

@@ -55,7 +55,10 @@ def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, 
 
 
 def _measured_states(compiled: Compiled, trajectory: Trajectory) -> list[tuple[float, list[float]]]:
-    """Choose the first, the middle and the fastest sample (time, state) of the trajectory.
+    """Return the first sample, the middle sample, and the sample with the fastest motion.
+
+    A sample is a pair (time, state) of the trajectory. The motion is fastest at the sample where the time
+    derivative of the state has the largest Euclidean norm.
 
     Samples after a large deviation of a conserved quantity (:data:`LEFT`) are not considered.
     """

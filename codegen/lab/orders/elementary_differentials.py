@@ -86,9 +86,9 @@ class FrozenFields:
         """Return the elementary differential F(t) of a tree t.
 
         F(t) is a derivative of the field f. Each branch b of t defines a vector field y -> x.y. Here x is the
-        value of F(b) at the initial point, and x.y is the action of x on the point y. The field f is
-        differentiated along the vector field of the last branch first, and along the vector field of the
-        first branch last.
+        value of F(b) at the initial point, and x.y is the action of x on the point y. For a function g, let
+        D_j g be the derivative of g along the vector field of the j-th branch. Let m be the number of
+        branches. F(t) is the value of D_1(D_2(...(D_m f)...)) at the initial point.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))

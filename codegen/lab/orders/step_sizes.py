@@ -1,13 +1,15 @@
 """Measures the order of a method in runs with different step sizes, and compares it with the stated order.
 
 A slope is the logarithm of the ratio of the errors of two consecutive runs, divided by the logarithm of the
-ratio of their step sizes. A run is excluded if it fails or if its error is too small to be measured. Only the
-longest sequence of consecutive runs without an excluded run is used.
+ratio of their step sizes. A run is excluded if it fails or if its error is too small to be measured. The
+excluded runs divide the list of all runs into shorter lists. Slopes are computed only for the runs in the
+longest of these shorter lists.
 
-For a smooth problem, the difference d between a slope and the order is approximately proportional to the step
-size. If the step sizes of the preceding slope are r times as large, the two slopes differ by about (r - 1) d.
-Therefore their difference, divided by r - 1, is an estimate of d. The slopes have *settled* if this estimate
-is at most :data:`SETTLED` for each of the last two slopes.
+For a smooth problem, the difference between a slope and the order is approximately proportional to the step
+size. Let d be this difference for one slope. The preceding slope belongs to runs with step sizes that are r
+times as large. Therefore the preceding slope differs from the order by about r d. The two slopes differ by
+about r d - d = (r - 1) d. Dividing the difference of the two slopes by r - 1 gives an estimate of d. The
+slopes have *settled* if this estimate is at most :data:`SETTLED` for each of the last two slopes.
 
 The last slope and the stated order may differ by at most :data:`TOLERANCE`.
 """
@@ -160,8 +162,8 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
 
     No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as the slopes
     have settled. A run is excluded if the run fails, or if the error of the run is too small to be measured.
-    After the first run that is not excluded, the doubling of the number of steps ends as soon as the error of
-    a run is too small to be measured.
+    If the error of a run is too small to be measured, the doubling of the number of steps ends. There is one
+    exception: the doubling continues if all runs so far are excluded.
 
     A run is usable if the run belongs to the longest sequence of consecutive runs that are not excluded.
     After the doubling, the function adds runs if all of the following three conditions hold: the slopes have

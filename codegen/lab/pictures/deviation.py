@@ -20,9 +20,11 @@ LEAST = 1e-17
 """Deviations smaller than LEAST are drawn as LEAST."""
 
 GROWS = 1.02
-"""The levels are the numbers LEAST * GROWS**k for all integers k.
+"""A constant that limits the number of points of a curve.
 
-A point is drawn when the largest deviation reaches a higher level.
+The curve shows the largest deviation up to the time t as a function of t. The levels of the deviation are the
+numbers LEAST * GROWS**k with k = 0, 1, 2, and so on. A point of the curve is drawn only if the largest
+deviation reaches a level that was not reached at earlier times. The last point is always drawn.
 """
 
 
