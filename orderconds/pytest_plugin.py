@@ -3,10 +3,11 @@ claims.
 
 The flags ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
 ``--orderconds-execute`` and ``--orderconds-tolerance`` correspond to options of ``orderconds check``. The
-flag ``--orderconds-tolerance`` alone does not activate the plugin. Each other flag does.
+flag ``--orderconds-tolerance`` alone does not activate the plugin. Each of the other four flags activates the
+plugin.
 
 Files without a tableau are skipped. If a tableau does not claim an order, its test is skipped. With
-``--orderconds-require-claims``, the test fails.
+``--orderconds-require-claims``, the test of a tableau without a claimed order fails.
 
 A Python file is executed only with ``--orderconds-execute``.
 """

@@ -204,9 +204,10 @@ def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
 
 
 def _define(statement: Definition, values: Values) -> None:
-    """Store a function or class as an unknown value, together with all variables in its definition.
+    """Assign an unknown value to the name of the function or class that ``statement`` defines.
 
-    A call of the function may change these variables.
+    The names of all variables in ``statement`` are stored in ``values``. A call of the function may change
+    these variables.
     """
     # Python executes the body of a class immediately, but not the bodies of its methods.
     parts: list[ast.AST] = []

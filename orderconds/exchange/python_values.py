@@ -57,8 +57,8 @@ class Array:
     """If this integer is equal for two arrays, a change of one array may change the other."""
 
     def parts(self) -> set[int]:
-        """The parts of an array are the array itself and the rows of the array. Return :attr:`memory` of each
-        part."""
+        """Return a set of integers: the attribute :attr:`memory` of this array, and the attribute
+        :attr:`memory` of each array that is nested in this array, such as a row."""
         return {self.memory}.union(*(x.parts() for x in self.items if isinstance(x, Array)))
 
 
@@ -104,10 +104,10 @@ class Values:
     sources: dict[str, tuple[frozenset[str], frozenset[int]]] = field(default_factory=dict)
     """A map from the name of a variable to a pair of sets.
 
-    The first set contains names of variables. The second set contains integers. If the value of the variable
-    is unknown, the value may refer to the variables in the first set, and to each array whose attribute
-    :attr:`Array.memory` is an integer in the second set. If the value of the variable is not unknown, both
-    sets are empty.
+    The first set contains names of variables. The second set contains integers. Each integer is the attribute
+    :attr:`Array.memory` of an array. If the value of the variable is unknown, a statement that uses the
+    variable may change the variables in the first set. Such a statement may also change the arrays whose
+    integers are in the second set. If the value of the variable is not unknown, both sets are empty.
     """
     active: set[str] = field(default_factory=set)
     """Names of functions, classes and instances. The use of such a name may execute code of the module."""
@@ -124,9 +124,12 @@ class Values:
             return Computed(f"{problem.found}", node.lineno)
 
     def assign(self, name: str, value: Value, mentioned: Collection[str] = ()) -> None:
-        """Assign a value to a name. Do nothing if ``named`` contains the name.
+        """Assign a value to the variable ``name``.
 
-        If the right-hand side of the assignment is not evaluated, ``mentioned`` lists the variables in it.
+        If a comment ``# numbers: {...}`` in the module defines a number with this name, do nothing.
+
+        ``mentioned`` lists the variables in the source of the value, for example on the right-hand side of an
+        assignment. If the value is not a :class:`Computed`, ``mentioned`` is ignored.
         """
         if name not in self.named:
             traced = self._traced(mentioned) if isinstance(value, Computed) else (frozenset(), frozenset())
@@ -179,9 +182,10 @@ class Values:
         """Mark arrays as unknown if they may share memory with ``changed``.
 
         A value was assigned to an entry of ``changed``. The array ``changed`` stays known. A row of an array
-        is an :class:`Array`, so ``changed`` can be a row of a larger array. If a larger array contains the
-        object ``changed`` as a row, the larger array stays known, because the assignment has also changed
-        this row of the larger array.
+        is an :class:`Array`, so ``changed`` can be a row of a larger array. Let B be such a larger array. If
+        a row of B is the Python object ``changed`` itself, the assignment has changed B correctly, and B
+        stays known. If a row of B is a different Python object that may share memory with ``changed``, B
+        becomes unknown.
         """
         for name, other in self.known.items():
             if isinstance(other, Array) and changed.memory in other.parts() and not _contains(other, changed):
@@ -347,8 +351,9 @@ def _require_digits(node: ast.Call) -> None:
     """Raise an error if a call such as ``Float('0.577', 2)`` drops digits of its text."""
     text = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
     digits = sum(x.isdigit() for x in text) if isinstance(text, str) else 17
-    # The keyword ``precision`` is in bits, and one bit corresponds to log10(2) = 0.30103 digits. A text is
-    # accepted if the number of digits exceeds this precision by at most two.
+    # The keyword ``precision`` is in bits, and one bit corresponds to log10(2) = 0.30103 digits. Let d be the
+    # number of digits in the first argument of the call. A call with the keyword ``precision`` is accepted if
+    # 0.30103 ``precision`` is at least d - 2.
     allowed = [(x, 1.0, 0) for x in node.args[1:]]
     allowed += [(k.value, 0.30103, 2) if k.arg == "precision" else (k.value, 1.0, 0) for k in node.keywords]
     for given, factor, more in allowed:

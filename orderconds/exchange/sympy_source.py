@@ -56,7 +56,9 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield the name and the definition of each named number, after the numbers in its definition.
+    """Yield the name and the definition of each named number.
+
+    The definition of a number x can contain the name of a number y. In this case, y is yielded before x.
 
     A definition is a formula or a pair (coefficients, index). The pair defines a real root of a polynomial.
     The coefficients are in descending degree. The real roots are numbered from 0, in ascending order.

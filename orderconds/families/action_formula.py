@@ -42,9 +42,10 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word whose letters are action trees. One letter can be the name of a stage. The velocity of each stage is
-a linear combination of letters. A letter that is the name of a stage has the coefficient one in the velocity
-of the named stage, and the coefficient zero in the velocities of all other stages."""
+"""A word. At most one letter of the word is a string, the name of a stage. Every other letter is an action
+tree. The velocity of each stage is a linear combination of letters. Let the letter x be the name of stage i.
+In the velocity of stage i, x has the coefficient one. In the velocities of all other stages, x has the
+coefficient zero."""
 
 
 def multiplier(tree: Velocity) -> int:
@@ -90,11 +91,13 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in a group element.
+        """Return the coefficient of a word in the series of a group element.
 
-        The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
-        Here x is a new letter. The letter x has the coefficient one in the velocity of stage ``stage``, and
-        the coefficient zero in all other velocities.
+        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
+        group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
+
+        The velocity of each stage is a linear combination of letters. In the velocity of stage ``stage``, x
+        has the coefficient one. In the velocities of all other stages, x has the coefficient zero.
         """
 
     def condition(self, tree: Velocity) -> Formula:

@@ -122,8 +122,9 @@ class Family(ABC):
     symplectic: ClassVar[bool] = False
     """True if a search considers only symplectic tableaux: b_i a_ij + b_j a_ji = b_i b_j for all i and j."""
     equal_abscissae: ClassVar[bool] = False
-    """True if positive weights and order three imply c_i = chat_i = m_i for each stage i. These numbers are
-    abscissae (:mod:`orderconds.solve.abscissae`)."""
+    """In some families, each stage i has three abscissae: c_i for the position, chat_i for the forces, and
+    m_i for the transport of the momentum (:mod:`orderconds.solve.abscissae`). The value is True if
+    c_i = chat_i = m_i for each stage i of every method that has positive weights and at least order three."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed, or None if there is no limit."""
 

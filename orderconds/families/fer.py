@@ -60,7 +60,11 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. The tableau file of a Fer method states the order in the family ``magnus``."""
+        """Return None, because no tableau file should state the order of a method in the family ``fer``.
+
+        A Fer method is also a method of the family ``magnus``. The tableau file should state up to which
+        order the method satisfies the conditions of the family ``magnus``.
+        """
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

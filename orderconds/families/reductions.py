@@ -57,10 +57,10 @@ class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
     ``even`` is true if the method is symmetric. ``substitute`` is None, or contains a family whose conditions
-    imply the conditions of the original family. ``cut`` is None, or a test (:class:`UnseenCut`) whether the
-    truncation of dexpinv changes a condition. The method without the truncation satisfies every condition of
-    order at most ``cut.order``. Therefore the method with the truncation satisfies each of these conditions
-    that the truncation does not change.
+    imply the conditions of the original family. ``cut`` is None or an :class:`UnseenCut`. An
+    :class:`UnseenCut` is used to decide whether the truncation of dexpinv changes a condition. The method
+    without the truncation satisfies every condition of order at most ``cut.order``. If the truncation does
+    not change one of these conditions, the method with the truncation satisfies this condition, too.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]

@@ -154,10 +154,10 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # Let a(w) be the coefficient of the word w in a group-like series. The product of a(w) over the words w
-    # in ``factors`` is the sum of a(w) over all words w in the shuffle product of ``factors``. The shuffle
-    # product contains ``word`` with the coefficient ``repeated``. All other words are lexicographically
-    # smaller.
+    # Let ``factors`` be the words f_1, ..., f_k. Their concatenation is ``word``. Let a(w) be the coefficient
+    # of the word w in a group-like series. The product a(f_1) ... a(f_k) is the sum of n_w a(w) over all
+    # words w, where n_w is the coefficient of w in the shuffle product of f_1, ..., f_k. For w = ``word``,
+    # n_w is ``repeated``. All other words in the shuffle product are lexicographically smaller.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}

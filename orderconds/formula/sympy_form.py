@@ -53,7 +53,8 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
     limit j - 1 of i. If i is a free index, the relation gives the lower limit i + 1 of j."""
     limits, remaining = [], list(indices)
     while remaining:
-        # In sympy.Sum, the limits of an index may contain only indices that follow this index in ``limits``.
+        # Each entry of the list ``limits`` is a triple (index, start, end). In sympy.Sum, start and end may
+        # contain the index of a later triple, but not the index of an earlier triple.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

@@ -1,4 +1,5 @@
-"""The equations for the decimals in a tableau file.
+"""The decimals in a tableau file approximate a solution of a system of equations. This module returns the
+equations.
 
 Without a reduction, the system contains one equation for every independent condition of one family. A
 reduction is a theorem that makes some equations unnecessary. The assumptions of a reduction are verified
@@ -6,9 +7,10 @@ exactly, from the formulas in the file and not from the decimals:
 
 - ``symmetric``: a palindromic composition of a symmetric method. Only conditions of odd order are needed,
   because the order of the composition is even. There is one condition for each Lyndon word in the letters 1,
-  3, 5, ... (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). The order of a
-  composition of midpoint rules is the same in the families ``rk`` and ``cg`` (Bogfjellmo and Marthinsen,
-  Lemma 3.5.4).
+  3, 5, ... (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). A composition of
+  midpoint rules is a Runge-Kutta method (family ``rk``) on a vector space, and a Crouch-Grossman method
+  (family ``cg``) on a group. Both methods have the same order (Bogfjellmo and Marthinsen, Lemma 3.5.4), so a
+  proof of the order of one method proves the order of both methods.
 - ``symmetric``, for a Magnus method on s Gauss nodes: up to order 2s, the conditions for words in the letters
   1, ..., s are sufficient (Iserles and Norsett 1999).
 - ``low-storage``: a scheme with two registers (2N scheme). The order on a group is equal to the order on a

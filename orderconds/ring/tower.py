@@ -193,9 +193,14 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Find a generator c of the algebra K[x]/(p) over Q. Here K = Q(a) is ``field``, and p is the polynomial
-    x^k - sum_j powers[j] x^j with k = len(powers). Return m and the :class:`_Relation` of c. If m is an
-    integer, c is x + m a. If m is None, c is the product of a and x."""
+    """Find an element c that generates an algebra over Q. Return an integer or None, called m, and the
+    :class:`_Relation` of c.
+
+    Let K be ``field``, and let a be the generator of K over Q. Let k be the length of ``powers``. Let p be
+    the polynomial x^k - powers[k-1] x^(k-1) - ... - powers[0]. The algebra is K[x]/(p).
+
+    If m is an integer, c is x + m a. If m is None, c is the product of a and x.
+    """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)
