@@ -49,7 +49,10 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 
 
 def isotropic_part(B: Matrix) -> Fraction:
-    """Return a number a such that B - a I is a sum of few squares (:func:`squares`).
+    """Return a number a for which the quadratic form x^T (B - a I) x is a sum of few terms.
+
+    I is the identity matrix. Each term is d (e.x)^2 with a number d and a vector e. The function
+    :func:`squares` computes d and e for all terms.
 
     If B is diagonal, the result is a diagonal entry that occurs more than once. If all diagonal
     entries are different, the result is the middle entry in ascending order.

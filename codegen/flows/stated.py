@@ -43,7 +43,9 @@ class Stated(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return the part ``formula.name`` of the scene with the flow :class:`Stated`.
+    """Return a :class:`Part` with the name ``formula.name``.
+
+    The flow of this part is a :class:`Stated` flow with the formulas of the scene.
 
     If the scene gives no formulas for this flow, return None.
     """

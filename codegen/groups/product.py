@@ -59,8 +59,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         Otherwise return None.
         """
         own = super().offers(capability)
-        # Every direct product has the operations of DirectProduct and of its base classes. For these classes,
-        # the operations of the factors need no test.
+        # Every direct product has the operations of DirectProduct and of its base classes. If ``capability``
+        # is one of these classes, it does not matter which operations the factors have.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None

@@ -202,8 +202,9 @@ class AlgebraVectors(Representation):
         """Apply ``word``, a product of functions of ad*_x, to p.
 
         The method evaluates the group's formula for ``word`` with dual numbers, where e^2 = 0. The vector
-        y + v e represents x = (y, v). For p = (m, q), the two parts are exchanged: the vector q + m e
-        represents p. The coefficient of e in <q + m e, y + v e> is <m, y> + <q, v>, the value of p at x.
+        y + v e represents x = (y, v), where e multiplies the second part v. The vector q + m e represents
+        p = (m, q), where e multiplies the first part m. This choice has the following reason. The coefficient
+        of e in <q + m e, y + v e> is <m, y> + <q, v>, the value of p at x.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))

@@ -87,9 +87,9 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # ``ranks`` maps the node number of each node c y^n to the pair (node number of y, n). ``read`` contains
-    # the pair of a node c y^n only if this node is a root, or if this node is an argument of a node that is
-    # not in ``ranks``.
+    # ``ranks`` maps the node number of each node c y^n to the pair (node number of y, n). The set ``read``
+    # contains this pair in two cases. In the first case, c y^n is an element of ``roots``. In the second
+    # case, c y^n is an argument of an expression that is not in ``ranks``.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     # If y or an even power of y is in ``read``, no power of y is rewritten.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
@@ -243,7 +243,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
             # The sign of the first term is factored out of the whole group.
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # The factor ``sizes[key]`` is positive, so ``part`` does not contain the sign of the first term. If
-        # this sign is negative, ``part`` is subtracted.
+        # Let s be the sum of all terms in this group. If ``first`` is true, the coefficient of the first term
+        # is negative, and s = -``part``. Otherwise s = ``part``. In both cases, s is added to ``result``.
         result = result - part if first else result + part
     return result

@@ -303,10 +303,10 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the pair (converged, change), see :meth:`Domain.settled`.
-
-        ``converged`` is true in two cases: the change is zero, or the change is at most 2^12 rounding units
-        and at least ``previous`` (the change in the preceding sweep).
+        """Return the pair (converged, change) after a sweep, which replaces the values ``old`` by ``new``.
+        ``change`` is the largest absolute entry of ``new`` - ``old``. ``converged`` is true in two cases.
+        In the first case, ``change`` is zero. In the second case, ``change`` is small (at most 2^12 rounding
+        units) but not smaller than ``previous``. Here ``previous`` is the change in the preceding sweep.
         """
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))

@@ -206,8 +206,10 @@ class ExponentialAction(VectorFunction):
             for k in range(degree, 1, -1):
                 # With m = ``degree``, the next line changes ``weight`` from m!/k! to m!/(k - 1)!.
                 weight *= k
-                # The usual form of Horner's rule would divide by k in the next line. The multiplication by
-                # ``weight`` replaces this division.
+                # Let A be the matrix with the entries ``a``. Horner's rule for the Taylor polynomial of
+                # exp(A) y replaces a vector v by y + A v/k. The vector p is v times the old weight m!/k!. The
+                # next line replaces p by A p + ``weight`` y. This new vector p is ``weight`` (y + A v/k), but
+                # no division by k is needed.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
             # The last step of Horner's rule divides p by ``weight`` = m!.
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]

@@ -42,8 +42,8 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     """Convert a sympy expression to a node of ``space``.
 
     A float becomes the shortest decimal that rounds to this float, so 0.1 becomes 1/10. :class:`SceneError`
-    is raised if a subexpression is not supported. The argument ``where`` is the place of the
-    formula in the message.
+    is raised if a subexpression is not supported. The text ``where`` describes which formula is converted,
+    for example "driven_spin, signal u". The error message begins with this text.
     """
     import sympy
 

@@ -178,8 +178,9 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # After the last sweep, the unknowns in ``env`` keep their old values. So all results of
-        # ``block.body`` in ``env`` were computed from the unknowns in ``env``.
+        # If ``done`` is true, the function returns before the values of the unknowns in ``env`` are replaced.
+        # In this case, ``env`` contains the values ``old`` of the unknowns, and the results of ``block.body``
+        # that were computed from ``old``.
         done, size = domain.settled(old, new, size)
         if done:
             return

@@ -115,7 +115,7 @@ class Loop:
     ``newton.residuals`` is true, the equations are r(u) = 0, and the images are the residuals r(u).
 
     ``label`` is the name of the equations in messages and statistics, for example "stage 2". ``starts`` are
-    the first values of the unknowns, or empty if a :class:`Start` computes the first values.
+    the first values of the unknowns. If a :class:`Start` computes the first values, ``starts`` is empty.
 
     In fixed-point iteration the change in a sweep is g(u) - u. The change is added to the unknowns in every
     sweep except the last sweep. With ``newton``, the change is the inverse of Newton's matrix times g(u) - u.
@@ -125,7 +125,8 @@ class Loop:
     in two main cases:
     - The change no longer decreases, and it is at most ``tolerance`` times the largest unknown.
     - The predicted next change is at rounding level, and the change is at most ``close`` times the largest
-      unknown. For equations r(u) = 0, the method ``Stopping.converged_by_residuals`` replaces this case.
+      unknown. For equations r(u) = 0, this second condition is replaced by a test in the method
+      ``Stopping.converged_by_residuals``.
 
     ``only_unknowns_read`` is true if the code after the loop reads no variable of ``body``.
     """
@@ -155,17 +156,17 @@ class Loop:
         In Newton's method, the values of ``body`` are computed before the last change is added to the
         unknowns. So these values are less accurate than the unknowns.
         """
-        # If ``only_unknowns_read`` is true, the code after the loop does not read the values of ``body``,
-        # which are less accurate than the unknowns. The error of the unknowns is smaller than the last change
-        # of the unknowns. Therefore the loop may end although the last change is larger than ``tolerance``
-        # times the largest unknown.
+        # If ``only_unknowns_read`` is true, the code after the loop reads the unknowns, but not the values of
+        # ``body``. The error of the unknowns is smaller than the last change of the unknowns. Therefore the
+        # last change may be larger than ``tolerance`` times the largest unknown. The result is 16 times
+        # ``tolerance``.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         # If Newton's matrix is expanded in h, the loop converges only for small h. The errors in the values
-        # of ``body`` are smaller for small h than for large h. Because of these two facts, the factor
-        # ``close`` is larger for a loop with an expanded matrix than for a loop without an expanded matrix.
-        # The result is ``tolerance`` for a loop with an expanded matrix, and ``tolerance`` / 16 for all
-        # remaining loops.
+        # of ``body`` are smaller for small h than for large h. Therefore a loop with an expanded matrix may
+        # end after a larger last change of the unknowns than a loop without an expanded matrix. The factor
+        # ``close`` is ``tolerance`` for a loop with an expanded matrix, and ``tolerance`` / 16 for a loop
+        # without an expanded matrix.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -292,13 +293,13 @@ class Expansion:
     ``enter`` and ``leave`` are None. If ``controlled`` is true, a run may choose the step size from the
     Taylor coefficients.
 
-    Without ``following``, the outputs of the kernel ``coefficients`` are the Taylor coefficients of order 1,
-    then of order 2, and so on to the order ``degree``.
+    ``coefficients`` is a kernel that computes Taylor coefficients. If ``following`` is None, the outputs of
+    this kernel are the Taylor coefficients of the orders 1, 2, ..., ``degree``.
 
     With ``following``, a loop over the order n computes the coefficients
-    (:class:`codegen.ir.taylor_loop.OrderLoop`). The kernel ``coefficients`` is executed before this
-    loop. Its first outputs are values that do not depend on n and that the loop uses for every n
-    (``OrderLoop.first``). The other outputs are the coefficients of order 1.
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). The kernel ``coefficients`` is executed before this loop. The
+    loop needs some values that do not depend on n (``OrderLoop.first``). These values are the first outputs
+    of the kernel ``coefficients``. The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
     ``sums`` is the number of products. The kernel ``following`` has these outputs, in this order:
@@ -368,12 +369,15 @@ class Kernel:
       at which these functions are evaluated.
     - ``vary`` is the kernel of the variational equation.
     - ``substeps`` are the substeps of a composition method. The kernel is called once for each substep.
-    - ``outlined`` are functions that the expressions of the kernel call.
-    - ``carried`` is given if the kernel uses the body momentum in place of the space momentum.
+    - ``outlined`` are functions. The expressions in ``body`` and ``outputs`` may contain calls of these
+      functions.
+    - ``carried`` contains the conversions between the space momentum of the caller and the body momentum of
+      the steps. If no conversion is needed, ``carried`` is None.
     - ``expansion`` is the Taylor polynomial of a Taylor method.
     - ``estimate`` is the error estimate of an adaptive method that is not a Taylor method.
     - ``batch`` is true if emitted code also contains a function that steps many independent systems.
-    - ``observed`` is given if emitted code also contains a function that integrates to a given end time.
+    - ``observed`` describes the emitted function that integrates to a given end time. If there is no such
+      function, ``observed`` is None.
 
     If a kernel has no ``outputs``, one of four attributes describes the step: ``expansion`` (a Taylor
     polynomial), ``arrays`` (large matrices), ``sites`` (a lattice) or ``modes`` (Fourier modes).

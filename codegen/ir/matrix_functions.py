@@ -25,9 +25,11 @@ class MatrixExponential(VectorFunction):
     """The exponential of an n x n matrix, and its derivatives (:mod:`codegen.ir.matrix_exponential`).
 
     For ``level`` = 0 the function maps a matrix A to exp(A). For ``level`` = 1 the arguments are A and a
-    derivative of A, and the results are exp(A) and the derivative of exp(A). For ``level`` = k,
-    the arguments are the arguments for ``level`` = k - 1, followed by the derivatives of these arguments. The
-    results are the results for ``level`` = k - 1, followed by the derivatives of these results.
+    derivative of A, and the results are exp(A) and the derivative of exp(A). For ``level`` = 2 the arguments
+    are four matrices: A, a derivative B of A, and the derivatives of A and B in a second direction. In
+    general, each level doubles the number of arguments. For ``level`` = k, the first half contains the
+    arguments for ``level`` = k - 1. The second half contains the derivatives of the matrices in the first
+    half. The results are the results for ``level`` = k - 1, followed by the derivatives of these results.
     """
 
     n: int
@@ -186,8 +188,8 @@ def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
     # Each pass of the loop removes vertices from ``left``. The removed vertices are in no cycle.
     left = set(range(n))
     while left:
-        # Edges to removed vertices are ignored. A vertex without other outgoing edges is in no cycle. If no
-        # such vertex exists, the graph has a cycle.
+        # Edges to removed vertices are ignored. If all edges that begin at a vertex lead to removed vertices,
+        # this vertex is in no cycle. If no such vertex exists, the graph has a cycle.
         ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
         if not ends:
             return False
