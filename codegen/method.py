@@ -267,7 +267,7 @@ def _unclaimed(
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order in these families: {family or ', '.join(families)}",
         where=text,
-        expected="a number of brackets, as in rkmk(2)" if family else "a family in the method's name",
+        expected="a number of Lie brackets, as in rkmk(2)" if family else "a family in the method's name",
         hint=f"write {label}",
     )
     error.claimed = _claimed(tableau)

@@ -80,10 +80,13 @@ class PiecewiseField:
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
-        """Return two functions of (state, t): the smooth field for the cases ``sides``, and the margins.
+        """Return two functions of (state, t). The first returns a smooth field, the second returns numbers.
 
         A selection is an operation with several cases. ``sides[k]`` is the case of the selection
-        ``nodes[k]``. While these cases apply, all margins are positive.
+        ``nodes[k]``. The smooth field is the right-hand side of the differential equation in which each
+        selection is replaced by the formula for its case. The numbers that the second function returns are
+        called margins. For example, the margin for the case x > 0 of abs(x) is x. While all cases in
+        ``sides`` apply, all margins are positive.
         """
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)

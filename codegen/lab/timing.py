@@ -99,7 +99,9 @@ def spans(run: Callable[[int], object], steps: int) -> int:
     the number n is doubled while these conditions hold:
 
     - ``run(n)`` takes less than :data:`RESOLVED` seconds.
-    - ``run(2 * n)`` has at most :data:`LEAST_STEPS` steps and does not fail.
+    - ``run(2 * n)`` does not fail.
+    - The number of steps of ``run(2 * n)`` does not exceed :data:`LEAST_STEPS`. A longer run is not necessary
+      for an accurate measurement.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -127,7 +129,11 @@ class Overhead:
 
     @cached_property
     def times(self) -> tuple[float, ...]:
-        """The sorted mean CPU times of a call of ``idle`` in several batches of calls, in seconds."""
+        """Measured CPU times of the call ``idle()`` in seconds, in increasing order.
+
+        Several batches are timed. A batch is a sequence of calls ``idle()``. For each batch, the tuple
+        contains the mean time of one call. If ``idle`` is None, the tuple contains only the number zero.
+        """
         return (0.0,) if self.idle is None else samples(self.idle)
 
     @property

@@ -90,9 +90,10 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
             expected=f"one of {', '.join(scene.steps)}" if scene.steps else "a scene that defines steps",
             hint='define the step in the argument "steps" of LinearScene',
         )
-    # The step NAME is a formula for a matrix M, and the method is y1 = M y0. Only LinearScene has an argument
-    # for such formulas, so the differential equation of the scene is linear. The class that forms the
-    # programs of ``magnus`` methods also forms the programs of such steps.
+    # ``name`` is the name of a step y1 = M y0. The scene defines this step by a formula for the matrix M.
+    # Only a scene of the class LinearScene can define steps. The differential equation of a LinearScene is
+    # linear. Methods of the family ``magnus`` solve linear differential equations, and the compiler of this
+    # family also compiles the steps that a scene defines.
     return Method("magnus", None, step=name)
 
 

@@ -58,8 +58,10 @@ class Parts:
         """The summands of all parts, in the order for the function :func:`pairs`.
 
         A kick is a flow that changes only the momentum. If the scene is not a lattice, kicks come first,
-        because the kicks of two successive steps can be joined. On a lattice, the kicks of two steps are not
-        joined, so kicks come last. With this order, Strang's step contains two neighbouring kicks, which are
+        because the kicks of two successive steps can be joined. On a lattice, the compiler does not join the
+        kicks of two successive steps, and kicks come last in the returned list. Strang's step applies the
+        flows of all summands in the order of the returned list, and after this in the reverse order. If a
+        kick is last in the list, Strang's step contains this kick twice in succession, and the two kicks are
         joined into one kick.
         """
         if self.scene.sites is None:
@@ -168,7 +170,8 @@ class FlowLowering(Lowering):
             step = Coefficient(duration, 1)
             # All flows of one summand commute with each other, so their order does not matter.
             for name, flow in summand.flows:
-                # The time is constant during the flow of a time-dependent summand, so t is an argument.
+                # A summand of the Hamiltonian can depend on time. The flow of such a summand is computed for
+                # a fixed value of the time. This value is the argument ``time``.
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
             # The flow of the summand ``carrier`` advances the time. The summand ``carrier`` does not depend
             # on t.

@@ -60,8 +60,10 @@ class LinearLowering(FieldLowering):
             return super().problem(scene, method)
         # The derived scene is stored, because deriving it takes time.
         if "linear" not in scene.derived:
-            # The stored scene has the equation u' = 0 for the momentum u conjugate to time. The correct
-            # update of u is added to the program of a step by ``_with_momentum``.
+            # The coordinate u of the state is the momentum conjugate to time. In the equation u' = -dH/dt,
+            # the right-hand side depends on the state, but the method requires a field A(t) without the
+            # state. For this reason, the stored scene has the equation u' = 0 in place of u' = -dH/dt. The
+            # correct update of u is added to the program of a step by ``_with_momentum``.
             scene.derived["linear"] = without_momentum_rate(scene)
         return scene.derived["linear"]
 
@@ -89,8 +91,9 @@ class LinearLowering(FieldLowering):
         family().require(tableau, method.ring)
         y = Var("y", Kind.POINT)
         stages = Stages(problem, method, (y,))
-        # The matrix A may contain constant coordinates of y, but no varying coordinates of y. All nodes use
-        # the initial y.
+        # The differential equation is y' = A(t).y. The method evaluates A at the times t + c_i h. The entries
+        # of A may depend on coordinates of y that are constant in time, but not on coordinates of y that vary
+        # in time. For this reason, all evaluations of A use the initial value y.
         nodes = [stages.f(f"k{i + 1}", y, c) for i, c in enumerate(tableau.c)]
         values = LieElements(stages.builder, method, nodes, dict(tableau.elements))
         point = y
@@ -103,7 +106,11 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, step)
 
     def _stated(self, problem: Problem, method: Method) -> Program:
-        """Return the program of the step ``method.step`` of the scene."""
+        """Return the program of a step that the scene ``problem`` defines.
+
+        A scene can define several steps, and each step has a name. The attribute ``method.step`` is the name
+        of the step to compile.
+        """
         # The formula for the momentum u is valid only for a symplectic step matrix.
         if problem.carries_momentum and not problem.steps[method.step].canonical:
             raise MethodError(

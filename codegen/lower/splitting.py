@@ -148,6 +148,9 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha
-    # After the loop, the variable ``carried`` is the sum of the durations of A minus the sum of the durations
-    # of B. The two sums are equal, so ``carried`` is zero.
+    # The loop above computes the durations ``composed``. Let A be the part of the Hamiltonian whose flow acts
+    # first, and let B be the second part. After the loop, the variable ``carried`` is the difference of two
+    # sums. The first sum contains the durations of all flows of A. The second sum contains the durations of
+    # all flows of B. If the method has order one or higher, each sum is one step size. In this case,
+    # ``carried`` is zero and is not needed.
     return composed

@@ -90,15 +90,14 @@ class _Step(ExpandedStep):
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
         """Return a new variable for the vector R*_(r)(x, v) M (see the docstring of this module).
 
-        ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. Let z_i be the sum
-        of -ad_x^{k-1-i} v/(k+1)! for k = i + 1, ..., r. The result is the sum of the vectors ad*_{z_i}
-        (ad*_x)^i M for i = 0, ..., r - 1.
+        ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M.
         """
         terms: Terms = []
         # Let w_ik = -ad_x^{k-1-i} v. The product rule gives the derivative of ad_x^k v with respect to x. The
         # derivative in the direction d is the sum of the vectors ad_x^i ad_{w_ik} d for i = 0, ..., k - 1.
-        # The dual of the linear map ad_x^i ad_{w_ik} maps M to ad*_{w_ik} (ad*_x)^i M. For each i, z_i is the
-        # sum of w_ik/(k+1)! for k = i + 1, ..., r.
+        # The dual of the linear map ad_x^i ad_{w_ik} maps M to ad*_{w_ik} (ad*_x)^i M. For each i, let z_i be
+        # the sum of w_ik/(k+1)! for k = i + 1, ..., r. The result is the sum of the vectors ad*_{z_i}
+        # (ad*_x)^i M for i = 0, ..., r - 1.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             subscript = self.build.lin("z", Kind.ALG, inner)
@@ -114,9 +113,10 @@ class _Step(ExpandedStep):
         # contains the moved terms with the changed signs.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The exponent X_j contains the term h a_ji v_i. Two vectors are multiplied by ``factor``, which
-            # is -h b_j a_ji/b_i. One vector is dexp*_{X_j} n_j, where n_j is the force forces[j] of stage j.
-            # The second vector is R*_(r)(X_j, v_j) M_j, which is the variable slopes[j].
+            # The equation for M_i is divided by b_i. In the divided equation, two vectors of stage j have the
+            # coefficient -h b_j a_ji/b_i. This coefficient is the variable ``factor``. One vector is
+            # dexp*_{X_j} n_j, where n_j is the force forces[j] of stage j. The second vector is the variable
+            # slopes[j], which is R*_(r)(X_j, v_j) M_j.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))
@@ -132,8 +132,8 @@ class _Step(ExpandedStep):
 
 def _rest(powers: list[Var]) -> Terms:
     """Return the terms -p_k/(k+1)! for k >= 1, where p_k is ``powers[k]``."""
-    # The term p_0 is an unknown, v_i or M_i, and stays on the left-hand side of the equation for this
-    # unknown. The result omits this term.
+    # The first vector ``powers[0]`` is an unknown of an implicit equation. The left-hand side of this
+    # equation is the unknown alone. For this reason, the result contains no term for k = 0.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

@@ -172,12 +172,15 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
-        # The pass "rows of products" removes operations that read exp(x). The pass "functions of ad" may keep
-        # Ad_{exp x} if another operation reads exp(x), so the pass "functions of ad" comes later.
+        # The pass "functions of ad" may leave an operation Ad_{exp x} unchanged if another operation reads
+        # exp(x). The pass "rows of products" removes operations that read exp(x). For this reason, the pass
+        # "rows of products" comes before the pass "functions of ad".
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # A residual is the difference of two values of a momentum. The pass "residuals" chooses this
-        # momentum. The choice depends on the result of the pass "functions of ad".
+        # The pass "residuals" adds residuals m - n to the implicit equations. The program computes a momentum
+        # m. A momentum n is computed from an unknown of the equations, and is equal to m at the solution. The
+        # pass "residuals" chooses the momentum m. The choice depends on the result of the pass "functions of
+        # ad".
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain inverses of maps. This pass removes products of a map and its inverse.
         Pass("inverse maps", inverse, opposites.run),

@@ -1,11 +1,13 @@
 """Transformation of a program to the body frame at the start of the step.
 
-The pass is exact. Let q be the position at the start of the step. Every value is transformed:
+The pass is exact. Let q be the position at the start of the step. Every value except a position is
+transformed:
 
 - a group element E becomes E~ = q^{-1} E q,
 - an element x of the algebra becomes Ad_{q^-1} x,
-- a momentum mu becomes Ad*_q mu,
-- a position Q = E q is computed as q E~ (the same position).
+- a momentum mu becomes Ad*_q mu.
+
+A position Q = E q is not transformed, but the new program computes Q by the formula Q = q E~.
 
 The operations in :data:`EQUIVARIANT` commute with this transformation. The pass applies each of these
 operations to the transformed arguments.
@@ -166,7 +168,9 @@ class _Framing:
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])
-        # Let mu be the momentum in the space frame. Q = q E and M = Ad*_q mu, so P = Ad*_Q mu = Ad*_E M.
+        # Let q be the position at the start of the step, and let Q = q E be the position of the stage. Let mu
+        # be the momentum of the stage in the space frame. In the body frame at q, the momentum is M = Ad*_q
+        # mu. In the body frame at Q, the momentum is P = Ad*_Q mu = Ad*_E M.
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)

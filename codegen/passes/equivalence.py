@@ -135,7 +135,7 @@ class Reference:
 
     The program computes steps from two states: the initial state, and a nearby state without symmetry. From
     each state, it tries several step sizes in decreasing order. A step size is skipped if the iterations do
-    not converge or if the results are not finite. The longest remaining step comes first.
+    not converge or if the results are not finite.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -230,13 +230,14 @@ class Reference:
         return next(filter(None, accounts), "")
 
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
-        """Compare ``program`` with the reference in the longest step that can be compared.
+        """Compare the results of ``program`` and of the reference program after one step.
 
-        Return a description of the difference, or '' if there is no difference. ``program`` fails in a step
-        if an exception is raised, for example because an iteration does not converge, or if a result is NaN.
-        If ``program`` fails in a step, a shorter step is tried. If no step can be compared, the result
-        describes the failure of ``program`` in the shortest step that the reference can compute. If the
-        reference can compute none of the steps, the result is None.
+        Return a description of the difference, or '' if there is no difference. All steps in ``point`` begin
+        at one state. These steps are tried in order of decreasing length. The comparison uses the first step
+        in which ``program`` does not fail. ``program`` fails in a step if a result is NaN, or if an exception
+        is raised. For example, an exception is raised if an iteration does not converge. If ``program`` fails
+        in all steps, the result describes the failure of ``program`` in the shortest step that the reference
+        program can compute. If the reference program can compute none of the steps, the result is None.
         """
         failure = None
         for step in point.results():

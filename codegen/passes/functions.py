@@ -52,8 +52,9 @@ def rows(program: Program, scene: Problem) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
-        # The product is ``assign.targets[0]``. ``own`` is True if two conditions hold. First, the velocity or
-        # the force is evaluated at this product. Second, this product is not an output of the program.
+        # Let Q be the variable ``assign.targets[0]``, which is the result of the operation ``assign``.
+        # ``own`` is True if two conditions hold. First, the velocity or the force is evaluated at Q. Second,
+        # Q is not an output of the program.
         own = assign.targets[0] in fields and assign.targets[0] not in kept
         if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)

@@ -49,7 +49,14 @@ class Endurance:
 
     @property
     def held(self) -> bool:
-        """False if the run reports no failure, but ``defect`` is large or ``returned`` is not finite."""
+        """True if the run passes the test for unreported failures.
+
+        A run that ends with an error message passes. A run without an error message passes if two conditions
+        hold:
+
+        - ``defect`` is None or at most 64 * ``steps`` * 2^-53.
+        - ``returned`` is None or finite.
+        """
         explained = self.defect is None or self.defect <= 64 * self.steps * 2.0**-53
         return bool(self.failure) or (explained and math.isfinite(self.returned or 0.0))
 

@@ -147,7 +147,11 @@ def cases(compiled: Compiled) -> Iterator[Case]:
 
 
 def _firsts(compiled: Compiled) -> list[int]:
-    """Return indices into the state: the first number of each component, and the last number of the state."""
+    """Return the indices of some entries of the state vector.
+
+    The result contains the index of the first entry of each component of the state. The last element of the
+    result is the index of the last entry of the state vector.
+    """
     places, start = [], 0
     for block in compiled.scene.state:
         places.append(start)
@@ -282,11 +286,15 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 class Rounding(BallDomain):
     """Arithmetic with many digits that adds one rounding error of a double to the result of every operation.
 
-    The signs of the errors are random, but the error of a repeated operation keeps its sign. Otherwise the
-    equations of an implicit method would change in each iteration. The errors are relative. In a system of
-    implicit equations, each right-hand side gets two errors. One error is proportional to the right-hand side
-    itself, and one error is proportional to the next right-hand side of the system. The last right-hand side
-    gets an error proportional to the first. Even a right-hand side that is zero can thus get an error.
+    The errors are relative, and the signs of the errors are random. An iteration for the equations of an
+    implicit method evaluates each operation repeatedly. In each evaluation, the error of the operation has
+    the same sign. With a new random sign in each evaluation, the equations would change during the iteration.
+
+    In a system of implicit equations, each right-hand side gets two errors. The first error is proportional
+    to the right-hand side itself, and is zero if the right-hand side is zero. For this reason, a second error
+    is added, which is proportional to the next right-hand side of the system. The last right-hand side gets
+    an error proportional to the first right-hand side. Even a right-hand side that is zero can thus get an
+    error.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
