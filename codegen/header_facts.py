@@ -169,7 +169,7 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
     if TIME not in kernel.used_scalars():
         lines.append("the time: the scene does not depend on it")
     if not any(isinstance(s, Loop) for s in kernel.body):
-        lines.append("an iteration: all stages are explicit")
+        lines.append("the solution of equations: all stages are explicit")
     return tuple(lines)
 
 

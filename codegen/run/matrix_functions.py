@@ -220,9 +220,7 @@ class _Exponential:
         what = f"the exponential of the {self.n} x {self.n} matrix a"
         if self.level:
             single = ", and its derivative in the direction E. The input contains a, then E"
-            several = (
-                f" + E. E is a polynomial in {self.level} symbols. Each symbol has the square 0. The input"
-            )
+            several = f" + E. E is a polynomial in {self.level} symbols, each with the square 0. The input"
             what += single if self.level == 1 else f"{several} contains a, then the coefficients of E"
         return (
             f"result = {what}. The method is a Taylor polynomial and repeated squaring. If the estimate of "
