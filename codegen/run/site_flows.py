@@ -316,8 +316,8 @@ class _Part:
         parameters = (WHOLE, shape, _COLOUR, SITES, *self.arrays, *self.scalars)
         first = [Assign(COLUMNS, shape[last])]
         about = (
-            f"Pairs of sites: {self.own.about}. With colour 0, the first site of each pair has an even index, "
-            "with colour 1 an odd index."
+            f"Pairs of sites: {self.own.about}. With colour 0, the first site of each pair has an even "
+            "index, with colour 1 an odd index."
         )
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 
