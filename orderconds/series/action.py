@@ -76,8 +76,11 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
-        ``row``. The expansion of the velocity of stage ``stage`` has the additional term x."""
+        """Return the coefficient of a word in a changed group element. The group element has the index
+        ``row``. To change the group element, add a letter x to the velocity of stage ``stage``, and leave the
+        velocities of all other stages unchanged. The letter x is not a tree. The changed group element is
+        expanded in words of trees and of the letter x. The word is (``before``, x, ``after``), where
+        ``before`` and ``after`` are words of trees."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return the coefficient of ``word`` in the group element of each stage."""
@@ -271,8 +274,9 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return a list: entry k is the coefficient of ``word`` in the product of all exponentials of the
-        group element ``row`` except the first k."""
+        """Return a list. Let E_1, ..., E_n be the exponentials in ``self.rows[row]``. Entry k of the list is
+        the coefficient of ``word`` in the product of the exponentials E_(k+1), ..., E_n. The index k runs
+        from 0 to n. If k is n, the product has no factors, and is 1."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known

@@ -218,12 +218,16 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. To obtain entry i of the map for
-        stage j, change the series dexpinv_{(r),X_j} xi_j in two steps. First, replace the velocity xi_i by
-        xi_i + x in the exponent X_j. Second, expand X_j in words of trees and x. In both steps, the factor
-        xi_j behind dexpinv stays one letter, even if i = j. Entry i is the coefficient of the word
-        (``before``, x, ``after``, xi_j, ``behind``) in the changed series. The module docstring defines the
-        series, the number r, the letter x, and the exponent X_j."""
+        """Return a list with one map (:data:`Varied`) for each stage j. The map for stage j describes the
+        series dexpinv_{(r),X_j} xi_j. The module docstring defines the series, the number r, the letter x,
+        and the exponent X_j. The exponent X_j depends on the velocities of the stages.
+
+        Entry i of the map for stage j describes one change of the series: in the exponent X_j, the velocity
+        xi_i of stage i is replaced by xi_i + x. The factor xi_j behind dexpinv is not replaced, even if i and
+        j are equal. The changed exponent is expanded in words of trees and x. The factor xi_j is not
+        expanded, but is one letter. Entry i is the coefficient of the word (``before``, x, ``after``, xi_j,
+        ``behind``) in the changed series. Here ``before``, ``after`` and ``behind`` are words of trees.
+        """
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -233,12 +237,16 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. To obtain entry i of the map for
-        stage j, change the series dexpinv_{(r),X_j} xi_j in two steps. First, replace the velocity xi_i by
-        xi_i + x in the exponent X_j. Second, expand X_j in words of trees and x. In both steps, the factor
-        xi_j behind dexpinv stays one letter, even if i = j. Entry i is the coefficient of the word
-        (``first``, xi_j, ``before``, x, ``after``) in the changed series. The module docstring defines the
-        series, the number r, the letter x, and the exponent X_j."""
+        """Return a list with one map (:data:`Varied`) for each stage j. The map for stage j describes the
+        series dexpinv_{(r),X_j} xi_j. The module docstring defines the series, the number r, the letter x,
+        and the exponent X_j. The exponent X_j depends on the velocities of the stages.
+
+        Entry i of the map for stage j describes one change of the series: in the exponent X_j, the velocity
+        xi_i of stage i is replaced by xi_i + x. The factor xi_j behind dexpinv is not replaced, even if i and
+        j are equal. The changed exponent is expanded in words of trees and x. The factor xi_j is not
+        expanded, but is one letter. Entry i is the coefficient of the word (``first``, xi_j, ``before``, x,
+        ``after``) in the changed series. Here ``first``, ``before`` and ``after`` are words of trees.
+        """
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

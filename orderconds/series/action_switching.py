@@ -1,11 +1,17 @@
 """Root switching: trees that differ only in the choice of the root have the same condition.
 
 The module :mod:`orderconds.series.action_trees` defines the notation of trees. Let u, v and w be words of
-trees, and let M and N be multisets of trees. In the tree ``o(w | M, H(u*v | N))``, the vertex H is a
-neighbour of the root o. If H becomes the root, the old root replaces ``*``. The result is the tree
-``o(u o(w | M) v | N)``, where the first ``o`` is the vertex H. The left-hand sides of the two conditions are
-double sums over the stages of a method, which differ only in the order of summation. The right-hand sides of
-the two conditions are equal, too.
+trees, and let M and N be multisets of trees. A tree ``H(u*v | N)`` consists of a vertex H, the words u and v,
+and the multiset N. The symbol ``*`` marks a position between u and v. The trees A and B are
+
+- A: ``o(w | M, H(u*v | N))``,
+- B: ``o(u o(w | M) v | N)``.
+
+The vertex H is a neighbour of the root of A. The tree B is the result of moving the root of A to the vertex
+H. In B, the tree ``o(w | M)``, which contains the old root, is inserted at the position of ``*``. The outer
+``o`` in B is the vertex H of A, and the inner ``o`` in B is the root of A. The left-hand sides of the
+conditions of A and B are double sums over the stages of a method, which differ only in the order of
+summation. The right-hand sides of the two conditions are equal, too.
 """
 
 from __future__ import annotations

@@ -93,9 +93,10 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # The polynomials in ``known`` have no terms of grade ``algebra.largest``. In the argument of the
-        # step, which is ``arguments[last]``, the terms of this grade affect the order of the method. For this
-        # reason, ``spans`` contains the complete ``arguments[last]``, too, if i is ``last``.
+        # The polynomials in ``known`` have no terms of grade ``algebra.largest``. If i is ``last``, ``spans``
+        # has one more element: a list with the complete polynomial ``arguments[last]``. In
+        # ``arguments[last]``, terms of grade ``algebra.largest`` affect the order of the method. In all other
+        # elements of ``arguments``, terms of grade ``algebra.largest`` do not affect the order.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))

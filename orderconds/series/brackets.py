@@ -163,11 +163,13 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return a map from stages to lists of polynomials. The arguments u_1, u_2, ... of the stages are
-    polynomials in the elements q_1, q_2, ... (module docstring). The list of stage i contains polynomials d =
-    v - c u_i with a number c. Here v is the argument u_j of a stage j > i, without the terms that are
-    multiples of a single element q_n with n >= i.
+    polynomials in the elements q_1, q_2, ... (module docstring). The list of stage i contains polynomials
+    d = v - c u_i with a number c. Each polynomial d belongs to one later stage j > i. To obtain v from the
+    argument u_j, remove all terms of degree 1 in the elements q_i, q_(i+1), .... The products of two or more
+    elements are not removed.
 
-    The purpose is a polynomial d that needs fewer brackets than u_i, and fewer brackets than u_j.
+    Each d is a candidate for an intermediate result of a program that computes all arguments. The computation
+    of d may need fewer brackets than the computation of u_i, and fewer brackets than the computation of u_j.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]

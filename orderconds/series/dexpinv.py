@@ -129,8 +129,9 @@ class DexpinvSeries:
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
         """Return terms of the truncated series dexpinv_u x, where u is a linear combination of words, and x
         is a letter. A triple (q, m, n) in the result denotes the term q u^n x u^m with the coefficient q. The
-        result contains the terms with four properties: m <= ``before``, n <= ``behind``, m is zero if and
-        only if ``before`` is zero, and n is zero if and only if ``behind`` is zero."""
+        values of ``before`` and ``behind`` determine which terms are in the result. If ``before`` is zero, m
+        is zero. If ``before`` is positive, m is one of the numbers 1, ..., ``before``. If ``behind`` is zero,
+        n is zero. If ``behind`` is positive, n is one of the numbers 1, ..., ``behind``."""
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
             longest = before + behind

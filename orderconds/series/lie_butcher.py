@@ -182,9 +182,11 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     """Return a map from each ordered forest w with ``order`` vertices to its coefficient a(w) in a series.
 
     For matrices, the step is y1 = g1 y0. The matrix g1 is the sum of h^|w| a(w) F(t_k) ... F(t_1) over all
-    forests w = t_1 ... t_k. Here |w| is the number of vertices of w. For the differential equation y' = f(y)
-    y, the matrices F(t) are defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). The operator X_l is the
-    derivative along the vector field M y with the constant matrix M = F(t_l).
+    forests w = t_1 ... t_k. Here |w| is the number of vertices of w. The differential equation is
+    y' = f(y) y, where f(y) is a matrix. The matrix F(t) of a tree t is defined recursively. If t has only one
+    vertex, F(t) is f(y0). Let t_1, ..., t_k be the subtrees at the root of a larger tree t. Let M_l be the
+    constant matrix F(t_l). Let X_l be the derivative along the vector field M_l y. The matrix of the tree t
+    is F(t) = (X_1 ... X_k f)(y0).
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

@@ -4,8 +4,11 @@ The registers are y and k, where k is zero at the start of a step. Stage i repla
 then replaces y by exp(B_i k) y. The series of a step is a linear combination of words in the letters K and D.
 The letter K (kick) is the derivative along the vector field k' = f(y). The letter D (drift) is the derivative
 along the vector field y' = k y. The last letter of a word acts first. Each letter D introduces one factor k,
-and each letter K replaces one factor k by f(y). Hence only words with two properties are needed: the numbers
-of letters K and D are equal, and no suffix contains more letters K than letters D.
+and each letter K replaces one factor k by f(y). If a suffix of a word contains more letters K than letters D,
+one of the letters K acts on a term without a factor k, and the result is zero. If a word contains more
+letters D than letters K, the result contains a factor k, and k is zero at the start of a step. Both kinds of
+words contribute nothing to the series. The remaining words have two properties: the numbers of letters K and
+D are equal, and no suffix contains more letters K than letters D.
 
 Each word denotes a differential operator. A linear combination of these operators vanishes on all groups if
 and only if it vanishes on all vector spaces (proof: docs/explanation/two_registers.md). Hence the order of a
@@ -33,8 +36,10 @@ Operator: TypeAlias = "tuple[Operator | None, ...]"
 """A product of derivatives along vector fields, from left to right. Each entry of the tuple denotes one
 vector field. The scheme solves the differential equation y' = f(y) y with two registers y and k. The entry
 None denotes the vector field of the equation y' = k y, where the register k is constant. An entry that is not
-None is itself a tuple of this type, and hence a product P of derivatives. The product P is applied to f, and
-the result is a function P f. The entry denotes the vector field of the equation y' = (P f) y."""
+None is a tuple of the same type as the whole tuple. Let P be the product of the derivatives in such an entry.
+If the product P is applied to the function f, the result is a function P f. The entry denotes the vector
+field of the equation y' = (P f) y. For example, the entry () denotes the vector field of the equation
+y' = f(y) y, because a product without factors does not change f."""
 
 Combination = dict[Operator, int]
 

@@ -147,9 +147,10 @@ def symmetric_transport(
 
     Let b_i be the weights, and let a_ij be the sum of the coefficients of stage j in all exponentials of
     stage i. With the formulas, sum_j a_ij = m_i for each stage i, and sum_i b_i a_ij = b_j (1 - m_j) for each
-    stage j. Let r be the number of rows of ``own``. The result contains formulas for the last entry of each
-    row of ``own``, for the first r entries of the last row of ``own``, and for auxiliary numbers C1, ..., Cr.
-    In the formulas, y1, y2, ... are the sums of the rows of ``update``.
+    stage j. Let r be the number of rows of ``own``. The result contains formulas for three groups of numbers.
+    The first group is x_1s, ..., x_rs: these numbers are the last entries of the r rows. The second group is
+    x_r1, ..., x_rr: these numbers are in the last row. The third group is C1, ..., Cr: these numbers are
+    auxiliary. In the formulas, y1, y2, ... are the sums of the rows of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

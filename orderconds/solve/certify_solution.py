@@ -109,9 +109,10 @@ def certify_solution(
 def _rounded_free(
     problem: Problem, point: Floats, steps: Sequence[Fraction]
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
-    """Round the coefficients that the equations do not determine. Return the solution, a map from the index
-    of each rounded coefficient to its value, and the indices of all other coefficients. Raises NotProved if
-    no rounding unit in ``steps`` gives an acceptable solution (see :data:`WORSE`)."""
+    """Round the coefficients that the equations do not determine. Return a triple (x, values, solved). The
+    vector x is the solution after the rounding. The map ``values`` maps the index of each rounded coefficient
+    to the rounded value. The list ``solved`` contains the indices of the coefficients that are not rounded.
+    Raises NotProved if no rounding unit in ``steps`` gives an acceptable solution (see :data:`WORSE`)."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]

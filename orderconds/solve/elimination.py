@@ -104,7 +104,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # The formulas of symplectic methods divide by the weights. The proof also covers methods with zero
+    # The formulas of symplectic methods divide by the weights. It is sufficient to prove that no method
+    # without zero weights exists: each method with zero weights can be changed into a method without zero
     # weights. Let stage i have the weight zero. Stage i has no effect on the step. Hence stage i can be
     # replaced by a copy of a stage j whose weight b_j is not zero. The weight b_j is divided: stage j and the
     # copy both get the weight b_j/2. The changed method computes the same step as the method before the
@@ -176,9 +177,11 @@ def _consequence(
     nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
     """Return a polynomial in the ideal of ``members``, and a name. The polynomial has at most one variable.
-    If the name is empty, the polynomial has no real root. If the name is not empty, the name is a weight in
-    ``nonzero``. This weight is the variable of the polynomial, and zero is the only real root of the
-    polynomial."""
+    If the name is empty, the polynomial has no real root. If the name is not empty, the name is an element of
+    ``nonzero``, which contains the names of weights that must not be zero. The weight with this name is the
+    variable of the polynomial, and zero is the only real root of the polynomial. In both cases, the
+    polynomials in ``members`` have no common real zero at which all weights in ``nonzero`` are different from
+    zero."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]

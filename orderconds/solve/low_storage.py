@@ -60,8 +60,9 @@ def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def solved_family(family: Family) -> Family:
-    """Return a family that gives every low-storage (2N) scheme the same order as ``family``. The returned
-    family has fewer order conditions (:mod:`orderconds.proof.equations`).
+    """Return a family F with the following property. If a low-storage (2N) scheme has order p as a method of
+    the family F, the scheme has order p as a method of ``family``, and conversely. The family F does not have
+    more order conditions than ``family`` (:mod:`orderconds.proof.equations`).
 
     Raises :class:`~orderconds.errors.InputError` if no such family is known for ``family``.
 

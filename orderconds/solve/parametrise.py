@@ -297,8 +297,10 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # The step sizes in the middle of the list ``gamma`` are the last entries of ``order``. The constraint
-    # ``total`` determines the last free entry of ``order``.
+    # The list ``order`` contains the same names as ``gamma``. The names from the two ends of ``gamma`` come
+    # first in ``order``, and the names from the middle of ``gamma`` come last in ``order``. The constraint
+    # ``total`` is imposed after the constraints in ``mirrored``. The constraint ``total`` determines one step
+    # size: the last name in ``order`` that the constraints before ``total`` do not determine.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -396,8 +398,8 @@ def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Layout:
-    """The parametrisations of one tableau format. Each parametrisation has a name, which is called a
-    structure.
+    """The parametrisations of one tableau format. Each parametrisation is called a structure, and is denoted
+    by a text such as ``"full"``.
 
     ``ansatz`` returns an :class:`~orderconds.solve.ansatz.Ansatz`, a tableau with free coefficients. The four
     arguments of ``ansatz`` are a family of methods, the required properties of the method (:class:`Spec`), a

@@ -67,8 +67,9 @@ def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> 
 
 
 def tableau_html(tableau: Tableau) -> str:
-    """Return the Butcher array as an HTML table. Without a Butcher array, or with more than :data:`WIDEST`
-    stages, return the ``repr`` of the tableau and equations in LaTeX.
+    """Return the Butcher array as an HTML table. If the method has no Butcher array, or has more than
+    :data:`WIDEST` stages, return HTML with two parts. The first part is the ``repr`` of the tableau. The
+    second part contains the equations of the method in LaTeX.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau_html(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])).count("<td")

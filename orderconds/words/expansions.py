@@ -181,17 +181,18 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
         return _fer_field(n, word)
     result = Fraction(0)
     for cut in range(1, len(word)):
-        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. In each product, ``head`` is a word of the
-        # right factor, and ``tail`` is a word of the left factor.
+        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. A word lists the factors of a product from right
+        # to left: the word (2, 1) denotes X_1 X_2. Therefore ``head``, the first part of ``word``, is a word
+        # of the right factor in each of the products F_n x and x F_n. ``tail`` is a word of the left factor.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result
 
 
 def _after_first(word: Word) -> Fraction:
-    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. The first
-    letter of a word denotes the last factor of a product. Therefore the first letters of the word come from
-    the right factor Y, and the last letters of the word come from the left factor exp(-F_1)."""
+    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. A word
+    lists the factors of a product from right to left: the word (2, 1) denotes X_1 X_2. Therefore each word in
+    the product exp(-F_1) Y consists of a word of Y, followed by a word of exp(-F_1)."""
     result = iterated_integral(word)
     for cut in range(len(word)):
         scale = exponential_scales(len(word) - cut)[-1]

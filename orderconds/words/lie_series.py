@@ -160,8 +160,10 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """A series sum_k c_k ad_U^k X with numbers c_k is a linear combination of bracketed Lyndon words. Return
-    a function that maps a weight to the coefficients of the bracketed Lyndon words up to this weight.
+    """Return a function that computes the coefficients c_k of a series sum_k c_k ad_U^k X. Here ad_U^k X is
+    the bracketed form of the Lyndon word with k letters U, followed by one letter X. The argument of the
+    returned function is a number n, which is called the weight. The result of the returned function is a map
+    from the Lyndon words with at most n letters to the coefficients c_k.
 
     ``expand(n)`` maps the words with at most n letters to their coefficients in the series. Only the
     Lyndon words X, UX, UUX, ... occur.

@@ -38,7 +38,9 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
         # Each column without a pivot gives one functional. The functional begins with the word of this
-        # column. Lyndon words are at the right, because most columns without a pivot are there.
+        # column. Pivots are chosen from left to right. Lyndon words are sorted to the right end of
+        # ``columns``. In this order, the number of Lyndon words in columns without a pivot is as large as
+        # possible.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
