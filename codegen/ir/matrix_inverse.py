@@ -37,7 +37,8 @@ def inverse(
                 multiple = rows[i][k]
                 rows[i] = [x - multiple * y for x, y in zip(rows[i], rows[k], strict=True)]
                 rows[i][k] = -(multiple * factor)
-    # To undo the row exchanges, the same columns of the inverse are exchanged in reverse order.
+    # In pass k of the elimination, the rows k and ``order[k]`` were exchanged. To undo this exchange, the
+    # columns k and ``order[k]`` of the inverse are exchanged. The last exchange is undone first.
     for k in reversed(range(n)):
         for row in rows:
             row[k], row[order[k]] = row[order[k]], row[k]

@@ -435,7 +435,10 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """A tuple with one function of ad*_x: the function dexp."""
+        """The functions f for which dexp*_x is the product of the operators f(ad*_x), as a tuple.
+
+        Here ad*_x is the transpose of ad_x. The tuple has one element: the function f(t) = (e^t - 1)/t.
+        """
         return (Factor("dexp", UNIT),)
 
 

@@ -125,10 +125,10 @@ class Program:
     An output with the name of an input is the new value of this input. If ``substeps`` is not empty, the
     statements are executed once for each substep.
 
-    If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. With the
-    new values q' and m', the new value of mu is mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m. In exact arithmetic, mu
-    equals Ad*_{q^-1} m, so the new value of mu is Ad*_{q'^-1} m'. In floating-point arithmetic, the first
-    formula is better, because the errors of the two terms with Ad* nearly cancel in the difference.
+    If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. Let q' and
+    m' be the new values of q and m. In exact arithmetic, the new value of mu is Ad*_{q'^-1} m', and mu equals
+    Ad*_{q^-1} m. In floating-point arithmetic, the new value of mu is computed as the sum of mu and the
+    difference Ad*_{q'^-1} m' - Ad*_{q^-1} m. The errors of the two terms nearly cancel in this difference.
     """
 
     name: str

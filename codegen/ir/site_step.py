@@ -66,9 +66,9 @@ class Sweep:
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
     - ``outside`` is a kernel for sites at the boundary of the lattice, or None. The property ``read_outside``
-      is the tuple of the loads that read a number from a neighbour. If the neighbour of the load
-      ``read_outside[k]`` does not exist, output k of ``outside`` replaces the number that this load would
-      read.
+      is the tuple of the loads that read a number from a neighbour. The kernel ``outside`` has one output for
+      each of these loads, in the order of the tuple. If the neighbour of a load does not exist, the sweep
+      uses the output for this load in place of a number from the neighbour.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
       single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, a load with ``neighbour`` = :data:`OWN`
       reads a number from the first site of the pair. A load with ``neighbour`` = 0 reads a number from the

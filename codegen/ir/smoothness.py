@@ -48,8 +48,10 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
-            # The arguments of ``node`` may contain selections from ``nodes``. In ``args``, each of these
-            # selections is already replaced by one of its formulas.
+            # A selection is a function call that chooses one of several formulas. For example, ``fabs(x)``
+            # chooses between -x and x. The arguments of ``node`` may contain selections from ``nodes``. In
+            # ``args``, each selection ``nodes[k]`` is already replaced by the formula with the index
+            # ``sides[k]``.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:

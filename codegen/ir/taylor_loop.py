@@ -264,8 +264,10 @@ class _Loop:
                     return space.sym(INVERSE) * (means[0] - means[1])
                 # The angle of the point (x, y) has the derivative p y' - q x', where p and q are functions of
                 # x and y. If x is constant, the term q x' is zero. If y is constant, the term p y' is zero.
-                # ``mean`` is computed from the only non-zero term. If this term is q x', the result has a
-                # minus sign. ``slopes[0]`` represents y'.
+                # In this branch, either x or y is constant, but not both. Hence one of the two terms is zero,
+                # and ``mean`` is computed from the remaining term. If the remaining term is q x', the result
+                # has a minus sign. The series ``slopes[0]`` belongs to y'. If y is constant,
+                # ``self.known[id(slopes[0])]`` is None.
                 (mean,) = means
                 return space.sym(INVERSE) * (mean if self.known[id(slopes[0])] is not None else -mean)
             case Antiderivative(slope=slope, rate=rate):
@@ -295,8 +297,9 @@ def _operands(series: Series) -> Sequence[Series]:
         case Angle(slopes=slopes):
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
-            # Coefficient n of the logarithm of a depends on coefficient n of a, but not on coefficient n of
-            # ``slope``. Therefore the result does not contain ``slope``.
+            # The formula for coefficient n of the logarithm of a contains coefficient n of a. The formula
+            # also contains coefficients of the derivative of the logarithm, but only coefficients with an
+            # index below n. Therefore the returned tuple does not contain the series of this derivative.
             return (a,)
         case Given() | Start():
             return ()

@@ -25,8 +25,8 @@ class TimeMomentum(Operation):
     Let Q and P be the positions and the momenta in Y. The new value of u is u + (Q.P' - P.Q')/2. The prime
     denotes the derivative with respect to t for fixed y and fixed step size h.
 
-    The arguments are the point (y, u) before the step, the point (Y, u) after the step, and the time t. Both
-    points contain the old value of u. The program ``step`` computes Y from y and t, and does not change u.
+    The arguments are the points (y, u) and (Y, u), and the time t. The program ``step`` computes Y from y and
+    t, and does not change u. Therefore both points contain the old value of u.
     """
 
     step: Program

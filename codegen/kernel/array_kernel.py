@@ -280,18 +280,18 @@ class _Builder:
         """Append statements that compute a matrix S, and return S.
 
         Let B be the matrix ``self.basis``, and let X be the point X_0 + B D. Here X_0 is the state at the
-        beginning of the step, and D is ``displacement``. If D is zero, ``displacement`` is None. The vector
-        field has the value B S B^T at X.
+        beginning of the step, and D is ``displacement``. If D is zero, ``displacement`` is None.
 
-        The value of the field at X is the element W X^T - X W^T of the Lie algebra. W is a block of
-        ``self.k`` columns of B. The first column of this block is the column of B with the index ``first``.
-        (``self.k`` is the number of columns of X.)
+        The value of the vector field at X is an element of the Lie algebra. The formulas B S B^T and
+        W X^T - X W^T both give this value. W is a block of ``self.k`` columns of B. The first column of this
+        block is the column of B with the index ``first``. (``self.k`` is the number of columns of X.)
 
-        The matrices J and E select columns of B: X_0 = B J and W = B E. With C = J + D, the core of
-        the field is S = E C^T - C E^T.
+        The matrices J and E select columns of B: X_0 = B J and W = B E. Let C = J + D. Then X is B C.
+        Therefore W X^T - X W^T is B (E C^T - C E^T) B^T, and S is the matrix E C^T - C E^T.
         """
         k = self.k
-        # A sum without terms is zero, and later statements fill only the nonzero blocks.
+        # Without terms, ``self.sum`` sets all entries of the matrix ``core`` to zero. The statements below
+        # change only the nonzero blocks of ``core``.
         core = self.sum(Matrix(name, first + k, first + k))
         # For D = 0, S has two nonzero blocks: a unit matrix in ``below``, and its negative in ``right``.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
@@ -375,9 +375,12 @@ class _Builder:
         return self.combination(name, terms)
 
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
-        """Append the computation of the point exp(B S B^T) X = X_0 + B D, where ``core`` is S. Return D.
+        """Append a statement that moves a point X to exp(B S B^T) X. Return the new displacement.
 
-        ``start`` is the displacement D_0 of the point X = X_0 + B D_0, or None if D_0 is zero.
+        Here B is the matrix ``self.basis``, and S is ``core``. Let X_0 be the state at the beginning of the
+        step. The displacement of a point is the matrix D for which the point equals X_0 + B D. ``start`` is
+        the displacement of X, or None if the displacement of X is zero. The result is the displacement of
+        the point exp(B S B^T) X.
         """
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)

@@ -45,7 +45,8 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
-        # All flows of a summand start at the same time. Only the flows of ``carrier`` advance the time.
+        # The time variable t has the same value at the start of all flows of one summand. Only the flows of
+        # the summand ``carrier`` increase t.
         elapsed = elapsed + duration if summand is carrier else elapsed
     # Except for kicks, no exact flow of a time-dependent summand is known.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
@@ -115,7 +116,8 @@ def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
 def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
     """Return the sweep for successive kicks.
 
-    In the kernel of the sweep, all durations are multiples of the first duration h.
+    In the kernel of the sweep, h denotes the duration of the first kick in ``run``, and not the step size.
+    The durations of all kicks are expressed as multiples of h.
     """
     sites = scene.sites
     assert sites is not None

@@ -1,11 +1,14 @@
 """Conversion of the momentum between the space frame and the body frame.
 
-Emitted code is compiled from a program. Suppose that the program uses the space frame, and the emitted code
-uses the body frame. Then each step converts the momentum to the space frame and back. Suppose that the
-program uses the body frame, and the caller of the emitted code uses the space frame. If the option ``whole``
-is false, the momentum is converted only before the first step and after the last step
-(:class:`codegen.ir.kernel.Carried`). If the option ``whole`` is true, each step converts the momentum to the
-body frame and back.
+Emitted code is compiled from a program. The momentum is converted in the following cases:
+
+- The program uses the space frame, and the emitted code uses the body frame. In this case, each step converts
+  the momentum to the space frame and back.
+- The program uses the body frame, the caller of the emitted code uses the space frame, and the option
+  ``whole`` is true. In this case, each step converts the momentum to the body frame and back.
+- The program uses the body frame, the caller of the emitted code uses the space frame, and the option
+  ``whole`` is false. In this case, the momentum is converted to the body frame before the first step, and to
+  the space frame after the last step (:class:`codegen.ir.kernel.Carried`).
 """
 
 from __future__ import annotations
@@ -99,7 +102,11 @@ class Frames:
 
         If the two kernels are not needed, the result is None.
         """
-        # Each step itself converts the momentum if only emitted code uses the body frame.
+        # If ``_alike`` is true, the program and the emitted code use the same frame, and the momentum is not
+        # converted. If ``_alike`` is false and ``whole`` is true, each step converts the momentum. If
+        # ``_alike`` is false and ``body_group`` is not None, the emitted code uses the body frame, the
+        # program uses the space frame, and each step converts the momentum. In these three cases, the two
+        # kernels are not needed.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

@@ -163,17 +163,19 @@ class _Chains:
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # Suppose that ``node`` is linear in ``arg``, and the levels of ``node`` and ``arg`` are
-                # equal. Then ``arg`` is expanded as a part of ``node``, and needs no entry in ``ends``.
+                # ``arg`` is not added to ``ends`` if ``node`` is linear in ``arg`` and the levels of ``node``
+                # and ``arg`` are equal. In this case, an expansion of ``node`` to a sum of products expands
+                # ``arg``, too.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
         """Return ``node`` as a :data:`Sum`. Its keys are nodes of the given ``level``, or None."""
-        # The expression ``self.new[node.id]`` replaces ``node``. When ``node`` is expanded, a new expression
-        # replaces ``node``, and sums that were stored for the old expression are no longer valid. Therefore
-        # the key contains the id of the expression.
+        # The expression ``self.new[node.id]`` replaces ``node``. A sum stored in ``self.sums`` may contain
+        # this expression. Later, a different expression may be assigned to ``self.new[node.id]``. After this
+        # assignment, the stored sum must not be used. Therefore the key contains the id of
+        # ``self.new[node.id]``.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -182,9 +184,11 @@ class _Chains:
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
         # The result is a sum of products. A factor of such a product is called late if the level of the
-        # factor equals ``level``. Each subexpression of ``node`` has at most the level of ``node``. Suppose
-        # that the level of ``node`` is below ``level``. Then ``node`` contains no late factor. In this case,
-        # the sum has ``node`` as its only product, and the key of this product is None.
+        # factor equals ``level``. The sum is returned as a dictionary with one entry for each product. The
+        # key of an entry is the late factor of the product, or None if no factor of the product is late. Each
+        # subexpression of ``node`` has at most the level of ``node``. Suppose that the level of ``node`` is
+        # below ``level``. Then ``node`` contains no late factor. In this case, the dictionary has one entry.
+        # The key is None, and the product is the expression ``self.new[node.id]``, which replaces ``node``.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
@@ -218,7 +222,9 @@ class _Chains:
         the total sum.
         """
         x, y = self._product(*a[1:]), self._product(*b[1:])
-        # The sign of ``a`` is factored out, so different signs give the difference.
+        # Without signs, the two products are x and y. The signs ``a[0]`` and ``b[0]`` are 1 or -1. The total
+        # is ``a[0]`` x + ``b[0]`` y. If the signs are equal, the total is ``a[0]`` (x + y). If the signs
+        # differ, the total is ``a[0]`` (x - y).
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
     def _product(self, steps: Expr, rest: Expr) -> Expr:
@@ -253,7 +259,9 @@ class _Chains:
         for a, b in (node.args, node.args[::-1]):
             if self.fixed[a.id] and b.op == "mul":
                 for c, d in (b.args, b.args[::-1]):
-                    # A product of fixed factors only is fixed already and needs no new order.
+                    # A factor is fixed if the factor is constant in a run. If c and d are both fixed, the
+                    # product c d is fixed, too. In this case, the order of the multiplications is not
+                    # changed.
                     if self.fixed[c.id] and not self.fixed[d.id]:
                         return self._product(a * c, d)
         return node

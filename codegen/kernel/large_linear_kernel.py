@@ -34,8 +34,7 @@ from codegen.scene.problem import TIME, Problem
 LARGE_SUM = 1e-6
 """A sum of coefficients counts as zero if the absolute value of the sum is below this limit.
 
-The coefficients belong to one linear combination of matrices h A(t_i). The sum contains the coefficient of
-each matrix in this linear combination.
+For the linear combination c_1 h A(t_1) + ... + c_m h A(t_m), the sum of coefficients is c_1 + ... + c_m.
 """
 
 
@@ -217,7 +216,8 @@ class _Builder:
         All terms must have the same power of h.
         """
         given = [(c, x) for c, x in terms if not x.is_zero]
-        # A coefficient with the factor h^q lowers the power p by q.
+        # The value ``x`` has the denominator h^p with p = ``x.power``. The coefficient ``c`` has the factor
+        # h^q with q = ``c.power``. Therefore the product of ``c`` and ``x`` has the denominator h^(p - q).
         powers = {x.power - c.power for c, x in given}
         if len(powers) > 1:
             raise AssertionError(powers)

@@ -284,7 +284,8 @@ class _Execution:
         return _Map(g.a + k.a, _sum([(_constant(ONE), g.b), (Multiplier.of(EXP, g.a), k.b)]))
 
     def _moved(self, g: _Map, point: Sum) -> Sum:
-        # The translation g.b has the factor h, and ``_terms`` inserts this factor.
+        # The map g is u -> exp(g.a z) u + h g.b, where z is h times an eigenvalue of L. The sum below omits
+        # the factor h of g.b. The method ``_terms`` inserts this factor later.
         return _sum([(Multiplier.of(EXP, g.a), point), (_constant(ONE), g.b)])
 
     def _bracket(self, x: _Element, y: _Element) -> _Element:

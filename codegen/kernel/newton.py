@@ -121,7 +121,7 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     # factor.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
-    # A cyclic shift of two indices is odd, so the sign needs a test.
+    # For n = 2, the cofactor is the entry ``rows[a][c]`` times the sign (-1)^(i + j).
     if n == 2:
         return rows[a][c] if (i + j) % 2 == 0 else -rows[a][c]
     return rows[a][c] * rows[b][d] - rows[a][d] * rows[b][c]

@@ -90,7 +90,9 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     if kernel.modes is not None:
         return {STEP: {"transform": kernel.modes.transforms}}
     expansion = kernel.expansion
-    # A kernel without outputs computes its whole step by the loop of its expansion.
+    # If ``kernel`` has no outputs, the Taylor polynomial ``expansion`` describes the whole step. In this
+    # case, the operations of the polynomial are counted below. Otherwise, the operations that compute the
+    # outputs are counted.
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))
     total = operations(arrange(expansion.coefficients))[STEP]
@@ -158,9 +160,12 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # Let (q, m) and (q', m') be the group element and the body momentum before and after the steps. At
-        # the end of a run, mu + outward(q', m') - outward(q, m) is computed, where mu is the old space
-        # momentum (:class:`codegen.ir.kernel.Carried`).
+        # The kernel ``outward`` computes the space momentum from a group element and a body momentum
+        # (:class:`codegen.ir.kernel.Carried`). Let q be the group element, m the body momentum, and mu the
+        # space momentum at the beginning of a run. Let q', m' and mu' be the values of q, m and mu at the end
+        # of the run. The formula for mu' is mu + outward(q', m') - outward(q, m). In the difference of the
+        # two values of ``outward``, rounding errors nearly cancel. Each component of mu' needs one addition
+        # and one subtraction.
         added = {"add": 2 * len(turned[1].outputs)}
         # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]

@@ -169,9 +169,9 @@ class Outline:
 
         waiting = list(roots)
         while waiting:
-            # A tree is a group of assignments, and ``ends`` contains the results of all trees. Emitted code
-            # computes such a result by a call of an outlined function. Therefore the walk visits the
-            # expression of the result, but not the arguments of this expression.
+            # Each element of ``trees`` is a group of assignments that a function call can replace. The keys
+            # of ``ends`` are the ids of the results of these function calls. ``walk`` visits such a result,
+            # but not the arguments of the result, because these arguments are read inside of the function.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]
@@ -189,8 +189,9 @@ class Outline:
         # The loop of block ``deepest`` contains the function call. Results that do not depend on the unknowns
         # of this block stay outside the loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # An expression has a larger id than its operands. Therefore no input with a smaller id depends on the
-        # result.
+        # An expression has a larger id than its operands. Therefore an expression can depend only on
+        # expressions with smaller ids. If all inputs have smaller ids than a result, no input depends on this
+        # result. Inputs without operands are symbols or numbers, and depend on no result.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 

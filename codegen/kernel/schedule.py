@@ -223,9 +223,11 @@ def _alone(function: Function) -> Kernel:
 
 
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
-    """Return the expressions in ``statement`` that are evaluated in every step, outside of loops.
+    """Return the expressions in ``statement`` that every step evaluates, without expressions in a loop body.
 
-    Other statements may reuse the results of the function calls in these expressions.
+    For a ``Let``, the result contains the assigned expression. For a ``Loop``, the result is
+    ``statement.starts``. These expressions are evaluated before the first iteration of the loop. For a
+    ``Start``, the result is empty.
     """
     if isinstance(statement, Let):
         return [statement.value]
@@ -362,8 +364,8 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The keys of ``orders`` are the ids of arguments before rewriting. ``argument`` is the rewritten form
-        # of ``node.args[0]``, so the id of ``argument`` is not a key.
+        # The expression ``argument`` is the rewritten form of ``node.args[0]``. The keys of ``self.orders``
+        # are ids of expressions that are not rewritten. Hence ``node.args[0].id`` is the key.
         orders = self.orders[node.args[0].id]
         # One call returns the Stumpff functions c_k for all k in ``orders``. Each result gets a name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
