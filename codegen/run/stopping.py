@@ -151,9 +151,11 @@ class Stopping:
         # The tolerances are multiples of the unit roundoff, so they are larger in single precision.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # Without a warm start, the rate is CHANGE / ``previous``. Both sides of the test are multiplied by
-        # ``previous``. In the first sweep ``previous`` is 0. The right-hand side is 0 in this sweep, so
-        # the test is true only if the change is zero.
+        # ``next_change`` tests whether the product of CHANGE and the rate is at most ``form.unit * SCALE``.
+        # Without a warm start, the rate is CHANGE / ``previous``. To avoid a division by zero, both sides of
+        # ``next_change`` are multiplied by ``previous`` if there is no warm start. In the first sweep
+        # ``previous`` is 0. Without a warm start, ``next_change`` in the first sweep is the test
+        # CHANGE * CHANGE <= 0, which is true only if CHANGE is zero.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm

@@ -85,8 +85,9 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
-    # If the kernel has no outputs, the functions of the polynomial are not returned here, because the
-    # function :func:`polynomial_step` returns these functions.
+    # The call ``own.polynomial()`` returns the emitted functions for the Taylor polynomial. For a kernel
+    # without outputs, the result of :func:`polynomial_step` already contains these functions. The emitted
+    # module must not contain a function twice.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 

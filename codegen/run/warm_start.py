@@ -91,7 +91,8 @@ def memory_record(plan: Plan) -> Record:
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
         words.append("solutions of the implicit equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
-        # Simplified Newton (``leading`` is true) stores no matrix, because each step computes a new matrix.
+        # Simplified Newton (``leading`` is true) uses one matrix in all sweeps of a step, and computes a new
+        # matrix in the next step. Therefore simplified Newton stores no matrix for the next step.
         if loop.newton is not None and not loop.newton.leading:
             n = len(loop.unknowns)
             fields += [

@@ -54,7 +54,9 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
             read = [places.get(x.text) if x.op == "name" else None for x in statement.values]
             first = read[0]
             if first is not None and read == list(range(first, first + len(read))):
-                # ``statement`` copies a part of ``state``. Omit the copy: later calls receive this part.
+                # ``statement`` copies a part of ``state`` to a new array. This statement is omitted. If a
+                # later ``Call`` has the new array as an argument, the part of ``state`` replaces this
+                # argument.
                 parts[statement.name.text] = state.part(first, len(read))
                 continue
         if isinstance(statement, Call):

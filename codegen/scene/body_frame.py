@@ -100,7 +100,7 @@ def field_in_body(
 
     ``roots`` are the velocity xi and the force n in the space frame, as formulas in q and mu. The result is
     W = Ad_{q^-1} xi and N = Ad*_q n, as formulas in q and P = Ad*_q mu. P_a has the same symbol as mu_a.
-    If a component is independent of q, q cancels in its formula.
+    If the value of a component does not depend on q, the formula of this component does not contain q.
     """
     space = roots[0].space
     domain = ExprDomain(space)

@@ -103,7 +103,9 @@ class Evolution:
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:
-            # To reduce rounding errors, add the old value ``first`` to the sum of all other terms.
+            # The term ``first`` is the old value. The terms in ``further`` have a higher degree in h. To
+            # reduce rounding errors, the sum ``change`` of the terms in ``further`` is computed before the
+            # old value is added.
             change = None
             for x in further:
                 change = x if change is None else change if x is None else change + x

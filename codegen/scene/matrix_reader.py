@@ -373,9 +373,11 @@ def _transposed(given: Constant) -> Constant:
 
 
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
-    """Return the entries of the diagonal ``-offset`` of A^T from those of the diagonal ``offset`` of A.
+    """Return the diagonal ``-offset`` of the transpose A^T of a matrix A.
 
-    On the diagonal ``-offset``, the row i of A^T contains the entry of the row i - offset of A.
+    ``entry`` is the diagonal ``offset`` of A: a function of the row index, a list of numbers or one number.
+    The entry of A^T in row i and column i - offset is the entry of A in row i - offset and column i.
+    Therefore a function is shifted by ``offset``. A list or a number is returned unchanged.
     """
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 

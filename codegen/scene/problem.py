@@ -190,10 +190,11 @@ class Problem:
             )
 
     def as_field(self) -> Problem:
-        """Return this problem with the equation y' = f(y).y. Here y is (q, mu), and f is (velocity, force).
+        """Return an equivalent problem on the group T*G, with the state y = (q, mu).
 
-        In the returned problem, the group T*G acts on itself by left multiplication. If the state is not
-        (q, mu), the problem is returned unchanged.
+        The equation of the returned problem is y' = f(y).y, where f is (velocity, force). In the returned
+        problem, the group T*G acts on itself by left multiplication. The dot denotes the left multiplication.
+        If the state of this problem is not (q, mu), the problem is returned unchanged.
         """
         if not self.paired:
             return self

@@ -62,18 +62,18 @@ def SiteScene(
       t, parameters, and the coordinates of neighbours (:func:`codegen.scene.sites.neighbour`).
     - ``y0``: the initial state of every site.
     - ``boundary``: "periodic" or "open".
-    - ``outside``: at an open boundary, the state that replaces a missing neighbour, as a column of formulas
-      in ``y``, t and parameters, or as a mapping from offsets to columns. At a free end, this state must
-      exert no force on the site. If the force is proportional to the coordinates of the neighbour, use zeros.
-      If the force is proportional to the coordinates of the neighbour minus ``y``, use ``y``.
+    - ``outside``: the state that replaces a missing neighbour at an open boundary: a column of formulas in
+      ``y``, t and parameters. A mapping from offsets to columns allows different states. At a free end, the
+      state must exert no force on the site. If the force is proportional to the coordinates of the neighbour,
+      use zeros. If the force is proportional to the coordinates of the neighbour minus ``y``, use ``y``.
     - ``parts``: the summands of the field. A part is a column of formulas in ``y``, or a
       :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: the energy of a site, and the energies of pairs of neighbours (:class:`Bond`).
-    - ``invariants``: functions of the state of one site. Let g be ``f`` with arbitrary constants in place of
-      the coordinates of neighbours. Each function must be constant along the solutions of y' = g.y.
+    - ``invariants``: functions of the state of one site. Each function must be constant along the solutions
+      of y' = g.y. Here g is ``f`` with arbitrary constants in place of the coordinates of neighbours.
 
     :class:`SceneError` is raised for each error that :func:`codegen.scene.FieldScene` lists, and for these
-    errors: two offsets have different lengths, ``outside`` has no state for a neighbour, the parts do not add
+    errors: two offset tuples differ in length, ``outside`` has no state for a neighbour, the parts do not add
     up to the field, a part has no exact flow, the total energy of an autonomous scene is not constant.
     """
     check_group(name, group)

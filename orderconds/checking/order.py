@@ -136,9 +136,12 @@ def family_order(
       ``family``, so the order in ``family`` is at most ``bound.order``.
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
-    - ``brief``: used only if the computed order is equal to ``bound.order``. If ``brief`` is true or
-      ``bound.order`` is at least ``family.search_limit``, the result contains the failing conditions of
-      ``bound``. Otherwise, the result contains failing conditions of ``family`` of order ``bound.order + 1``.
+    - ``brief``: used only if the computed order is equal to ``bound.order`` and is below
+      ``family.search_limit``. If ``brief`` is true, the result contains the failing conditions of ``bound``.
+      If ``brief`` is false, the result contains failing conditions of ``family`` of order
+      ``bound.order + 1``. If the computed order is equal to ``bound.order`` and is at least
+      ``family.search_limit``, the result contains the failing conditions of ``bound`` for both values of
+      ``brief``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get
@@ -157,7 +160,7 @@ def family_order(
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
-    """Return a tuple with one condition of order ``order`` that the method of ``tableau`` violates.
+    """Return a tuple with at most one condition of order ``order`` that the method of ``tableau`` violates.
 
     Only the condition ``family.first_unmet(order)`` is tested. The residual of this condition is computed for
     the method of ``tableau``. The tuple is empty in three cases: ``family.first_unmet(order)`` is None, the

@@ -124,7 +124,12 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """If the coefficients of ``tableau`` are doubles, rename the certificate ``decimal`` to ``double``."""
+    """Return ``orders``. For coefficients that are doubles, rename the certificate ``decimal`` to ``double``.
+
+    Each entry of ``orders`` has a certificate. A certificate is a word that states how the order was
+    established. The words ``decimal`` and ``double`` denote an order that is not proved, because the residual
+    of an order condition is a small interval that contains zero.
+    """
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
@@ -226,11 +231,12 @@ Reading = tuple[Tableau, Family, int | None]
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
     """Return families that are not in ``wanted``. Each family is returned with a tableau and a claimed order.
 
-    The order of ``tableau`` in a returned family can imply an upper bound of the order of ``tableau`` in a
-    family of ``wanted``.
+    The caller computes the order of the returned tableau in each returned family. Such an order can be an
+    upper bound of the order of ``tableau`` in a family of ``wanted``.
 
-    The result is empty if each family F of ``wanted`` has the following property: ``required`` and the
-    claimed order in F are below ``F.search_limit``.
+    An entry of ``wanted`` is a pair of a family F and a claimed order. An upper bound is needed only if the
+    claimed order or ``required`` is at least ``F.search_limit``. The result is empty if no pair of
+    ``wanted`` needs an upper bound.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -276,7 +282,8 @@ def _beyond(
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
     """Return the smallest order in ``computed`` that is an upper bound of the order in ``family``.
 
-    If order n in ``family`` implies order n in a family G, the order in G is an upper bound.
+    Let G be a family in ``computed``. The order in G is an upper bound if, for every n, each method of order
+    n in ``family`` also has order n in G. In this case, the order in ``family`` cannot exceed the order in G.
     """
     if not computed:
         return None

@@ -44,11 +44,13 @@ def command(tableau: str, order: int, family: str | None, modifying: bool, as_js
     Each field is an elementary differential of f or a commutator of such differentials.
 
     For the family rk, the tree is a rooted tree. For families of Lie group methods (cg, cf, "rkmk(1)"), the
-    tree is a Lyndon word of ordered trees. For these families, f[x y] is the derivative of f along the fields
-    x and y. In this derivative, x and y are treated as constant. The commutator is [x, y] = x y - y x.
+    tree is replaced by a Lyndon word. The letters of this word are ordered trees. For these families, f[x y]
+    is the derivative of f along the fields x and y. In this derivative, x and y are treated as constant. The
+    commutator is [x, y] = x y - y x.
 
-    For a symplectic method, the command also prints the modified Hamiltonian H~. Its terms contain the vector
-    field f and derivatives of the Hamiltonian H.
+    For a symplectic method, the command also prints the modified Hamiltonian H~. The first term of H~ is the
+    Hamiltonian H. Each other term is a multiple of a derivative of H, such as H''(f, f). The arguments of
+    such a derivative are elementary differentials of the vector field f.
 
     \b
     Examples:

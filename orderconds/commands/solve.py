@@ -170,7 +170,9 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # An invalid name is refused before the search, because a search may take hours.
     verify_name(options["name"], "--name")
-    # Count trees only up to order p - 1. If p is even, symmetric methods need no conditions of order p.
+    # Let p be ``options["order"]``. Every search needs the trees up to order p - 1. Some searches do not need
+    # the trees of order p: if p is even, each symmetric method of order p - 1 also has order p. Therefore
+    # this test counts only the trees up to order p - 1.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},

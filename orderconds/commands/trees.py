@@ -59,13 +59,15 @@ def command(
 
     In text drawings, the root is in the first line. In pictures (--svg), the root is at the bottom.
 
-    In a tree with directed edges, each vertex is a derivative of the Hamiltonian H. For each edge, H is
-    differentiated with respect to the position at the vertex where the edge begins, and with respect to the
-    momentum at the vertex where the edge ends. The momentum is p, or mu on a Lie group. A diamond (in text
-    drawings: an L) denotes a coadjoint action on mu. An edge can also begin at a diamond.
+    In a tree with directed edges, each dot is a derivative of the Hamiltonian H. Each edge that begins at a
+    dot differentiates H once with respect to the position. Each edge that ends at a dot differentiates H once
+    with respect to the momentum. The momentum is p, or mu on a Lie group.
 
-    A note such as (>*>) after a vertex lists the edges at this vertex from left to right. The sign > is an
-    edge to a child. The sign * is the edge to the parent.
+    The vertices of an action tree are dots and diamonds. A diamond denotes a coadjoint action on mu. With
+    --ascii, a dot is drawn as o and a diamond is drawn as L. All edges at a diamond begin at the diamond.
+
+    In a text drawing, a note such as (>*>) can follow a vertex. The note contains one sign for each edge at
+    this vertex, from left to right. The sign > is an edge to a child. The sign * is the edge to the parent.
 
     \b
     Examples:
