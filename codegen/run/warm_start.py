@@ -180,8 +180,7 @@ class WarmStart:
             ]
         about = (
             "A backward difference, multiplied by 'sign'. Terms with an index below 'first' are "
-            "omitted. The latest solution is added last. The processor can then add the other terms before "
-            "the latest solution is known."
+            "omitted. The latest solution is added last, because the processor may still be computing it."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)

@@ -13,5 +13,5 @@ from codegen.scenes.free_rod import rod
 scene = rod(
     ends={(-1,): [*eye(3), 0, 0, 0]},
     gravity=param("g", 1),
-    title="Geometrically exact rod, clamped at one end under gravity, a chain on T*SE(3)",
+    title="Geometrically exact rod under gravity, clamped at one end: a chain on T*SE(3)",
 )

@@ -295,8 +295,7 @@ static void dipole_vcg_triple_jump_count_matrix(dipole_vcg_triple_jump_statistic
 
 /*
  * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
- * latest solution is added last. The processor can then add the other terms before the latest solution
- * is known.
+ * latest solution is added last, because the processor may still be computing it.
  */
 static inline void dipole_vcg_triple_jump_difference(const struct dipole_vcg_triple_jump_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -590,9 +589,9 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
 }
 
 /*
- * Repeat a substep that failed. The first attempt ignores the solutions of earlier steps, because they
- * are bad initial guesses if the motion has changed. If the first attempt fails, shorter steps are
- * tried. Each solution is the initial guess for a longer step (continuation in h).
+ * Repeat a substep that failed. The first attempt does not use the solutions of earlier steps. If this
+ * attempt fails, the equations are first solved for shorter steps. Each solution is the initial guess
+ * for the next longer step (continuation in h).
  */
 static int dipole_vcg_triple_jump_continued(double state[static 12], double h,
     struct dipole_vcg_triple_jump_memory *memory,
@@ -714,8 +713,8 @@ static inline void dipole_vcg_triple_jump_to_space(const double state[static 12]
 }
 
 /*
- * Write the state with the momentum in the body frame into 'moving'. Convert this momentum back to the
- * space frame, and write it into 'before'.
+ * Write the state with the momentum in the body frame into 'moving'. Convert the momentum in 'moving'
+ * to the space frame, and write the result into 'before'.
  */
 static void dipole_vcg_triple_jump_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])
@@ -727,8 +726,8 @@ static void dipole_vcg_triple_jump_enter_body(const double state[static 12],
 }
 
 /*
- * Update the state at the end of a run. In the space frame, the increase of the momentum is added to
- * the old momentum.
+ * Update the state at the end of a run. The increase of the momentum is computed in the space frame,
+ * and is added to the momentum of the state.
  */
 static int dipole_vcg_triple_jump_leave_body(const double moving[static 12],
     const double before[static 3], double state[static 12])

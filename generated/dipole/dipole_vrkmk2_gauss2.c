@@ -379,8 +379,7 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
 
 /*
  * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
- * latest solution is added last. The processor can then add the other terms before the latest solution
- * is known.
+ * latest solution is added last, because the processor may still be computing it.
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -884,9 +883,9 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
 }
 
 /*
- * Repeat a step that failed. The first attempt ignores the solutions of earlier steps, because they
- * are bad initial guesses if the motion has changed. If the first attempt fails, shorter steps are
- * tried. Each solution is the initial guess for a longer step (continuation in h).
+ * Repeat a step that failed. The first attempt does not use the solutions of earlier steps. If this
+ * attempt fails, the equations are first solved for shorter steps. Each solution is the initial guess
+ * for the next longer step (continuation in h).
  */
 static int dipole_vrkmk2_gauss2_continued(double state[static 12], double h,
     struct dipole_vrkmk2_gauss2_memory *memory, dipole_vrkmk2_gauss2_statistics *statistics)
@@ -983,8 +982,8 @@ static inline void dipole_vrkmk2_gauss2_to_space(const double state[static 12],
 }
 
 /*
- * Write the state with the momentum in the body frame into 'moving'. Convert this momentum back to the
- * space frame, and write it into 'before'.
+ * Write the state with the momentum in the body frame into 'moving'. Convert the momentum in 'moving'
+ * to the space frame, and write the result into 'before'.
  */
 static void dipole_vrkmk2_gauss2_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])
@@ -996,8 +995,8 @@ static void dipole_vrkmk2_gauss2_enter_body(const double state[static 12],
 }
 
 /*
- * Update the state at the end of a run. In the space frame, the increase of the momentum is added to
- * the old momentum.
+ * Update the state at the end of a run. The increase of the momentum is computed in the space frame,
+ * and is added to the momentum of the state.
  */
 static int dipole_vrkmk2_gauss2_leave_body(const double moving[static 12],
     const double before[static 3], double state[static 12])

@@ -371,8 +371,8 @@ def _count_matrix(statistics):
 
 def _difference(memory, order, first, sign, sum):
     """A backward difference, multiplied by 'sign'. Terms with an index below 'first'
-    are omitted. The latest solution is added last. The processor can then add the
-    other terms before the latest solution is known.
+    are omitted. The latest solution is added last, because the processor may
+    still be computing it.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -851,10 +851,10 @@ def _advance(state, h, memory, statistics):
 
 
 def _continued(state, h, memory, statistics):
-    """Repeat a step that failed. The first attempt ignores the solutions of earlier
-    steps, because they are bad initial guesses if the motion has changed. If the
-    first attempt fails, shorter steps are tried. Each solution is the initial
-    guess for a longer step (continuation in h).
+    """Repeat a step that failed. The first attempt does not use the solutions of
+    earlier steps. If this attempt fails, the equations are first solved for
+    shorter steps. Each solution is the initial guess for the next longer step
+    (continuation in h).
     """
     if not (h < 0.0 or h > 0.0):
         return OK if all(map(isfinite, state)) else NOT_FINITE
@@ -921,8 +921,8 @@ def _to_space(state, momentum):
 
 
 def _enter_body(state, moving, before):
-    """Write the state with the momentum in the body frame into 'moving'. Convert
-    this momentum back to the space frame, and write it into 'before'.
+    """Write the state with the momentum in the body frame into 'moving'. Convert the
+    momentum in 'moving' to the space frame, and write the result into 'before'.
     """
     _to_body(state, before)
     moving[0:9] = state[0:9]
@@ -931,8 +931,8 @@ def _enter_body(state, moving, before):
 
 
 def _leave_body(moving, before, state):
-    """Update the state at the end of a run. In the space frame, the increase of the
-    momentum is added to the old momentum.
+    """Update the state at the end of a run. The increase of the momentum is computed
+    in the space frame, and is added to the momentum of the state.
     """
     momentum = [0.0] * 3
     _to_space(moving, momentum)

@@ -327,8 +327,7 @@ static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigi
 
 /*
  * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
- * latest solution is added last. The processor can then add the other terms before the latest solution
- * is known.
+ * latest solution is added last, because the processor may still be computing it.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -1068,9 +1067,9 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
 }
 
 /*
- * Repeat a step that failed. The first attempt ignores the solutions of earlier steps, because they
- * are bad initial guesses if the motion has changed. If the first attempt fails, shorter steps are
- * tried. Each solution is the initial guess for a longer step (continuation in h).
+ * Repeat a step that failed. The first attempt does not use the solutions of earlier steps. If this
+ * attempt fails, the equations are first solved for shorter steps. Each solution is the initial guess
+ * for the next longer step (continuation in h).
  */
 static int free_rigid_body_s3_discrete_gradient_midpoint_continued(double state[static 4],
     double h, struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,

@@ -429,8 +429,7 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
 
 /*
  * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
- * latest solution is added last. The processor can then add the other terms before the latest solution
- * is known.
+ * latest solution is added last, because the processor may still be computing it.
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -880,9 +879,9 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
 }
 
 /*
- * Repeat a step that failed. The first attempt ignores the solutions of earlier steps, because they
- * are bad initial guesses if the motion has changed. If the first attempt fails, shorter steps are
- * tried. Each solution is the initial guess for a longer step (continuation in h).
+ * Repeat a step that failed. The first attempt does not use the solutions of earlier steps. If this
+ * attempt fails, the equations are first solved for shorter steps. Each solution is the initial guess
+ * for the next longer step (continuation in h).
  */
 static int heavy_top_slgi_midpoint_continued(double state[static 12], double h,
     struct heavy_top_slgi_midpoint_memory *memory,

@@ -409,8 +409,8 @@ def _count_matrix(statistics):
 
 def _difference(memory, order, first, sign, sum):
     """A backward difference, multiplied by 'sign'. Terms with an index below 'first'
-    are omitted. The latest solution is added last. The processor can then add the
-    other terms before the latest solution is known.
+    are omitted. The latest solution is added last, because the processor may
+    still be computing it.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -837,10 +837,10 @@ def _advance(state, h, memory, statistics):
 
 
 def _continued(state, h, memory, statistics):
-    """Repeat a step that failed. The first attempt ignores the solutions of earlier
-    steps, because they are bad initial guesses if the motion has changed. If the
-    first attempt fails, shorter steps are tried. Each solution is the initial
-    guess for a longer step (continuation in h).
+    """Repeat a step that failed. The first attempt does not use the solutions of
+    earlier steps. If this attempt fails, the equations are first solved for
+    shorter steps. Each solution is the initial guess for the next longer step
+    (continuation in h).
     """
     if not (h < 0.0 or h > 0.0):
         return OK if all(map(isfinite, state)) else NOT_FINITE
