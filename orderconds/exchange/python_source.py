@@ -236,7 +236,10 @@ def _define(statement: Definition, values: Values) -> None:
 
 
 def _activate(names: Iterable[str], node: ast.AST, values: Values) -> None:
-    """Add ``names`` to ``values.active`` if their new values may be functions or instances of classes."""
+    """Update ``values.active`` after the statement ``node`` has assigned values to the variables ``names``.
+
+    A variable is active if its value may be a function or an instance of a class.
+    """
     definitions = ast.Lambda | ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
     if _mentioned(node) & values.active or any(isinstance(x, definitions) for x in ast.walk(node)):
         values.active.update(names)

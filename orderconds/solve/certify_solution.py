@@ -288,7 +288,8 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # In a tableau file, the decimals x and -x, or two equal decimals, would denote one unknown.
+            # A tableau file uses one unknown for all equal decimals, and for x and -x. Therefore the decimal
+            # of a different number must have a different absolute value.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1

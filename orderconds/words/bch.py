@@ -95,7 +95,8 @@ def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str
 
 
 def _coefficient(bracketed: str, word: str, expansions: dict[str, Expansion]) -> int:
-    """Return the coefficient of ``word`` in the expanded brackets of the Lyndon word ``bracketed``."""
+    """Return the coefficient of ``word`` in the expansion of a nested bracket, the standard bracketing of the
+    Lyndon word ``bracketed``."""
     left, right = standard_factors(bracketed)
     x, y, i, j = expansions[left], expansions[right], len(left), len(right)
     return x.get(word[:i], 0) * y.get(word[i:], 0) - y.get(word[:j], 0) * x.get(word[j:], 0)

@@ -100,9 +100,9 @@ def in_form(label: str, form: str) -> str:
 def frontier(rows: Sequence[Row]) -> list[Row]:
     """Return the successful runs of one integrator on the fastest forms of the equations.
 
-    Let e be the error of a run, and let t be the CPU time of the run. The run is omitted if runs on a
-    different form of the equations reach the error e in less CPU time than t. If there are several forms, the
-    result is sorted by error, from large to small.
+    A run is omitted if the same error needs less CPU time with another form of the equations. For several
+    forms, the runs in the result are sorted by error, from large to small. For a single form, the runs have
+    the same order as in ``rows``.
     """
     forms = by_form(rows)
     good = [r for r in rows if r.error and r.seconds]

@@ -100,10 +100,9 @@ class FrozenFields:
         """Return the elementary differential of an ordered forest.
 
         Each tree t of the forest defines a vector field y -> x.y. Here x is the elementary differential of t
-        at the initial point (see :meth:`tree`), and x.y is the action of x on the point y. For a function g,
-        let D_j g be the derivative of g along the vector field of the j-th tree. Let m be the number of
-        trees. For each coordinate, let g be the function that maps a point to this coordinate of the point.
-        The result contains the value of D_1(D_2(...(D_m g)...)) at the initial point.
+        at the initial point (see :meth:`tree`), and x.y is the action of x on the point y. Let D_j be the
+        derivative along the vector field of the j-th tree, and let m be the number of trees. The result
+        contains D_1(D_2(...(D_m y_k)...)) at the initial point, for each coordinate y_k of the point y.
         """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
