@@ -208,8 +208,8 @@ class ExponentialAction(VectorFunction):
                 weight *= k
                 # Let A be the matrix with the entries ``a``. Horner's rule for the Taylor polynomial of
                 # exp(A) y replaces a vector v by y + A v/k. The vector p is v times the old weight m!/k!. The
-                # next line replaces p by A p + ``weight`` y. This new vector p is ``weight`` (y + A v/k), but
-                # no division by k is needed.
+                # next line replaces p by A p + ``weight`` y. The old weight m!/k! equals ``weight``/k.
+                # Therefore the new vector p equals ``weight`` (y + A v/k).
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
             # The last step of Horner's rule divides p by ``weight`` = m!.
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]

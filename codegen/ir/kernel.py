@@ -117,16 +117,18 @@ class Loop:
     ``label`` is the name of the equations in messages and statistics, for example "stage 2". ``starts`` are
     the first values of the unknowns. If a :class:`Start` computes the first values, ``starts`` is empty.
 
-    In fixed-point iteration the change in a sweep is g(u) - u. The change is added to the unknowns in every
-    sweep except the last sweep. With ``newton``, the change is the inverse of Newton's matrix times g(u) - u.
-    For equations r(u) = 0, r(u) replaces g(u) - u. Newton's method adds the change in every sweep.
+    One iteration of the loop is called a sweep. In fixed-point iteration, the change of the unknowns in a
+    sweep is g(u) - u. The change is added to the unknowns in every sweep except the last sweep. With
+    ``newton``, the change is the inverse of Newton's matrix times g(u) - u. For equations r(u) = 0, the
+    change is the inverse of Newton's matrix times r(u). Newton's method adds the change in every sweep.
 
-    ``limit`` is the largest number of sweeps. The stopping rule (:mod:`codegen.run.stopping`) ends the loop
-    in two main cases:
+    ``limit`` is the largest number of sweeps. For equations u = g(u), the stopping rule
+    (:mod:`codegen.run.stopping`) ends the loop in two main cases:
     - The change no longer decreases, and it is at most ``tolerance`` times the largest unknown.
     - The predicted next change is at rounding level, and the change is at most ``close`` times the largest
-      unknown. For equations r(u) = 0, this second condition is replaced by a test in the method
-      ``Stopping.converged_by_residuals``.
+      unknown.
+
+    The stopping rule for equations r(u) = 0 is described in the method ``Stopping.converged_by_residuals``.
 
     ``only_unknowns_read`` is true if the code after the loop reads no variable of ``body``.
     """
@@ -158,15 +160,11 @@ class Loop:
         """
         # If ``only_unknowns_read`` is true, the code after the loop reads the unknowns, but not the values of
         # ``body``. The error of the unknowns is smaller than the last change of the unknowns. Therefore the
-        # last change may be larger than ``tolerance`` times the largest unknown. The result is 16 times
-        # ``tolerance``.
+        # factor ``close`` is allowed to be larger than ``tolerance``.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # If Newton's matrix is expanded in h, the loop converges only for small h. The errors in the values
-        # of ``body`` are smaller for small h than for large h. Therefore a loop with an expanded matrix may
-        # end after a larger last change of the unknowns than a loop without an expanded matrix. The factor
-        # ``close`` is ``tolerance`` for a loop with an expanded matrix, and ``tolerance`` / 16 for a loop
-        # without an expanded matrix.
+        # If Newton's matrix is expanded to first order in h, the factor ``close`` is ``tolerance``.
+        # Otherwise, the factor ``close`` is ``tolerance`` / 16.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -293,10 +291,11 @@ class Expansion:
     ``enter`` and ``leave`` are None. If ``controlled`` is true, a run may choose the step size from the
     Taylor coefficients.
 
-    ``coefficients`` is a kernel that computes Taylor coefficients. If ``following`` is None, the outputs of
-    this kernel are the Taylor coefficients of the orders 1, 2, ..., ``degree``.
+    ``coefficients`` is a kernel that computes Taylor coefficients. ``following`` is a second kernel, or None.
+    If ``following`` is None, the outputs of the kernel ``coefficients`` are the Taylor coefficients of the
+    orders 1, 2, ..., ``degree``.
 
-    With ``following``, a loop over the order n computes the coefficients
+    If ``following`` is not None, a loop over the order n computes the Taylor coefficients
     (:class:`codegen.ir.taylor_loop.OrderLoop`). The kernel ``coefficients`` is executed before this loop. The
     loop needs some values that do not depend on n (``OrderLoop.first``). These values are the first outputs
     of the kernel ``coefficients``. The other outputs are the coefficients of order 1.

@@ -435,7 +435,7 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """The functions f for which dexp*_x is the product of the operators f(ad*_x), as a tuple.
+        """A tuple of functions f such that dexp*_x is the product of the operators f(ad*_x).
 
         Here ad*_x is the transpose of ad_x. The tuple has one element: the function f(t) = (e^t - 1)/t.
         """

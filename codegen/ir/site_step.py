@@ -67,8 +67,8 @@ class Sweep:
     - ``loads`` are the numbers that the kernel reads at each site.
     - ``outside`` is a kernel for sites at the boundary of the lattice, or None. The property ``read_outside``
       is the tuple of the loads that read a number from a neighbour. The kernel ``outside`` has one output for
-      each of these loads, in the order of the tuple. If the neighbour of a load does not exist, the sweep
-      uses the output for this load in place of a number from the neighbour.
+      each of these loads, in the order of the tuple. If a load refers to a neighbour that does not
+      exist, the sweep uses the output of ``outside`` for this load as the value of the load.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
       single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, a load with ``neighbour`` = :data:`OWN`
       reads a number from the first site of the pair. A load with ``neighbour`` = 0 reads a number from the
@@ -77,7 +77,8 @@ class Sweep:
       values g(u). In fixed-point iteration, the sweep stores g(u). In Newton's method, the sweep stores
       the difference g(u) - u.
     - ``measured`` is empty, or contains two rows for the stopping test of fixed-point iteration. For each
-      site, these rows contain the largest change and the largest absolute value of an unknown.
+      site, the first row contains the largest change of the unknowns of this site. The second row contains
+      the largest absolute value of the unknowns of this site.
     - ``sums`` contains a pair (name, row) for each sum over all sites. The row contains the terms of the sum.
     """
 

@@ -298,8 +298,8 @@ def _operands(series: Series) -> Sequence[Series]:
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
             # The formula for coefficient n of the logarithm of a contains coefficient n of a. The formula
-            # also contains coefficients of the derivative of the logarithm, but only coefficients with an
-            # index below n. Therefore the returned tuple does not contain the series of this derivative.
+            # does not contain coefficient n of the derivative of the logarithm. Therefore the result contains
+            # ``a``, and does not contain this derivative.
             return (a,)
         case Given() | Start():
             return ()

@@ -280,11 +280,11 @@ class _Builder:
         """Append statements that compute a matrix S, and return S.
 
         Let B be the matrix ``self.basis``, and let X be the point X_0 + B D. Here X_0 is the state at the
-        beginning of the step, and D is ``displacement``. If D is zero, ``displacement`` is None.
+        beginning of the step. The argument ``displacement`` is the matrix D, or None if D is zero.
 
-        The value of the vector field at X is an element of the Lie algebra. The formulas B S B^T and
-        W X^T - X W^T both give this value. W is a block of ``self.k`` columns of B. The first column of this
-        block is the column of B with the index ``first``. (``self.k`` is the number of columns of X.)
+        Let k = ``self.k`` be the number of columns of X. Let W be a block of k columns of B. The first column
+        of this block is the column of B with the index ``first``. The value of the vector field at X is an
+        element of the Lie algebra. The formulas B S B^T and W X^T - X W^T both give this value.
 
         The matrices J and E select columns of B: X_0 = B J and W = B E. Let C = J + D. Then X is B C.
         Therefore W X^T - X W^T is B (E C^T - C E^T) B^T, and S is the matrix E C^T - C E^T.

@@ -45,8 +45,8 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
-        # The time variable t has the same value at the start of all flows of one summand. Only the flows of
-        # the summand ``carrier`` increase t.
+        # ``elapsed`` is the increase of the time t since the beginning of the step, divided by h. If
+        # ``summand`` is ``carrier``, t increases after the last flow of ``summand``.
         elapsed = elapsed + duration if summand is carrier else elapsed
     # Except for kicks, no exact flow of a time-dependent summand is known.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)

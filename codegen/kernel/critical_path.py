@@ -163,9 +163,9 @@ class _Chains:
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # ``arg`` is not added to ``ends`` if ``node`` is linear in ``arg`` and the levels of ``node``
-                # and ``arg`` are equal. In this case, an expansion of ``node`` to a sum of products expands
-                # ``arg``, too.
+                # ``ends`` contains the ids of the nodes that are expanded to sums of products. If ``linear``
+                # is true and the level of ``node`` is ``late``, each expansion of ``node`` includes the
+                # expansion of ``arg``. In this case, the id of ``arg`` is not added here.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
