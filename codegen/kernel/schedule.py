@@ -364,8 +364,8 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The expression ``argument`` is the rewritten form of ``node.args[0]``. The keys of ``self.orders``
-        # are ids of expressions that are not rewritten. Hence ``node.args[0].id`` is the key.
+        # The expression ``argument`` is the rewritten form of ``node.args[0]``. Each key of ``self.orders``
+        # is the id of an expression before rewriting. Hence ``node.args[0].id`` is the key.
         orders = self.orders[node.args[0].id]
         # One call returns the Stumpff functions c_k for all k in ``orders``. Each result gets a name.
         names = tuple(self._fresh(f"c{k}") for k in orders)

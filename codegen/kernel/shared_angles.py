@@ -17,10 +17,9 @@ LONGEST = 64
 """If an argument of a Stumpff function has more than LONGEST nodes, the argument is not compared with
 arguments of earlier calls.
 
-In the methods of the gallery, expressions of equal arguments have 12 to 42 nodes. For nine methods of the
-gallery, the limits 64, 128 and 256 give the same kernels. If the limit 64 is replaced by 32, only one of
-these kernels changes: the step of the method vcf:cf4 for the scene dipole has 286 operations in place of 301.
-Some of the equal arguments have more than 32 nodes, but none of them has more than 64 nodes.
+In the methods of the gallery, arguments that are equal to an earlier argument have 12 to 42 nodes. For nine
+methods of the gallery, the limits 64, 128 and 256 give the same kernels. The limit 32 changes one of these
+kernels. Some of the equal arguments have more than 32 nodes, but none of them has more than 64 nodes.
 """
 
 

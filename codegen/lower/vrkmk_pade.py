@@ -93,11 +93,9 @@ class _Step(ExpandedStep):
         ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M.
         """
         terms: Terms = []
-        # Let w_ik = -ad_x^{k-1-i} v. The product rule gives the derivative of ad_x^k v with respect to x. The
-        # derivative in the direction d is the sum of the vectors ad_x^i ad_{w_ik} d for i = 0, ..., k - 1.
-        # The dual of the linear map ad_x^i ad_{w_ik} maps M to ad*_{w_ik} (ad*_x)^i M. For each i, let z_i be
-        # the sum of w_ik/(k+1)! for k = i + 1, ..., r. The result is the sum of the vectors ad*_{z_i}
-        # (ad*_x)^i M for i = 0, ..., r - 1.
+        # The vector R*_(r)(x, v) M is the sum of the vectors ad*_{z_i} (ad*_x)^i M for i = 0, ..., r - 1.
+        # Here r is ``self.r``, and z_i is the variable ``subscript``. The vector z_i is the sum of the
+        # vectors -ad_x^{k-1-i} v/(k+1)! for k = i + 1, ..., r.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             subscript = self.build.lin("z", Kind.ALG, inner)
@@ -132,8 +130,8 @@ class _Step(ExpandedStep):
 
 def _rest(powers: list[Var]) -> Terms:
     """Return the terms -p_k/(k+1)! for k >= 1, where p_k is ``powers[k]``."""
-    # The first vector ``powers[0]`` is an unknown of an implicit equation. The left-hand side of this
-    # equation is the unknown alone. For this reason, the result contains no term for k = 0.
+    # The caller writes the equation p_0 + p_1/2! + p_2/3! + ... = c for the unknown p_0 in the form
+    # p_0 = c - p_1/2! - p_2/3! - .... The function returns the terms -p_1/2!, -p_2/3!, and so on.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

@@ -177,10 +177,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # "rows of products" comes before the pass "functions of ad".
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # The pass "residuals" adds residuals m - n to the implicit equations. The program computes a momentum
-        # m. A momentum n is computed from an unknown of the equations, and is equal to m at the solution. The
-        # pass "residuals" chooses the momentum m. The choice depends on the result of the pass "functions of
-        # ad".
+        # The pass "residuals" adds equations of the form m = n to the implicit equations. Here m and n are
+        # momenta. The choice of m depends on the result of the pass "functions of ad".
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain inverses of maps. This pass removes products of a map and its inverse.
         Pass("inverse maps", inverse, opposites.run),

@@ -121,8 +121,8 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     @cache
     def same(pair: tuple[str, str]) -> bool:
         # The flows of the two parts are applied in both orders, and ``ends`` contains the two resulting
-        # states. The two states are compared to test if the flows commute. The durations of the two flows
-        # differ, because for equal durations the two states can be equal even if the flows do not commute.
+        # states. The two states are compared to test if the flows commute. The durations of the two flows are
+        # 2/7 and 3/7.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:

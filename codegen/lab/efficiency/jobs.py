@@ -35,9 +35,8 @@ delay. The next recipe comes from the queue with the smallest delay. All recipes
 (:data:`Kind`) and the same order.
 
 - n is the number of recipes that were taken from the queue.
-- d is the distance between two orders of convergence: the order of the recipes in the queue, and the nearest
-  usual order. A usual order is the typical order of the fastest methods for a required error
-  (:func:`usual_order`).
+- d is the least value of abs(p - usual_order(e)) over all required errors e (:func:`usual_order`). Here p is
+  the order of convergence of the recipes in the queue.
 - s = log2(T1/T2) is the slowness of the queue. Let K be the kind of the recipes in the queue. T1 is the least
   predicted CPU time of all recipes of the kind K, whatever their order. T2 is the least predicted CPU time of
   all recipes.

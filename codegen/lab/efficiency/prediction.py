@@ -161,9 +161,9 @@ class Bar:
       ``explicit`` is True, the set contains only explicit methods, and otherwise only implicit methods. Let p
       be the order of the recipe. All methods in the set have the order p + 1 or p + 2. For each method in the
       set, the error in a run with the CPU time ``seconds`` is predicted. The number e is the least of these
-      errors. The recipe is assumed to be less accurate than these methods of higher order. Therefore the
-      recipe is excluded if e is too large (:data:`FAR`).
-    - ``steps``: the smallest number of steps of an interpreted run with equal steps over the whole time span.
+      errors. The method :meth:`too_high` excludes the recipe if e exceeds :data:`FAR` times ``error``.
+    - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
+      this run.
     - ``explicit``: True if methods that solve equations are excluded.
     """
 
@@ -180,13 +180,13 @@ class Bar:
 
         - The predicted CPU time of one step, ``step_seconds``, exceeds the time limit of the bar.
         - The bar requires explicit methods, and the argument ``explicit`` is False.
-        - The error e that is predicted for methods of higher order exceeds :data:`FAR` times the largest
-          accepted error.
+        - The number e, defined below, exceeds :data:`FAR` times the attribute ``error`` of the bar.
 
         The attribute ``least`` of the bar contains triples (family, explicit, e). In the third case, e is the
         last entry of the triple whose first two entries are equal to the arguments ``family`` and
-        ``explicit``. If there is no such triple, e is the last entry of the triple ('', explicit, e). The
-        empty name '' represents all families. If both triples are missing, the third case does not occur.
+        ``explicit``. If there is no such triple, e is the last entry of the triple whose first two entries
+        are '' and the argument ``explicit``. The empty name '' represents all families. If both triples are
+        missing, the third case does not occur.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -214,8 +214,8 @@ class Predictor:
     - ``beginning``: a function that returns a pair. The first entry contains the equations on the first
       interval of the time span. The second entry is the reference solution at the end of this interval. The
       time span is divided into :data:`PARTS` equal intervals.
-    - ``failures``: for each kind of method, the number of consecutive methods that failed with equal steps
-      (:data:`TRIES`).
+    - ``failures``: for each kind of method, a count of the methods that failed in runs with a constant step
+      size. A success of a method resets the count of its kind to zero (:data:`TRIES`).
     - ``uncontrolled``: for each kind of method, the number of consecutive methods that failed with step-size
       control (:data:`TRIES`).
     - ``costs``: for each operation, the predicted time in nanoseconds and the number of components of each

@@ -126,9 +126,9 @@ def place_json(task: Task, place: Result) -> dict[str, object]:
 
 
 def step_of(task: Task, place: Result) -> float | None:
-    """Return the step size of the run in ``place``.
+    """Return the constant step size of the run that the argument ``place`` describes.
 
-    The result is None if the recipe has step-size control, or if no run of the recipe was successful.
+    The function returns None if this run has step-size control, or if ``place.steps`` is 0.
     """
     first, last = task.problem().span
     return None if place.entry.recipe.adaptive or not place.steps else float((last - first) / place.steps)

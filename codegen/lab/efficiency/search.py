@@ -67,10 +67,11 @@ UNREACHED = 1e-3
 """A default value for the gain of a recipe, used if the gain cannot be computed.
 
 Recipes with larger gains are measured earlier. Let a be the CPU time of the fastest measured recipe, and let
-b be the estimated CPU time of the recipe. If b < a, the gain is log(a/b) (:meth:`Search._next`). In two
-cases, the gain cannot be computed. Either the estimated CPU times of all recipes are infinite, or the
-estimate for the recipe is unreliable and exceeds the time of the fastest measured recipe. If the search has
-several goals, the gains of the recipe for all goals are added.
+b be the estimated CPU time of the recipe. If b < a, the gain is log(a/b) (:meth:`Search._next`). If b >= a
+and the estimate b is reliable, the recipe has no gain. In two cases, the gain cannot be computed. Either the
+estimated CPU times of all recipes are infinite, or the estimate for the recipe is unreliable and exceeds the
+time of the fastest measured recipe. If the search has several goals, the gains of the recipe for all goals
+are added.
 """
 
 LONG_STEPS = 20_000

@@ -102,11 +102,12 @@ Before the comparison with TINY, the variance is divided by the square of the la
 """
 
 FINE, NEAR, FAR = 100, 5, 20
-"""The tests with :data:`WALKING`, :data:`CONFINED` and :data:`STRAIGHT` use at most FINE blocks.
+"""Constants for the tests with :data:`WALKING`, :data:`CONFINED` and :data:`STRAIGHT`.
 
-The variance ratio V_k/(k V_1) is defined at :data:`WALKING`. In this definition, k is the distance between
-two blocks, such as block i and block i + k. The variance ratio is computed for k = NEAR and for k = FAR. If a
-record has too few blocks for k = FAR, a smaller k is used.
+These tests cut a record of deviations into blocks. FINE is the largest number of these blocks.
+
+The variance ratio V_k/(k V_1) is defined at :data:`WALKING`. The variance ratio is computed for k = NEAR and
+for k = FAR. If a record has too few blocks for k = FAR, a smaller k is used.
 """
 
 
