@@ -352,18 +352,17 @@ class _Selection:
     def allowed(self, solver: str, candidate: Candidate) -> float:
         """Return a limit in ns. A solver s is tried only if ``self.least(s)`` is below this limit.
 
-        The number ``self.least(s)`` is a lower bound of the time of a step with the solver s. The argument
-        ``candidate`` contains the trials of ``solver``, and the first of these trials converged. In one case,
-        :meth:`consider` ignores this limit. Newton's method is always tried if the equations are linear and
-        fixed-point iteration is not robust.
+        The number ``self.least(s)`` is a lower bound of the time of a step with the solver s. ``solver`` is a
+        solver that was tried before s, and ``candidate`` contains the results of the trials of ``solver``.
+        The first of these trials must have converged. Newton's method is an exception: if the equations are
+        linear and fixed-point iteration is not robust, Newton's method is tried without regard to the limit.
         """
         # The result is the step time of ``candidate``, multiplied by a factor. If ``candidate`` is robust,
-        # the factor is 1. If ``candidate`` is not robust, the factor is usually PRICE, which is above 1. The
-        # reason is that a robust solver can be chosen if a step with this solver takes at most PRICE times as
-        # long as a step of ``candidate``. The factor PRICE is replaced by 1 if ``solver`` is Newton's method
-        # and the equations have more than LARGE unknowns. If ``solver`` is Newton's method, the limit applies
-        # to simplified Newton. The factor 1 lowers this limit, so simplified Newton is tried less often. A
-        # trial of simplified Newton with more than LARGE unknowns is slow.
+        # the factor is 1. If ``candidate`` is not robust, the factor is usually PRICE, which is above 1. A
+        # robust solver is preferred to ``candidate``, even if the robust solver is slower by a factor of up
+        # to PRICE. The factor PRICE is replaced by 1 if ``solver`` is Newton's method and the equations have
+        # more than LARGE unknowns. The factor 1 lowers the result, so a trial of simplified Newton after
+        # Newton's method is less likely. Such a trial is slow for more than LARGE unknowns.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 

@@ -58,12 +58,12 @@ def SiteScene(
     """Return the scene of a chain or lattice whose sites have the same equation.
 
     - ``y``: the coordinates of a site, on which ``group`` acts.
-    - ``f``: the generator of a site in the equation y' = f.y, as a column of ``group.dim`` formulas in ``y``,
-      t, parameters, and the coordinates of neighbours (:func:`codegen.scene.sites.neighbour`).
+    - ``f``: a column of ``group.dim`` formulas in ``y``, t, parameters, and the coordinates of neighbours
+      (:func:`codegen.scene.sites.neighbour`). Each site has the equation y' = f.y, the action of f on y.
     - ``y0``: the initial state of every site.
     - ``boundary``: "periodic" or "open".
     - ``outside``: the state that replaces a missing neighbour at an open boundary: a column of formulas in
-      ``y``, t and parameters. A mapping from offsets to columns allows different states. At a free end, the
+      ``y``, t and parameters. ``outside`` can map offsets of neighbours to such columns. At a free end, the
       state must exert no force on the site. If the force is proportional to the coordinates of the neighbour,
       use zeros. If the force is proportional to the coordinates of the neighbour minus ``y``, use ``y``.
     - ``parts``: the summands of the field. A part is a column of formulas in ``y``, or a
@@ -73,7 +73,7 @@ def SiteScene(
       of y' = g.y. Here g is ``f`` with arbitrary constants in place of the coordinates of neighbours.
 
     :class:`SceneError` is raised for each error that :func:`codegen.scene.FieldScene` lists, and for these
-    errors: two offset tuples differ in length, ``outside`` has no state for a neighbour, the parts do not add
+    errors: the offset tuples differ in length, ``outside`` has no state for a neighbour, the parts do not add
     up to the field, a part has no exact flow, the total energy of an autonomous scene is not constant.
     """
     check_group(name, group)

@@ -33,7 +33,8 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
     - ``largest``: the largest angle that can be reduced.
     - ``per_quarter``: 2/pi.
     - ``parts``: numbers whose sum is pi/2.
-    - ``round``: a constant c. In floating-point arithmetic, (y + c) - c is y = 2x/pi rounded to an integer.
+    - ``round``: a constant c. Let y = 2x/pi. In floating-point arithmetic, (y + c) - c is the integer nearest
+      to y.
 
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])
