@@ -219,14 +219,12 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
         """Return a list with one map (:data:`Varied`) for each stage j. The map for stage j describes the
-        series dexpinv_{(r),X_j} xi_j. The module docstring defines the series, the number r, the letter x,
-        and the exponent X_j. The exponent X_j depends on the velocities of the stages.
+        series dexpinv_{(r),X_j} z, where z is a letter. The module docstring defines the number r, the letter
+        x, the velocities xi_1, xi_2, ..., and the exponent X_j, which depends on the velocities.
 
-        Entry i of the map for stage j describes one change of the series: in the exponent X_j, the velocity
-        xi_i of stage i is replaced by xi_i + x. The factor xi_j behind dexpinv is not replaced, even if i and
-        j are equal. The changed exponent is expanded in words of trees and x. The factor xi_j is not
-        expanded, but is one letter. Entry i is the coefficient of the word (``before``, x, ``after``, xi_j,
-        ``behind``) in the changed series. Here ``before``, ``after`` and ``behind`` are words of trees.
+        To obtain entry i of the map for stage j, replace the velocity xi_i by xi_i + x in the exponent X_j.
+        Entry i is the coefficient of the word (``before``, x, ``after``, z, ``behind``) in the changed
+        series. Here ``before``, ``after`` and ``behind`` are words of trees.
         """
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
@@ -238,14 +236,13 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
         """Return a list with one map (:data:`Varied`) for each stage j. The map for stage j describes the
-        series dexpinv_{(r),X_j} xi_j. The module docstring defines the series, the number r, the letter x,
-        and the exponent X_j. The exponent X_j depends on the velocities of the stages.
+        series dexpinv_{(r),X_j} z, where z is a letter. The module docstring defines the number r, the letter
+        x, the velocities xi_1, xi_2, ..., and the exponent X_j, which depends on the velocities.
 
-        Entry i of the map for stage j describes one change of the series: in the exponent X_j, the velocity
-        xi_i of stage i is replaced by xi_i + x. The factor xi_j behind dexpinv is not replaced, even if i and
-        j are equal. The changed exponent is expanded in words of trees and x. The factor xi_j is not
-        expanded, but is one letter. Entry i is the coefficient of the word (``first``, xi_j, ``before``, x,
-        ``after``) in the changed series. Here ``first``, ``before`` and ``after`` are words of trees.
+        To obtain entry i of the map for stage j, replace the velocity xi_i by xi_i + x in the exponent X_j.
+        Entry i is the coefficient of the word (``first``, z, ``before``, x, ``after``) in the changed series.
+        Here ``first``, ``before`` and ``after`` are words of trees. The word ``before`` is between z and x.
+        The word ``after`` follows x.
         """
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
@@ -255,10 +252,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return triples (q, m, n), one for each selected term q X^n xi X^m of the series dexpinv_X xi. The
-        coefficient q is a number. A term is selected if its expansion may contain a word that has ``before``
-        letters on the left of xi and ``behind`` letters on the right of xi. A word lists the factors of a
-        product from right to left."""
+        """Return one triple (q, m, n) for each selected term of the series dexpinv_X xi. The number q is the
+        coefficient of the term. The term has m factors X on the right of xi, and n factors X on the left of
+        xi. A term is selected if its expansion may contain a word that has ``before`` letters on the left of
+        xi and ``behind`` letters on the right of xi. A word lists the factors of a product from right to
+        left."""
         known = self._in_sight.get((before, behind))
         if known is None:
             known = self._in_sight[before, behind] = [

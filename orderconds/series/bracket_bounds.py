@@ -93,10 +93,9 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # The polynomials in ``known`` have no terms of grade ``algebra.largest``. If i is ``last``, ``spans``
-        # has one more element: a list with the complete polynomial ``arguments[last]``. In
-        # ``arguments[last]``, terms of grade ``algebra.largest`` affect the order of the method. In all other
-        # elements of ``arguments``, terms of grade ``algebra.largest`` do not affect the order.
+        # The polynomials in ``known`` have no terms of grade ``algebra.largest``. In ``arguments[last]``,
+        # terms of grade ``algebra.largest`` affect the order of the method. Hence the complete polynomial
+        # ``arguments[last]`` is added to ``spans`` if i is ``last``.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))

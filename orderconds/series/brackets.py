@@ -163,10 +163,11 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return a map from stages to lists of polynomials. The arguments u_1, u_2, ... of the stages are
-    polynomials in the elements q_1, q_2, ... (module docstring). The list of stage i contains polynomials
-    d = v - c u_i with a number c. Each polynomial d belongs to one later stage j > i. To obtain v from the
-    argument u_j, remove all terms of degree 1 in the elements q_i, q_(i+1), .... The products of two or more
-    elements are not removed.
+    polynomials in the elements q_1, q_2, ... (module docstring).
+
+    Let i and j be two stages with i < j. Some terms of u_j are a number times one element q_n with n >= i.
+    Let v be the polynomial u_j without these terms. The list of stage i contains polynomials d = v - c u_i,
+    where c is a number. There is at most one polynomial d for each j.
 
     Each d is a candidate for an intermediate result of a program that computes all arguments. The computation
     of d may need fewer brackets than the computation of u_i, and fewer brackets than the computation of u_j.

@@ -14,9 +14,9 @@ Each word denotes a differential operator. A linear combination of these operato
 and only if it vanishes on all vector spaces (proof: docs/explanation/two_registers.md). Hence the order of a
 2N scheme on groups equals its order on vector spaces.
 
-The value of a rooted forest is the product of the elementary weights of its trees. Each coefficient of the
-Lie-Butcher series is a linear combination of these values. The linear combination does not depend on the
-scheme.
+On a group, a 2N scheme has a Lie-Butcher series. On a vector space, the scheme has elementary weights: one
+number for each rooted tree. Each coefficient of the Lie-Butcher series is a linear combination of products of
+elementary weights. The numbers in the linear combination do not depend on the scheme.
 """
 
 from __future__ import annotations
@@ -34,12 +34,15 @@ from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
 """A product of derivatives along vector fields, from left to right. Each entry of the tuple denotes one
-vector field. The scheme solves the differential equation y' = f(y) y with two registers y and k. The entry
-None denotes the vector field of the equation y' = k y, where the register k is constant. An entry that is not
-None is a tuple of the same type as the whole tuple. Let P be the product of the derivatives in such an entry.
-If the product P is applied to the function f, the result is a function P f. The entry denotes the vector
-field of the equation y' = (P f) y. For example, the entry () denotes the vector field of the equation
-y' = f(y) y, because a product without factors does not change f."""
+vector field. Let y' = f(y) y be a differential equation, and let k be a constant element of the Lie algebra.
+
+- The entry None denotes the vector field of the equation y' = k y.
+- Each entry that is not None is a tuple Q. The tuple Q denotes a product of derivatives, too. The product Q
+  can be applied to the function f, and the result is a function Q f. The entry Q denotes the vector field of
+  the equation y' = (Q f) y.
+
+For example, the entry () denotes the vector field of the equation y' = f(y) y, because a product without
+factors does not change f."""
 
 Combination = dict[Operator, int]
 

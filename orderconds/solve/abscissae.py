@@ -138,9 +138,9 @@ def symmetric_transport(
 ) -> dict[str, str]:
     """Return formulas for coefficients of a symmetric method with s stages and the abscissae m_i.
 
-    Stage i begins with the first ``leave[i]`` exponentials of ``update``, followed by its own exponentials
-    (:mod:`orderconds.solve.paths`). Let x_ij be the sum of the coefficients of stage j in the own
-    exponentials of stage i.
+    ``leave`` contains a number k for each stage in the first half: the stage begins with the first k
+    exponentials of ``update``. All later exponentials of the stage are own (:mod:`orderconds.solve.paths`).
+    Add the coefficients of stage j in all own exponentials of stage i, and let x_ij be the result.
 
     - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
@@ -148,9 +148,9 @@ def symmetric_transport(
     Let b_i be the weights, and let a_ij be the sum of the coefficients of stage j in all exponentials of
     stage i. With the formulas, sum_j a_ij = m_i for each stage i, and sum_i b_i a_ij = b_j (1 - m_j) for each
     stage j. Let r be the number of rows of ``own``. The result contains formulas for three groups of numbers.
-    The first group is x_1s, ..., x_rs: these numbers are the last entries of the r rows. The second group is
-    x_r1, ..., x_rr: these numbers are in the last row. The third group is C1, ..., Cr: these numbers are
-    auxiliary. In the formulas, y1, y2, ... are the sums of the rows of ``update``.
+    The first group is x_1s, ..., x_rs, the last column of ``own``. The second group is x_r1, ..., x_rr, the
+    first r entries of the last row of ``own``. The third group is C1, ..., Cr: the formulas for x_r1, ...,
+    x_rr and x_rs contain these numbers. In the formulas, y1, y2, ... are the sums of the rows of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

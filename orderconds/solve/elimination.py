@@ -104,12 +104,12 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # The formulas of symplectic methods divide by the weights. It is sufficient to prove that no method
-    # without zero weights exists: each method with zero weights can be changed into a method without zero
-    # weights. Let stage i have the weight zero. Stage i has no effect on the step. Hence stage i can be
-    # replaced by a copy of a stage j whose weight b_j is not zero. The weight b_j is divided: stage j and the
-    # copy both get the weight b_j/2. The changed method computes the same step as the method before the
-    # change.
+    # The formulas of symplectic methods divide by the weights. Hence the proof considers only methods with
+    # nonzero weights. These methods are sufficient, because each method with a zero weight can be changed
+    # into a method with nonzero weights. Let stage i have the weight zero. Stage i has no effect on the step.
+    # Hence stage i can be replaced by a copy of a stage j whose weight b_j is not zero. The weight b_j is
+    # divided: stage j and the copy both get the weight b_j/2. The changed method computes the same step as
+    # the method before the change.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:

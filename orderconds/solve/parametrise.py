@@ -299,8 +299,9 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     ]
     # The list ``order`` contains the same names as ``gamma``. The names from the two ends of ``gamma`` come
     # first in ``order``, and the names from the middle of ``gamma`` come last in ``order``. The constraint
-    # ``total`` is imposed after the constraints in ``mirrored``. The constraint ``total`` determines one step
-    # size: the last name in ``order`` that the constraints before ``total`` do not determine.
+    # ``total`` is imposed after the constraints in ``mirrored``. The constraint ``total`` is solved for one
+    # of the step sizes that are unknown at this point. If several step sizes are unknown, the last one in
+    # ``order`` is chosen.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)

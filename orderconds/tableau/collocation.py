@@ -263,8 +263,7 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
     and the largest root is this sum minus the named roots. The rule for names has one exception. If the roots
     of the factor are symmetric about their mean m, the roots form pairs m + sqrt(x) and m - sqrt(x), with one
     number x for each pair. The roots of such a factor get no names. The numbers x are the roots of a
-    polynomial of half the degree. The numbers x are computed like the roots of ``polynomial``: if square
-    roots do not suffice, the numbers x get the names c1, c2, ..., but the largest number x gets no name.
+    polynomial g of half the degree. The numbers x are computed by ``roots(g, tower)``.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

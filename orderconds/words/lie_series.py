@@ -161,12 +161,11 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
     """Return a function that computes the coefficients c_k of a series sum_k c_k ad_U^k X. Here ad_U^k X is
-    the bracketed form of the Lyndon word with k letters U, followed by one letter X. The argument of the
-    returned function is a number n, which is called the weight. The result of the returned function is a map
-    from the Lyndon words with at most n letters to the coefficients c_k.
+    the bracketed form of the Lyndon word with k letters U, followed by one letter X. Let ``g`` be the
+    returned function. For each number n, ``g(n)`` is a map from the words X, UX, UUX, ... with at most n
+    letters to numbers. The number for the word with k letters U is c_k. The number n is called the weight.
 
-    ``expand(n)`` maps the words with at most n letters to their coefficients in the series. Only the
-    Lyndon words X, UX, UUX, ... occur.
+    ``expand(n)`` maps the words with at most n letters to their coefficients in the series.
     """
 
     def coordinates(weight: int) -> Coordinates:

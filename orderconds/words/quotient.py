@@ -37,10 +37,9 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Each column without a pivot gives one functional. The functional begins with the word of this
-        # column. Pivots are chosen from left to right. Lyndon words are sorted to the right end of
-        # ``columns``. In this order, the number of Lyndon words in columns without a pivot is as large as
-        # possible.
+        # Each column without a pivot gives one functional. The word of this column is the first word in the
+        # functional. Pivots are chosen from left to right. Lyndon words are sorted to the right end of
+        # ``columns``. Hence as few columns of Lyndon words as possible have a pivot.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
