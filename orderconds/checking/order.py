@@ -136,12 +136,8 @@ def family_order(
       ``family``, so the order in ``family`` is at most ``bound.order``.
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
-    - ``brief``: used only if the computed order is equal to ``bound.order`` and is below
-      ``family.search_limit``. If ``brief`` is true, the result contains the failing conditions of ``bound``.
-      If ``brief`` is false, the result contains failing conditions of ``family`` of order
-      ``bound.order + 1``. If the computed order is equal to ``bound.order`` and is at least
-      ``family.search_limit``, the result contains the failing conditions of ``bound`` for both values of
-      ``brief``.
+    - ``brief``: if true, the result may contain the failing conditions ``bound.failing`` in place of failing
+      conditions of ``family``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get

@@ -231,8 +231,8 @@ Reading = tuple[Tableau, Family, int | None]
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
     """Return families that are not in ``wanted``. Each family is returned with a tableau and a claimed order.
 
-    The caller computes the order of the returned tableau in each returned family. Such an order can be an
-    upper bound of the order of ``tableau`` in a family of ``wanted``.
+    The caller uses the returned families to find upper bounds for the orders of ``tableau`` in the families
+    of ``wanted``.
 
     An entry of ``wanted`` is a pair of a family F and a claimed order. An upper bound is needed only if the
     claimed order or ``required`` is at least ``F.search_limit``. The result is empty if no pair of

@@ -49,13 +49,14 @@ def command(
     essential    free trees without two equal halves           symplectic_rk
     directed     free trees whose edges have a direction       sprk
     directed-rooted  rooted trees with directed edges          prk_same_weights
-    alternating  free trees; an edge joins different colours   sprk_separable
+    alternating  free trees with vertices of two colours       sprk_separable
     action       action trees of variational methods           vcg, vcf, vrkmk
     graded       Lyndon words; letter k has the weight k       composition, magnus
     letters      Lyndon words of letters A and B               splitting
 
-    The order conditions of the families in the last column are indexed by these trees. A tree has two equal
-    halves if the removal of one edge leaves two equal trees.
+    The last column lists families. Each order condition of these families belongs to one tree or word. In an
+    alternating tree, each edge joins two vertices of different colours. A tree has two equal halves if the
+    removal of one edge leaves two equal trees.
 
     In text drawings, the root is in the first line. In pictures (--svg), the root is at the bottom.
 

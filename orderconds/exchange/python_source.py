@@ -204,11 +204,7 @@ def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
 
 
 def _define(statement: Definition, values: Values) -> None:
-    """Assign an unknown value to the name of the function or class that ``statement`` defines.
-
-    The names of all variables in ``statement`` are stored in ``values``. A call of the function may change
-    these variables.
-    """
+    """Update ``values`` for ``statement``, the definition of a function or a class."""
     # Python executes the body of a class immediately, but not the bodies of its methods.
     parts: list[ast.AST] = []
     called: list[ast.expr] = []

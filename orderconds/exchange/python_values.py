@@ -105,9 +105,9 @@ class Values:
     """A map from the name of a variable to a pair of sets.
 
     The first set contains names of variables. The second set contains integers. Each integer is the attribute
-    :attr:`Array.memory` of an array. If the value of the variable is unknown, a statement that uses the
-    variable may change the variables in the first set. Such a statement may also change the arrays whose
-    integers are in the second set. If the value of the variable is not unknown, both sets are empty.
+    :attr:`Array.memory` of an array. If the value of the variable is unknown, the value may contain
+    references to the variables in the first set and to the arrays whose integers are in the second set. If
+    the value of the variable is not unknown, both sets are empty.
     """
     active: set[str] = field(default_factory=set)
     """Names of functions, classes and instances. The use of such a name may execute code of the module."""

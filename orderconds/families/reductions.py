@@ -58,9 +58,8 @@ class Reductions(Struct, frozen=True):
 
     ``even`` is true if the method is symmetric. ``substitute`` is None, or contains a family whose conditions
     imply the conditions of the original family. ``cut`` is None or an :class:`UnseenCut`. An
-    :class:`UnseenCut` is used to decide whether the truncation of dexpinv changes a condition. The method
-    without the truncation satisfies every condition of order at most ``cut.order``. If the truncation does
-    not change one of these conditions, the method with the truncation satisfies this condition, too.
+    :class:`UnseenCut` belongs to a method that truncates the series of dexpinv. The method without the
+    truncation satisfies every condition of order at most ``cut.order``.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]

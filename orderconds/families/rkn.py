@@ -197,9 +197,8 @@ def functionals(order: int) -> tuple[Functional, ...]:
     """Return a basis of a vector space of functionals. A functional is a linear combination of words over T
     and V.
 
-    The vector space contains a functional f if all words of f have length ``order`` and f is zero on an
-    ideal. The ideal lies in the free algebra over T and V. The module docstring defines the ideal. If T is
-    quadratic in p and V depends on q only, every element of the ideal is zero.
+    All words have length ``order``. The module docstring defines the vector space. Each returned functional
+    gives one order condition of Runge-Kutta-Nystroem splittings.
 
     >>> [len(functionals(n)) for n in (1, 2, 3, 4)]
     [2, 4, 8, 15]

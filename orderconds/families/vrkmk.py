@@ -68,9 +68,8 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
     def first_unmet(self, order: int) -> OrderCondition | None:
         """Return one condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
 
-        The module docstring defines R. If ``order`` is R + 3, no method satisfies both the returned condition
-        and all other conditions of orders 1, ..., R + 3. If ``order`` is smaller than R + 3, some methods
-        satisfy the returned condition.
+        For ``order`` = R + 3, the returned condition contradicts the other conditions of orders
+        1, ..., R + 3. The module docstring defines R.
         """
         if self.cutoff is None or order < 3:
             return None

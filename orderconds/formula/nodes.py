@@ -128,8 +128,7 @@ def product(*factors: Formula) -> Formula:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
     # Factors with equal keys are collected into one power. A coefficient is its own key. The key of every
     # other factor is computed by ``_shape``, which is slow. Suppose that all factors except one are
-    # coefficients. This one factor differs from all coefficients. In this case the key of this one factor is
-    # None, and ``_shape`` is not called.
+    # coefficients. In this case the key of this one factor is None, and ``_shape`` is not called.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:

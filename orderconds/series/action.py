@@ -76,11 +76,12 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of a word in a changed group element. The group element has the index
-        ``row``. To change the group element, add a letter x to the velocity of stage ``stage``, and leave the
-        velocities of all other stages unchanged. The letter x is not a tree. The changed group element is
-        expanded in words of trees and of the letter x. The word is (``before``, x, ``after``), where
-        ``before`` and ``after`` are words of trees."""
+        """Return the coefficient of a word in a changed group element. The unchanged group element belongs to
+        stage ``row``. If ``row`` is the number of stages, the unchanged group element is the update. To
+        change the group element, add a letter x to the velocity of stage ``stage``, and leave the velocities
+        of all other stages unchanged. The letter x is not a tree. The changed group element is expanded in
+        words of trees and of the letter x. The word is (``before``, x, ``after``), where ``before`` and
+        ``after`` are words of trees."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return the coefficient of ``word`` in the group element of each stage."""

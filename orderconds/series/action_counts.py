@@ -41,22 +41,12 @@ def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in one class
     if they differ only in the choice of the root.
 
-    Vertices in a subtree of the form ``L(w)`` cannot be the root. Let R be the number of possible roots in
-    all classes together. Let E be the number of edges between possible roots in all classes together. In the
-    number R, two vertices are counted as one vertex if a symmetry of the tree maps one to the other. In the
-    number E, two edges are counted as one edge if a symmetry of the tree maps one to the other. In each
-    class, the possible roots and the edges between possible roots form a connected graph without cycles.
-    Hence the number of possible roots in a class is one more than the number of edges between possible roots.
-    Therefore the number of classes is R - E.
+    Vertices in a subtree of the form ``L(w)`` cannot be the root.
 
-    R is equal to the number of g-valued trees, because each choice of a root gives one g-valued tree.
-
-    E is equal to a number of pairs of trees. Each edge between possible roots has an end a and an end b with
-    two properties. If a is the root, the part of the tree on the side of b is a
-    :class:`~orderconds.series.action_trees.Force` in the multiset of a. If b is the root, the part of the
-    tree on the side of a is a g-valued tree in the word of b. Hence each edge gives one pair (Force, g-valued
-    tree). Each pair (Force, g-valued tree) is obtained from exactly one edge. Therefore E is the number of
-    pairs (Force, g-valued tree) in which both trees together have ``vertices`` vertices.
+    The result is the difference R - E. R is the number of g-valued trees with ``vertices`` vertices. E is the
+    number of pairs of one :class:`~orderconds.series.action_trees.Force` and one g-valued tree, where both
+    trees together have ``vertices`` vertices. Otter counts free trees in a
+    similar way (Ann. of Math. 49 (1948) 583).
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
