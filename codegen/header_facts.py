@@ -28,11 +28,11 @@ SINGLE_IS = (
     "single: exact constants are rounded to single precision, and implicit stages converge to this precision"
 )
 
-NOT_SMOOTH = "a step has the order in this header if the vector field is smooth along the whole step"
+NOT_SMOOTH = "the stated order requires a vector field that is smooth along the whole step"
 """The header of an emitted module contains this remark if the vector field of the scene is not smooth."""
 
 COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
-COUNTED = "; the numbers of sweeps in the lines 'solved by' are for double precision"
+COUNTED = "; the numbers of sweeps under 'solved by' were counted in double precision"
 """A remark in the header of a module in single precision. A sweep is one iteration for implicit equations."""
 
 
@@ -169,7 +169,7 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
     if TIME not in kernel.used_scalars():
         lines.append("the time: the scene does not depend on it")
     if not any(isinstance(s, Loop) for s in kernel.body):
-        lines.append("the solution of equations: all stages are explicit")
+        lines.append("a solver for implicit equations: all stages are explicit")
     return tuple(lines)
 
 

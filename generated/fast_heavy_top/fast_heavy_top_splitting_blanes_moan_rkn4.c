@@ -17,7 +17,7 @@
  * left out:   5 flows: two flows of one term of H are joined if they commute with all flows
  *             between them
  *             the time: the scene does not depend on it
- *             the solution of equations: all stages are explicit
+ *             a solver for implicit equations: all stages are explicit
  * operations: 201 add, 335 mul, 6 stumpff_12 a step
  *             2 add, 4 mul once in each run
  *             9 add, 21 mul, 1 stumpff_12 once in each run

@@ -14,7 +14,7 @@ left out:   1 evaluation of the field: equal values are computed once
             5 exponentials: exp(x).y is computed without exp(x)
             arguments for constant parameters: alpha = 0
             the time: the scene does not depend on it
-            the solution of equations: all stages are explicit
+            a solver for implicit equations: all stages are explicit
 operations: 88 add, 149 mul, 5 stumpff_12 a step
 command:    orderconds emit free_rigid_body --method cf4 --target python -o .
 version:    orderconds 0.1.0

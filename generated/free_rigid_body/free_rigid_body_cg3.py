@@ -12,7 +12,7 @@ left out:   1 evaluation of the field: equal values are computed once
             6 exponentials: exp(x).y is computed without exp(x)
             arguments for constant parameters: alpha = 0
             the time: the scene does not depend on it
-            the solution of equations: all stages are explicit
+            a solver for implicit equations: all stages are explicit
 operations: 84 add, 161 mul, 6 stumpff_12 a step
 command:    orderconds emit free_rigid_body --method cg:cg3 --target python -o .
 version:    orderconds 0.1.0

@@ -15,7 +15,7 @@ left out:   1 action, 1 evaluation of dexpinv, 1 exponential: coefficients are z
             4 exponentials: exp(x).y is computed without exp(x)
             arguments for constant parameters: alpha = 0
             the time: the scene does not depend on it
-            the solution of equations: all stages are explicit
+            a solver for implicit equations: all stages are explicit
 operations: 101 add, 164 mul, 4 stumpff_12 a step
 command:    orderconds emit free_rigid_body --method 'rkmk(2):rk4' --target python
             -o .

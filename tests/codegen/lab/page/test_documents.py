@@ -136,7 +136,7 @@ def test_the_page_shows_orders_conditions_residuals_and_what_was_left_out(page: 
         "holds",
         "<i>a</i><sub>ij</sub> <i>c</i><sub>j</sub> = 1/6",
         "−1/24",
-        "the solution of equations: all stages are explicit",
+        "a solver for implicit equations: all stages are explicit",
         "orderconds emit free_rigid_body --method cg:cg3 --target c",
         "orderconds report free_rigid_body -m cg:cg3 -m cf:cf4 --only orders -o DIR",
         "orderconds report free_rigid_body -m cg:cg3 -m cf:cf4 --only long -o DIR",
