@@ -49,8 +49,9 @@ def read_text(
     limit: int = MAX_BYTES,
     error: type[InputError] = InputError,
 ) -> str:
-    """Return the text of a regular file in UTF-8. Raises an exception of the class ``error`` if the content
-    is not UTF-8, or if :func:`read_bytes` fails.
+    """Return the text in a regular file. The file is encoded in UTF-8.
+
+    Raises an exception of the class ``error`` if the content is not UTF-8, or if :func:`read_bytes` fails.
 
     >>> read_text(__file__).partition(".")[0]
     '\"\"\"Reading of files that a user names'

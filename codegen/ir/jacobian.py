@@ -58,7 +58,7 @@ class _Graph:
             # A variable has no incoming edges and is never eliminated.
             if node.id in columns:
                 continue
-            # A node that depends on no variable has zero derivatives, so it is not a vertex of the graph.
+            # All derivatives of a node without variables are zero. Such a node is not a vertex of the graph.
             if any(a.id in self.after for a in node.args):
                 self.inner.append(node.id)
                 self.before[node.id], self.after[node.id] = {}, {}

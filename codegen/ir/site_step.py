@@ -168,7 +168,7 @@ class SiteNewton:
         n = self.size
         # The linear equations of Newton's method have the residuals as right-hand side.
         read, written = self._substituted()
-        # The solution of the linear equations is added to the unknowns.
+        # Newton's method adds the solution of the linear equations to the values of the unknowns.
         read, written = read + 2 * n, written + n
         return (read + n * n + n, written + n) if periodic else (read, written)
 
@@ -358,7 +358,7 @@ def _stored(sweep: Sweep) -> int:
 
 
 def _added(pairs: Iterable[tuple[int, int]]) -> tuple[int, int]:
-    # A pair consists of the numbers read and the numbers written.
+    # Each pair counts numbers in the memory: how many are read, and how many are written.
     read, written = zip(*pairs, strict=True)
     return sum(read), sum(written)
 

@@ -38,7 +38,7 @@ def without_formulas(scene: Problem) -> Objection | None:
 
     Scenes with large matrices and semilinear scenes have no formulas in coordinates.
     """
-    # ``roots`` are the formulas of the field in coordinates.
+    # The list ``scene.roots`` contains the formulas of the vector field.
     if scene.roots:
         return None
     # The state of a semilinear equation is a function of space, not a list of coordinates.

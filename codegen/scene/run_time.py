@@ -51,8 +51,8 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
 
 
 def with_inputs(problem: Problem, names: Sequence[str]) -> Problem:
-    """Return a problem whose emitted code reads the signals ``names`` at run time, in this order. SceneError
-    is raised for an unknown signal.
+    """Return a problem whose emitted code reads the signals in ``names`` at run time, in the order of
+    ``names``. SceneError is raised for an unknown signal.
     """
     for name in names:
         if name not in problem.signals:

@@ -137,7 +137,8 @@ def _parsed(text: str, where: str) -> ast.Module:
 
 
 def _header(text: str) -> Arrays:
-    """Return the names and texts in comments like ``# name: heun`` before the first statement."""
+    """Return the texts in the comments before the first statement, with their keys. In the comment
+    ``# name: heun``, the key is ``name`` and the text is ``heun``."""
     entries: Arrays = {}
     for line in text.split("\n"):
         if line.strip() and not line.startswith("#"):

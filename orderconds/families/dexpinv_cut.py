@@ -71,7 +71,7 @@ class DexpinvCut(Family):
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order of a method in this family.
+        """Return a lower bound of the order that a method has in this family.
 
         ``orders`` maps the names of other families to the orders of the method in these families. The module
         docstring defines p and R. The result is at least min(p, R + 2). If ``cutoff`` is None, the result is

@@ -80,7 +80,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order of a method in this family.
+        """Return a lower bound of the order that a method has in this family.
 
         ``orders`` maps the labels of other families to the orders of the method in these families. The
         conditions of orders 1 and 2 are the same as in the family ``rk``.

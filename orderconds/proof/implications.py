@@ -38,8 +38,8 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return lower bounds of the orders of a method, as a map from labels of families to orders. The bounds
-    follow from ``facts``, which contains lower bounds for some families.
+    """Return a map from the label of a family to a lower bound of the order of a method in this family. The
+    bounds follow from ``facts``, which contains lower bounds for some families.
 
     >>> consequences([("vrkmk(1)", 3)])
     {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}

@@ -159,8 +159,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"exponents[{k + 1}]", table
 
     def verify(self, where: str) -> None:
-        """Check the terms of all elements and exponents. The definition of an element may contain only the
-        names of earlier elements."""
+        """Check the terms of all elements and exponents. If the definition of an element contains the
+        name of another element, the other element must be defined earlier."""
         s = counted(len(self.c), f"{where}: c")
         counted(len(self.exponents), f"{where}: exponents", "exponents")
         known: list[str] = []

@@ -112,7 +112,7 @@ def directed_rooted_trees_in_turn(vertices: int) -> Iterator[DirectedTree]:
 
 
 def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
-    """Return every free tree with directed edges exactly once. The function :func:`representative` chooses
+    """Return all free trees with directed edges, each tree once. The function :func:`representative` chooses
     the root of each tree.
 
     >>> [text(tree) for tree in directed_free_trees(3)]

@@ -33,8 +33,8 @@ class AdvisedMethod:
     - ``form``: the form of the equations (for example, ``quaternion``), as in the option ``--form``.
     - ``adaptive``: True for a method with step-size control, and False for a method with equal steps.
     - ``h``: the step size of a method with equal steps, and otherwise None.
-    - ``tolerance``: the relative and absolute tolerance of a method with step-size control, and otherwise
-      None.
+    - ``tolerance``: for a method with step-size control, the number that is both the relative and the
+      absolute tolerance. Otherwise the value is None.
     - ``error``: the measured error.
     - ``seconds``: the measured CPU time of a run over the time span.
     - ``command``: the shell command that emits the integrator.

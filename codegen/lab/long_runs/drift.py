@@ -50,11 +50,11 @@ A value between BOUNDED and WALK suggests a random walk.
 """
 
 LATE, LATE_CONFINED = 1.5, 2.0
-"""Limits for the growth factor of a bounded deviation.
-
-The limit is LATE_CONFINED if the scatter is below :data:`CONFINED`, and otherwise LATE.
+"""Two limits for the growth factor of a deviation.
 
 The growth factor is the largest deviation of the record, divided by the largest deviation of its first half.
+The limit LATE_CONFINED applies if the scatter of the record is below :data:`CONFINED`. Otherwise the limit
+LATE applies.
 """
 
 LEVEL, STAYS = 0.9, 0.5

@@ -166,7 +166,7 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
             f"the local error cannot be computed exactly: {reason}",
             where=scene.name,
             expected="a scene whose formulas are rational functions of the coordinates",
-            hint="use orderconds converge, which estimates the order from slopes",
+            hint="use the command 'orderconds converge'; it estimates the order from the slope of the errors",
         ) from reason
     power = min(int(x.ring.valuation(x)) for x in error)
     vanishes = power > highest
