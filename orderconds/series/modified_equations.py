@@ -2,11 +2,10 @@
 
 One step of size h of a method equals the flow of a modified vector field f~ = f + h f_2 + ... over time h. A
 tree t has the coefficient a(t) in the step and the coefficient b(t) in f~. If an edge of t is removed, two
-parts remain: a subtree u, and a part r that contains the root. For a function c of trees, (L c)(t) is the sum of
-b(u) c(r) over all edges of t. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (Hairer, Lubich and Wanner (HLW),
+parts remain: a subtree u, and a part r that contains the root. For a function c of trees, (L c)(t) is the sum
+of b(u) c(r) over all edges of t. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (Hairer, Lubich and Wanner (HLW),
 *Geometric Numerical Integration*, IX.9.1). For series over ordered forests, see Lundervold and Munthe-Kaas,
-Contemp. Math. 539 (2011) 295.
-"""
+Contemp. Math. 539 (2011) 295."""
 
 from __future__ import annotations
 
