@@ -308,10 +308,9 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # The argument v is a pair (w, ``vectors``). In each pass of the loop, a is a part of u, and b is
-            # the corresponding part of ``vectors``. If ``dual`` is true, ``first`` is the sum of ``head``
-            # over all passes. The vector w must contribute only once to this sum. Therefore, if ``dual`` is
-            # true, ``own`` is w in the first pass and zero in all later passes.
+            # The argument v is a pair (w, ``vectors``). If ``dual`` is true, ``first`` is the sum of ``head``
+            # over all passes of the loop. The vector w must contribute only once to this sum. Therefore, if
+            # ``dual`` is true, ``own`` is w in the first pass and zero in all later passes.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head

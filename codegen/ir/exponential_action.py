@@ -206,10 +206,9 @@ class ExponentialAction(VectorFunction):
             for k in range(degree, 1, -1):
                 # With m = ``degree``, the next line changes ``weight`` from m!/k! to m!/(k - 1)!.
                 weight *= k
-                # Let A be the matrix with the entries ``a``. Horner's rule for the Taylor polynomial of
-                # exp(A) y replaces a vector v by y + A v/k. The vector p is v times the old weight m!/k!. The
-                # next line replaces p by A p + ``weight`` y. The old weight m!/k! equals ``weight``/k.
-                # Therefore the new vector p equals ``weight`` (y + A v/k).
+                # Let A be the matrix with the entries ``a``. The next line is one step of Horner's rule for
+                # the Taylor polynomial of exp(A) y. The new vector p is ``weight`` times the vector that
+                # Horner's rule computes in this step.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
             # The last step of Horner's rule divides p by ``weight`` = m!.
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]

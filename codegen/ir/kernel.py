@@ -119,8 +119,9 @@ class Loop:
 
     One iteration of the loop is called a sweep. In fixed-point iteration, the change of the unknowns in a
     sweep is g(u) - u. The change is added to the unknowns in every sweep except the last sweep. With
-    ``newton``, the change is the inverse of Newton's matrix times g(u) - u. For equations r(u) = 0, the
-    change is the inverse of Newton's matrix times r(u). Newton's method adds the change in every sweep.
+    ``newton``, the change is the inverse of Newton's matrix times g(u) - u. For equations r(u) = 0, Newton's
+    matrix approximates -r'(u), and the change is the inverse of Newton's matrix times r(u). With ``newton``,
+    the change is added to the unknowns in every sweep, including the last sweep.
 
     ``limit`` is the largest number of sweeps. For equations u = g(u), the stopping rule
     (:mod:`codegen.run.stopping`) ends the loop in two main cases:
@@ -159,8 +160,8 @@ class Loop:
         unknowns. So these values are less accurate than the unknowns.
         """
         # If ``only_unknowns_read`` is true, the code after the loop reads the unknowns, but not the values of
-        # ``body``. The error of the unknowns is smaller than the last change of the unknowns. Therefore the
-        # factor ``close`` is allowed to be larger than ``tolerance``.
+        # ``body``. The error of the unknowns is smaller than the last change of the unknowns. For this
+        # reason, the result is larger than ``tolerance``.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         # If Newton's matrix is expanded to first order in h, the factor ``close`` is ``tolerance``.
@@ -301,7 +302,8 @@ class Expansion:
     of the kernel ``coefficients``. The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
-    ``sums`` is the number of products. The kernel ``following`` has these outputs, in this order:
+    ``sums`` is the number of inner sums, one for each product. The kernel ``following`` has these outputs, in
+    this order:
     - a_n for each product,
     - b_n for each product,
     - the Taylor coefficients of order n + 1.

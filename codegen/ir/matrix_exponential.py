@@ -164,8 +164,8 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     The bound is exp(``scale`` b). Gershgorin's circles give an upper bound b of the eigenvalues of the
     symmetric part of ``a``.
     """
-    # Gershgorin's bound contains absolute values of the entries outside the diagonal, but the diagonal
-    # entries themselves. Therefore the bound b may be negative.
+    # The bound b uses the absolute values of the entries outside the diagonal. The diagonal entries keep
+    # their signs. Therefore the bound b may be negative.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]

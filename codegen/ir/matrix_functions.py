@@ -104,13 +104,9 @@ class MatrixExponential(VectorFunction):
         ``args`` contains a matrix A, followed by its derivatives. The matrix of the constant terms of A must
         be nilpotent.
         """
-        # Power k of the jet is a sum of products with k factors. Each factor is a multiple of h, a derivative
-        # of A, or the matrix C of the constant terms of A. A non-zero product has at most ``ring.order``
-        # multiples of h and at most ``level`` derivatives of A as factors. Let f be the sum of ``ring.order``
-        # and ``level``. A non-zero product has at most f factors that are not C. These factors divide the
-        # factors C into at most f + 1 sequences. The n x n matrix C is nilpotent, and therefore C^n = 0.
-        # Hence each sequence in a non-zero product has at most n - 1 factors. Therefore a non-zero product
-        # has at most f + (f + 1) (n - 1) factors. This bound is equal to ``longest`` - 1.
+        # The exponential of ``args`` is computed by its Taylor series. The matrix of the constant terms of A
+        # is nilpotent, and the entries of ``args`` are truncated power series. Therefore all terms of degree
+        # ``longest`` or higher in the Taylor series of the exponential are zero.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 

@@ -65,14 +65,13 @@ class Sweep:
 
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
-    - ``outside`` is a kernel for sites at the boundary of the lattice, or None. The property ``read_outside``
-      is the tuple of the loads that read a number from a neighbour. The kernel ``outside`` has one output for
-      each of these loads, in the order of the tuple. If a load refers to a neighbour that does not
-      exist, the sweep uses the output of ``outside`` for this load as the value of the load.
+    - ``outside`` is a kernel for sites at the boundary of the lattice, or None. If a load refers to a
+      neighbour that does not exist, an output of ``outside`` is the value of the load. The kernel ``outside``
+      has one output for each load in the property ``read_outside``, in this order.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
-      single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, a load with ``neighbour`` = :data:`OWN`
-      reads a number from the first site of the pair. A load with ``neighbour`` = 0 reads a number from the
-      second site of the pair. The second half of ``stores`` contains the rows for the second site.
+      single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, ``neighbour`` numbers the two sites of a
+      pair: :data:`OWN` denotes the first site of the pair, and 0 denotes the second site of the pair. The
+      second half of ``stores`` contains the rows for the second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
       values g(u). In fixed-point iteration, the sweep stores g(u). In Newton's method, the sweep stores
       the difference g(u) - u.

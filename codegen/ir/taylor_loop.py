@@ -298,8 +298,7 @@ def _operands(series: Series) -> Sequence[Series]:
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
             # The formula for coefficient n of the logarithm of a contains coefficient n of a. The formula
-            # does not contain coefficient n of the derivative of the logarithm. Therefore the result contains
-            # ``a``, and does not contain this derivative.
+            # does not contain coefficient n of the derivative of the logarithm.
             return (a,)
         case Given() | Start():
             return ()

@@ -48,9 +48,10 @@ class TimeMomentum(Operation):
         """Return the change of the momentum conjugate to the time, as a scalar of ``domain``.
 
         Let u be the momentum conjugate to the time t. Let Q and P be the positions and the momenta after the
-        step. The momentum u is not a component of P. The change of u is (Q.P' - P.Q')/2. The dot denotes the
-        scalar product of two vectors. The prime denotes the derivative with respect to the time t. In this
-        derivative, the step size h is fixed. The positions and the momenta before the step are fixed, too.
+        step. The momentum u is not a component of P. A dot denotes the scalar product of two vectors. A prime
+        denotes the derivative with respect to the time t at the beginning of the step. In this derivative,
+        the step size h is fixed. The positions and the momenta before the step are fixed, too. The change of
+        u during the step is (Q.P' - P.Q')/2.
         """
         # The point after the step is differentiated with respect to t. Hence y and t are symbols.
         formal = ExprDomain()

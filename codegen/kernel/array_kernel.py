@@ -261,10 +261,11 @@ class _Builder:
         # If the field does not depend on time, the program has no time variable, and t is set to 0.
         t = self.times[time[0]] if time else self.domain.rational(0)
         self.body += [self.at_time(s, t, name) for s in self.matrices.program.moved(x, w, name)]
-        # The next statements replace the field V at the point X by W = V - X (X^T V)/2.
+        # Let V be the value of the vector field at the point X. The next statement computes X^T V.
         products, halved = Matrix(f"{name} gram", k, k), Matrix(f"{name} correction", k, k)
         self.body.append(Multiplication(products, x, w, True))
-        # The correction makes W X^T - X W^T map X to the field value V.
+        # Let V be the value of the vector field at the point X. The next two statements compute the matrix
+        # W = V - X (X^T V)/2. The matrix W X^T - X W^T maps X to V.
         self.sum(halved, (self.domain.rational(-1, 2), products))
         self.body.append(Multiplication(w, x, halved, added=True))
         self.blocks += 1
@@ -301,7 +302,9 @@ class _Builder:
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
-        # The units are added last, because the blocks of D overwrite these entries.
+        # The statements above write ``displacement`` to parts of ``core`` that overlap ``below`` and
+        # ``right``. Therefore the unit matrix is added to ``below``, and subtracted from ``right``, after
+        # these statements.
         self.body += [AddUnit(below, 1), AddUnit(right, -1)]
         return core
 
@@ -352,7 +355,8 @@ class _Builder:
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
         self.body.append(Multiplication(product, x, right))
         size = max(x.rows, y.rows)
-        # The transpose of x G y is y G x, because x and y are skew-symmetric.
+        # The Gram matrix G is symmetric, and the matrices x and y are skew-symmetric. Therefore the transpose
+        # of x G y is y G x.
         terms = (Term(self.one, product), Term(-self.one, product, True))
         core = Matrix(name, size, size)
         self.body.append(Combination(core, terms))

@@ -175,7 +175,8 @@ class Assignments:
         """Delete the values of loop k from ``done``."""
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
-            # Symbols and numbers have no computed values, so their entries remain valid.
+            # If ``node`` is a symbol or a number, ``node.args`` is empty, and the entry of ``node`` in
+            # ``done`` is kept.
             if self.level[node.id] == k and node.args:
                 self.done.pop(node.id, None)
 

@@ -45,8 +45,8 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
-        # ``elapsed`` is the increase of the time t since the beginning of the step, divided by h. If
-        # ``summand`` is ``carrier``, t increases after the last flow of ``summand``.
+        # ``elapsed`` is the increase of the time t since the beginning of the step, divided by h. Only the
+        # flows of the summand ``carrier`` increase t.
         elapsed = elapsed + duration if summand is carrier else elapsed
     # Except for kicks, no exact flow of a time-dependent summand is known.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
@@ -62,7 +62,8 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
         if key not in index:
             index[key] = len(sweeps)
             sweeps.append(_kick(scene, label, ratios) if kick else _local(scene, label, ratios))
-        # Single sites do not overlap, so these flows need only the colour 0.
+        # The second argument of ``SiteFlow`` distinguishes two sets of pairs of sites. For these flows, the
+        # second argument is 0.
         flows.append(SiteFlow(index[key], 0, first, moment))
     return kernel_of(scene, label, sweeps, flows)
 

@@ -102,11 +102,9 @@ class Frames:
 
         If the two kernels are not needed, the result is None.
         """
-        # If ``_alike`` is true, the program and the emitted code use the same frame, and the momentum is not
-        # converted. If ``_alike`` is false and ``whole`` is true, each step converts the momentum. If
-        # ``_alike`` is false and ``body_group`` is not None, the emitted code uses the body frame, the
-        # program uses the space frame, and each step converts the momentum. In these three cases, the
-        # result is None.
+        # If ``_alike`` is true, the momentum is never converted. If ``_alike`` is false, and ``whole`` is
+        # true or ``body_group`` is not None, each step converts the momentum. In both cases, the two kernels
+        # are not needed.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

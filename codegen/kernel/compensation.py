@@ -140,7 +140,8 @@ class Increments:
             # If a = x + d, then (a + b) - x = d + b.
             if (rest := self.of(a, name)) is not None:
                 return rest + b if e.op == "add" else rest - b
-            # A subtracted symbol has the wrong sign, so this rule requires a sum.
+            # Let x be the symbol ``name``. If b = x + d, then (a + b) - x = a + d. There is no such formula
+            # for (a - b) - x.
             if e.op == "add" and (rest := self.of(b, name)) is not None:
                 return a + rest
         if e.op == "mul":

@@ -163,9 +163,10 @@ class _Chains:
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # ``ends`` contains the ids of the nodes that are expanded to sums of products. If ``linear``
-                # is true and the level of ``node`` is ``late``, each expansion of ``node`` includes the
-                # expansion of ``arg``. In this case, the id of ``arg`` is not added here.
+                # ``ends`` contains the ids of the nodes that are expanded to sums of products. The level of
+                # ``arg`` is ``late``. If the level of ``arg`` is 0, ``arg`` is not expanded. If ``linear`` is
+                # true and ``node`` and ``arg`` have equal levels, ``arg`` is expanded together with ``node``.
+                # In both cases, the id of ``arg`` is not added here.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)

@@ -70,15 +70,15 @@ class Block:
 def compared(
     block: Solve, entered: Block, env: dict[Var, Any], name: Callable[[str], str], program: Program
 ) -> Block | None:
-    """Return a copy of ``entered`` that contains Newton's matrix, and the residuals r(u) as ``images``.
+    """Return a copy of ``entered`` with Newton's matrix. The ``images`` of the copy are the residuals r(u).
 
     ``block`` and ``entered`` describe the same equations. The matrix is -r'(u), expanded to first order in h.
     The result is None if ``block`` has no residuals, or if the residuals cannot be expanded in h.
 
-    Each sweep computes the variables of ``block`` from the old unknowns u. Afterwards u changes to u + d. Let
-    v(u) be the value of a variable in a vector space. Statements after the loop need the value v(u + d).
-    Therefore v(u) + v'(u) d replaces v(u) in ``env``. The matrix v'(u) is expanded to first order in h. The
-    value v(u) is replaced only if v'(u) d costs less than half as much as v(u).
+    A sweep computes the values v(u) of the variables of ``block`` from the unknowns u. The last operation of
+    the sweep adds a change d to u. For some variables, v(u) + v'(u) d replaces v(u) in ``env``. The matrix
+    v'(u) is expanded to first order in h. The value v(u) is replaced only if v(u) is an element of a Lie
+    algebra or of the dual of a Lie algebra, and v'(u) d costs less than half as much as v(u).
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:

@@ -240,7 +240,8 @@ class _Builder:
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
-        # The bracket is bilinear, so the powers of h of its arguments add up.
+        # For matrices a and b, the bracket of a/h^p and b/h^q is [a, b]/h^(p + q). The attribute ``power`` is
+        # the exponent of 1/h.
         power = x.power + y.power
         if x.is_zero or y.is_zero:
             return _Value(power)

@@ -27,9 +27,11 @@ AT_ZERO = {
     # The Stumpff series is c_k(x) = sum_i (-x)^i/(2 i + k)!, so c_k(0) = 1/k!.
     **{f"stumpff{k}": Fraction(1, factorial(k)) for k in range(4)},
     **{f"signed_stumpff{k}": Fraction(1, factorial(k)) for k in range(4)},
-    # The slope is c_k', and the linear coefficient of c_k is -1/(k + 2)!.
+    # Let c_k(x) be the Stumpff series. The function ``slope{k}`` is the derivative c_k'. The value c_k'(0) is
+    # -1/(k + 2)!.
     **{f"slope{k}": Fraction(-1, factorial(k + 2)) for k in (2, 3)},
-    # The curvature is c_k'', and the factor 2 is the second derivative of x^2.
+    # Let c_k(x) be the Stumpff series. The function ``curvature{k}`` is c_k''.
+    # The value c_k''(0) is 2/(k + 4)!.
     **{f"curvature{k}": Fraction(2, factorial(k + 4)) for k in (2, 3)},
     **{f"signed_slope{k}": Fraction(-1, factorial(k + 2)) for k in (1, 2, 3)},
     **{"sin": Fraction(0), "cos": Fraction(1), "exp": Fraction(1), "sqrt": Fraction(0), "log": None},
