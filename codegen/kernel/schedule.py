@@ -74,7 +74,8 @@ class Invocation:
         return () if function is None else function.arrays
 
 
-# An ``Invocation`` has a name such as ``v_12``, so ``vary.3`` denotes no result.
+# The pattern matches symbols such as ``v_12.3``. This symbol denotes the result with index 3 of the call
+# ``v_12``.
 _RESULT = re.compile(r"(v_\d+)\.(\d+)")
 
 

@@ -59,7 +59,7 @@ class SharedArguments(ExprDomain):
             return argument
         try:
             polynomial = self.normal.polynomial(argument)
-        # A missed equality costs only a further call, so giving up is safe.
+        # If the polynomial is too long, ``argument`` is returned without a comparison.
         except TooLong:
             return argument
         # A polynomial is a dict and cannot be a key, so polynomials are compared one by one.

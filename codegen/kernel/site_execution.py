@@ -99,7 +99,8 @@ class Execution:
             self.env[var] = values[0] if var.kind is Kind.REAL else values
 
     def _names(self, var: Var) -> tuple[str, ...]:
-        # Formulas of the scene already use the names of the given coordinates.
+        # If ``var`` is in ``self.given``, the result contains the symbols of the coordinates of ``var`` in
+        # the scene.
         if var in self.given:
             return next(block.symbols for block in self.problem.state if block.name == var.name)
         if var not in self.named:

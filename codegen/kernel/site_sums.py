@@ -54,7 +54,8 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
     args: tuple[Var, ...]
     if isinstance(assign.operation, Secant):
         g, x, before, after = assign.args
-        # The excess is formed at each site, because total energies would cancel with large rounding errors.
+        # The excess is computed at each site, and the results of all sites are added. The difference of two
+        # total energies would have a large rounding error.
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
         # ``excess`` is the number e in the docstring of this module.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))

@@ -220,7 +220,8 @@ class TaylorSweeps:
                 if reused(node):
                     stored.writer.setdefault(node.id, first[node.id])
                     stored.nodes[node.id] = node
-                    # The sweeps are visited in order, so the last assignment names the last reader.
+                    # ``stored.last`` maps ``node.id`` to the number of the last sweep that reads ``node``
+                    # from memory. The number of a later sweep replaces the number of an earlier sweep.
                     stored.last[node.id] = n
         return stored
 

@@ -77,9 +77,8 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
     if embedded is not None:
         second = embedded.commutator_free().update
         exponent = second_exponent(method.commutator_free(), second, method.ring)
-        # Let k_i be the value of the field at stage i. An embedded method can have the following form: one
-        # exponential exp(h sum_i D_i k_i) acts on the result of ``method``. If ``exponent`` is None, the
-        # embedded method does not have this form.
+        # ``exponent`` contains the coefficients D_i of the docstring. If ``exponent`` is None, the embedded
+        # method does not have the form described in the docstring.
         if exponent is None:
             return None
     # If ``holds`` is True, the scheme and the tableau define the same step.

@@ -179,9 +179,9 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     :func:`_values` computes n from the unknown.
     """
     replaced, computed = _values(build, route)
-    # Let P be the momentum of the stage, ``route.velocity.args[1]``. The residual is the difference of two
-    # values of the momentum ``given``. By default, ``given`` is ``route.base``. Each of the two branches
-    # below replaces this default by another momentum.
+    # Let P be the momentum of the stage, ``route.velocity.args[1]``. By default, ``given`` is ``route.base``.
+    # Each of the two branches below replaces this default by another momentum. The block computes the
+    # momentum ``given``. The residual is ``given`` minus a momentum that is computed from ``route.unknown``.
     given = route.base
     # If P = Ad*_{exp x} m, and m is a sum of terms f(ad*_x) v, then P is also a sum of such terms.
     if _function_of_one(block, route):

@@ -256,8 +256,9 @@ class _Step:
             *norms,
             # Halving X cannot make an infinite norm finite.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
-            # The loop over ``_PART`` multiplies the state by exp(X/``parts``) in each of ``parts``
-            # iterations. The number ``scale`` is 1/``parts``.
+            # The ``While`` loop computes the integer ``parts``. The ``For`` loop has ``parts`` iterations,
+            # and each iteration multiplies the state by exp(X/``parts``). The number ``scale`` is
+            # 1/``parts``.
             Assign(scale, number(1.0)),
             Assign(parts, whole(1)),
             While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),

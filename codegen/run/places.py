@@ -40,7 +40,8 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
-        # If ``kernel.state`` contains a variation, the variation is the last element of ``kernel.state``. The
-        # value of ``start`` is not used after the last element.
+        # If ``kernel.state`` contains a variation, the variation is the last element of ``kernel.state``. No
+        # element after the variation reads ``start``, so the length of the variation can be added to
+        # ``start``.
         start += n
     return tuple(result)

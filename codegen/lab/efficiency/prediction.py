@@ -159,12 +159,13 @@ class Bar:
       ``family`` and ``explicit`` of a triple define a set of methods. If ``family`` is not '', the set
       contains only methods of this family. If ``family`` is '', the set contains methods of all families. If
       ``explicit`` is True, the set contains only explicit methods, and otherwise only implicit methods. Let p
-      be the order of the recipe. All methods in the set have the order p + 1 or p + 2. For each method in the
-      set, the error in a run with the CPU time ``seconds`` is predicted. The number e is the least of these
-      errors. The method :meth:`too_high` excludes the recipe if e exceeds :data:`FAR` times ``error``.
+      be the order of the recipe. The set contains only methods of order p + 1 or p + 2. For each method in
+      the set, the error in a run with the CPU time ``seconds`` is predicted. The number e is the least of
+      these errors. The method :meth:`too_high` excludes the recipe if e exceeds :data:`FAR` times ``error``.
     - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
       this run.
-    - ``explicit``: True if methods that solve equations are excluded.
+    - ``explicit``: True if a recipe with an implicit method is not accepted. This attribute of the bar is not
+      the entry ``explicit`` of a triple.
     """
 
     error: float
@@ -215,11 +216,11 @@ class Predictor:
       interval of the time span. The second entry is the reference solution at the end of this interval. The
       time span is divided into :data:`PARTS` equal intervals.
     - ``failures``: for each kind of method, a count of the methods that failed in runs with a constant step
-      size. A success of a method resets the count of its kind to zero (:data:`TRIES`).
+      size. If a method of a kind succeeds, the count for this kind is set to zero.
     - ``uncontrolled``: for each kind of method, the number of consecutive methods that failed with step-size
       control (:data:`TRIES`).
-    - ``costs``: for each operation, the predicted time in nanoseconds and the number of components of each
-      result.
+    - ``costs``: for each operation, a pair. The first entry is the predicted time of the operation in
+      nanoseconds. The second entry contains the number of components of each result of the operation.
     """
 
     equations: Equations
@@ -254,9 +255,9 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # If all runs over the whole time span fail, further runs cover only the first part of the time span.
-        # If the most accurate run has a large error, such further runs are made only if ``most`` is at least
-        # MANY_STEPS.
+        # In two cases, runs over the first part of the time span are made. In the first case, no run over the
+        # whole time span succeeds. In the second case, the error of the most accurate run is large, and the
+        # largest number of steps, ``most``, is at least MANY_STEPS.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)

@@ -186,12 +186,12 @@ def completed(
 ) -> tuple[Line, ...]:
     """Return a copy of ``lines`` in which faster methods from ``known`` replace slower methods.
 
-    ``lines`` is the result of an unfinished search. ``known`` contains the properties of the other methods,
-    and ``entries`` contains runs. The entry of a line for the error 10^-k is a method, or None if the search
-    found no method. Let M be the fastest method in ``known`` that satisfies the requirement of the line and
-    reaches the error 10^-k. If the entry is None, M becomes the entry. If the method in the entry needs more
-    CPU time than M, M replaces this method. If the requirement of a line concerns long times, the entries of
-    the line are not changed.
+    ``lines`` is the result of an unfinished search. ``known`` contains the properties of methods. ``entries``
+    maps the label of a method to the measured runs of this method. The entry of a line for the error 10^-k is
+    a method, or None if the search found no method. Let M be the fastest method in ``known`` that satisfies
+    the requirement of the line and reaches the error 10^-k. If the entry is None, M becomes the entry. If the
+    method in the entry needs more CPU time than M, M replaces this method. If the requirement of a line
+    concerns long times, the entries of the line are not changed.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []

@@ -214,7 +214,8 @@ def inverted(kernel: Kernel) -> int:
     The result is 0 if the sizes differ or one size exceeds :data:`~codegen.run.sweeps.WIDE`.
     """
     sizes = inverted_sizes(kernel)
-    # The inner loops of ``invert`` are unrolled only for a single small matrix size.
+    # A positive result requires that all matrices inverted by elimination have one common size, and that this
+    # size is at most WIDE.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
@@ -297,7 +298,8 @@ def prototypes(interface: Interface) -> str:
         f"int {prefix}jacobian(const {real} *state, {time}{real} h, {parameters}{held}{real} *jacobian);\n"
     )
     run += derived if interface.variations else ""
-    # Each lane has its own parameters, so a batch receives arrays instead of scalars.
+    # The function ``run_batch`` integrates several systems. The arrays ``parameters`` and ``inputs`` contain
+    # the values for all these systems.
     rows = f"const {real} *parameters, " if interface.parameters else ""
     rows += f"const {real} *inputs, " if interface.inputs else ""
     run += (

@@ -186,7 +186,8 @@ class _Body:
             return s.value if reading else s.target
 
         entries = [_entry(one(s)) for s in (*group, statement)]
-        # An assignment to a name cannot change the list, so one statement can read all entries.
+        # If ``reading`` is True, every target must be a name. An assignment to an entry of a list could
+        # change a value that a later assignment of the group reads.
         if any(e is None for e in entries) or (
             reading and any(s.target.op != "name" for s in (*group, statement))
         ):
