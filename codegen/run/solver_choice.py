@@ -361,8 +361,8 @@ class _Selection:
         # the factor is 1. If ``candidate`` is not robust, the factor is usually PRICE, which is above 1. A
         # robust solver is preferred to ``candidate``, even if the robust solver is slower by a factor of up
         # to PRICE. The factor PRICE is replaced by 1 if ``solver`` is Newton's method and the equations have
-        # more than LARGE unknowns. The factor 1 lowers the result, so a trial of simplified Newton after
-        # Newton's method is less likely. Such a trial is slow for more than LARGE unknowns.
+        # more than LARGE unknowns. The limit is lower in this case, because trials take a long time for more
+        # than LARGE unknowns.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -385,8 +385,8 @@ class _Selection:
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
             # The number ``self.parts`` is the number of substeps in a step, or 1 if a step has no substeps.
             # Simplified Newton computes ``self.parts`` inverses in each step. Newton's method may use an
-            # inverse for several steps. For Newton's method, the lower bound assumes that
-            # ``trial_steps(self.fixed)`` steps together compute only ``self.parts`` inverses.
+            # inverse for several steps. For Newton's method, the work for ``self.parts`` inverses is divided
+            # by the number of steps ``trial_steps(self.fixed)``.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -399,7 +399,9 @@ class _Selection:
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
-        """Return the candidate of a combination: for each k, the solver ``best[k]`` solves block number k.
+        """Return a candidate that combines several solvers.
+
+        In this combination, the solver ``best[k]`` solves block number k, for each k.
 
         ``robust`` contains the allowed candidates. In spite of the name, ``robust`` can contain candidates
         that are not robust. The fastest candidate f in ``robust`` is returned in place of the combination

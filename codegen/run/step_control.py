@@ -246,9 +246,10 @@ class Controlled:
         square = self.root * self.root
         # Let norm be the error norm of the accepted step, and let p be the order of the error estimate. The
         # number norm^(-SHARE/p) is assigned to ``root``. The number ``most`` is FLOOR^(-SHARE/p). The minimum
-        # of ``root`` and ``most`` is stored in ``previous`` for the next accepted step. The term ``trend``
-        # uses the value that the preceding accepted step has stored in ``previous``. If the caller gave no
-        # step size, ``proposed`` becomes SAFETY norm^(-1/p) after the first accepted step.
+        # of ``root`` and ``most`` is stored in ``previous`` for the next accepted step. The assignment that
+        # contains ``trend`` is executed before ``previous`` is overwritten. Therefore ``trend`` contains the
+        # number that was stored after the preceding accepted step. If the caller gave no step size, the
+        # factor ``proposed`` is SAFETY norm^(-1/p) after the first accepted step.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # If the trial directly before this step was rejected, the step size does not grow after this step
         # (Hairer, Norsett and Wanner).

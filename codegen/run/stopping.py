@@ -276,10 +276,10 @@ class Stopping:
         """Return the statements that store the rate of a converged loop for the next step.
 
         One sweep cannot measure a rate. If the loop for equations u = g(u) made only one sweep, the stored
-        rate is doubled. The purpose of the doubling is a new measurement of the rate in a later step. In the
-        first sweep, the stopping test multiplies the change of the unknowns by the stored rate. If this
-        product is small, the loop ends after one sweep. Each doubling makes the product larger. As soon as
-        the product is too large, the loop makes a second sweep, and the second sweep measures the rate.
+        rate is doubled. In the first sweep, the stopping test multiplies the change of the unknowns by the
+        stored rate. If this product is small, the loop ends after one sweep. Each doubling makes the product
+        larger. As soon as the product is too large, the loop makes a second sweep, and the second sweep
+        measures the rate.
         """
         if not self.warm:
             return []

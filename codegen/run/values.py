@@ -50,8 +50,8 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 def _part(arguments: Sequence[Expr]) -> Term | None:
     """Return ``arguments`` as a slice of one result array, or None if they are not consecutive entries."""
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
-    # If ``arguments`` has only one entry, None is returned. This entry may be stored in a scalar variable,
-    # and a scalar variable has no slices.
+    # The lists ``results`` and ``arguments`` have the same length. If this length is 1, None is returned,
+    # because the only argument may be stored in a scalar variable. A scalar variable has no slices.
     if results[0] is None or len(results) == 1:
         return None
     name, start = results[0]

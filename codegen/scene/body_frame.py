@@ -99,9 +99,9 @@ def field_in_body(
     """Return the velocity W and the force N in the body frame.
 
     ``roots`` are the velocity xi and the force n in the space frame, as formulas in q and mu. The result is
-    W = Ad_{q^-1} xi and N = Ad*_q n, as formulas in q and P = Ad*_q mu. The names in ``mu`` denote the
-    components of mu in ``roots``, and the components of P in the result. If the value of a component does
-    not depend on q, the formula of this component does not contain q.
+    W = Ad_{q^-1} xi and N = Ad*_q n, as formulas in q and P = Ad*_q mu. In ``roots``, the name ``mu[k]``
+    denotes component k of mu. In the result, the name ``mu[k]`` denotes component k of P. If the value of a
+    component does not depend on q, the formula of this component does not contain q.
     """
     space = roots[0].space
     domain = ExprDomain(space)

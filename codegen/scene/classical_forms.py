@@ -112,10 +112,9 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # The change ``best`` is computed twice: for ``covered`` = False and for ``covered`` = True. If no
-        # factor of the group has a covering group, the two results are equal, and are not yielded twice. If
-        # ``best`` uses neither a covering group nor the body frame, ``best`` keeps the coordinates of the
-        # scene, and is not yielded.
+        # For each value of ``covered``, ``best`` is the change of coordinates that leads to the fewest
+        # operations. If ``best`` uses a covering group, ``best`` is yielded. If ``best`` uses the body frame
+        # and no covering group, ``best`` is yielded only for ``covered`` = False.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 

@@ -62,10 +62,10 @@ def SiteScene(
       (:func:`codegen.scene.sites.neighbour`). Each site has the equation y' = f.y, the action of f on y.
     - ``y0``: the initial state of every site.
     - ``boundary``: "periodic" or "open".
-    - ``outside``: the state that replaces a missing neighbour at an open boundary: a column of formulas in
-      ``y``, t and parameters. ``outside`` can map offsets of neighbours to such columns. At a free end, the
-      state must exert no force on the site. If the force is proportional to the coordinates of the neighbour,
-      use zeros. If the force is proportional to the coordinates of the neighbour minus ``y``, use ``y``.
+    - ``outside``: the state in place of a missing neighbour at an open boundary. The state is a column of
+      formulas in ``y``, t and parameters. ``outside`` can map offsets of neighbours to such columns. At a
+      free end, the state must exert no force on the site. If the force is proportional to the neighbour's
+      state, use zeros. If the force is proportional to the neighbour's state minus ``y``, use ``y``.
     - ``parts``: the summands of the field. A part is a column of formulas in ``y``, or a
       :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: the energy of a site, and the energies of pairs of neighbours (:class:`Bond`).
@@ -73,8 +73,8 @@ def SiteScene(
       of y' = g.y. Here g is ``f`` with arbitrary constants in place of the coordinates of neighbours.
 
     :class:`SceneError` is raised for each error that :func:`codegen.scene.FieldScene` lists, and for these
-    errors: the offset tuples differ in length, ``outside`` has no state for a neighbour, the parts do not add
-    up to the field, a part has no exact flow, the total energy of an autonomous scene is not constant.
+    errors: offsets of neighbours differ in length, ``outside`` has no state for a neighbour, the parts do not
+    add up to the field, a part has no exact flow, the total energy of an autonomous scene is not constant.
     """
     check_group(name, group)
     reader = Reader(name, list(y))

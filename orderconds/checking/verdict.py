@@ -229,14 +229,17 @@ Reading = tuple[Tableau, Family, int | None]
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return families that are not in ``wanted``. Each family is returned with a tableau and a claimed order.
+    """Return triples of a tableau, a family that is not in ``wanted``, and an order or None.
+
+    The tableau contains the method of ``tableau``, possibly in the form of a composition. The order is the
+    order that ``tableau`` claims in the family, or None if there is no claim.
 
     The caller uses the returned families to find upper bounds for the orders of ``tableau`` in the families
     of ``wanted``.
 
-    An entry of ``wanted`` is a pair of a family F and a claimed order. An upper bound is needed only if the
-    claimed order or ``required`` is at least ``F.search_limit``. The result is empty if no pair of
-    ``wanted`` needs an upper bound.
+    An entry of ``wanted`` is a pair of a family F and a claimed order. The result is empty if, for every
+    pair, the claimed order and the order ``required`` are below the number ``F.search_limit``. A missing
+    claimed order counts as 0.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []

@@ -147,8 +147,10 @@ class Values:
             self.sources[name] = traced
 
     def _traced(self, names: Collection[str]) -> tuple[frozenset[str], frozenset[int]]:
-        """Return two sets. The sets describe the variables and the arrays to which the values of ``names``
-        may refer.
+        """Return a set of variables and a set of arrays.
+
+        ``names`` are names of variables. The values of these variables may contain references to the
+        variables in the first set and to the arrays in the second set.
 
         The first set contains names of variables, including all elements of ``names``. The second set
         contains integers. Each integer is the attribute :attr:`Array.memory` of an array.

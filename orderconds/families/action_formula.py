@@ -240,11 +240,11 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of a word in the expansion of a group element.
+        """Return the coefficient of the word (``before``, x, ``after``) in the expansion of a group element.
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
-        Before the expansion, a new letter x is added to the velocity of stage ``stage``. The word is
-        (``before``, x, ``after``).
+        Let xi be the velocity of stage ``stage``. Before the expansion, xi is replaced by xi + x, where x is
+        a new letter.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -277,11 +277,11 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of a word in the expansion of a group element.
+        """Return the coefficient of the word (``before``, x, ``after``) in the expansion of a group element.
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
-        Before the expansion, a new letter x is added to the velocity of stage ``stage``. The word is
-        (``before``, x, ``after``).
+        Let xi be the velocity of stage ``stage``. Before the expansion, xi is replaced by xi + x, where x is
+        a new letter.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))

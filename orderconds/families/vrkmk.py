@@ -68,8 +68,9 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
     def first_unmet(self, order: int) -> OrderCondition | None:
         """Return one condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
 
-        For ``order`` = R + 3, the returned condition contradicts the other conditions of orders
-        1, ..., R + 3. The module docstring defines R.
+        The series dexpinv is truncated after the term with ad^r. Let R = r + 1 for even r >= 2, and R = r
+        for all other r. For ``order`` = R + 3, the returned condition contradicts the other conditions of
+        orders 1, ..., R + 3.
         """
         if self.cutoff is None or order < 3:
             return None

@@ -102,13 +102,13 @@ class ExactMember:
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
         """Return True if the polynomial ``combination`` expresses ``condition`` through other conditions.
 
-        The variables of the polynomial are the left-hand sides of order conditions. Two equalities are
-        tested. First, evaluate these left-hand sides at the random member of the sub-family, and insert the
-        values into the polynomial. The result must be equal to the left-hand side of ``condition`` at the
-        random member. Second, insert the right-hand sides of the order conditions into the polynomial in
-        place of the left-hand sides. The result must be equal to the right-hand side of ``condition``. If
-        this method returns True, the probability of an error is negligible. Return False if ``combination``
-        is None.
+        The variables of the polynomial are the left-hand sides of order conditions. The dictionary
+        ``self.values`` contains the left-hand sides for one random method. Two equalities are tested. First,
+        insert these values into the polynomial. The result must be equal to the left-hand side of
+        ``condition`` for the random method. Second, insert the right-hand sides of the order conditions into
+        the polynomial in place of the left-hand sides. The result must be equal to the right-hand side of
+        ``condition``. If the polynomial does not express ``condition`` for all methods of the sub-family, the
+        result is True only with negligible probability. Return False if ``combination`` is None.
         """
         if combination is None:
             return False

@@ -2,20 +2,20 @@
 
 Let q0 be the initial position and mu1 the final momentum of a step. The velocity and the momentum of each
 stage are expanded about (q0, mu1). The expansions are sums over trees
-(:mod:`orderconds.series.action_trees`). A tree of a velocity is a pair t = (w, M). A tree of a momentum has
-the form H(u*v|M) or L(w). Here u, v and w are words of smaller trees, and M is a multiset of smaller trees.
-Let b_i be the weight of stage i, and let Phi_w(i) be the coefficient of the word w in the group element of
-stage i. Let tau_t(i) be the coefficient of the tree t in the velocity of stage i. Let psi_p(i) be the
-coefficient of the tree p in the momentum of stage i.
+(:mod:`orderconds.series.action_trees`). A tree of a velocity is a pair t = (w, M). A tree of a momentum is a
+triple of u, v and M, denoted by H(u*v|M), or a word w, denoted by L(w). Here u, v and w are words of smaller
+trees, and M is a multiset of smaller trees. Let b_i be the weight of stage i, and let Phi_w(i) be the
+coefficient of the word w in the group element of stage i. Let tau_t(i) be the coefficient of the tree t in
+the velocity of stage i. Let psi_p(i) be the coefficient of the tree p in the momentum of stage i.
 
-The formulas for psi_p(i) contain derivatives with respect to the velocity of stage i. To write these
-derivatives as coefficients of words, introduce a letter x that is not a tree. Replace the velocity xi_i of
-stage i by xi_i + x, and leave the velocities of all other stages unchanged. The group elements depend on
-xi_i. Therefore the expansions of the changed group elements contain words (u, x, v), where u and v are words
-of trees. Let c_{(u, x, v)}(j, i) be the coefficient of the word (u, x, v) in the changed group element of
-stage j, where i is the stage with the changed velocity. Let d_{(u, x, v)}(i) be the coefficient of the word
-(u, x, v) in the changed group element of the update, where i is the stage with the changed velocity. The
-coefficients of the trees in the expansions of stage i are
+The formulas for psi_p(i) contain derivatives with respect to the velocity of stage i. These derivatives are
+terms that are linear in a change x of the velocity. Treat x as a letter that is not a tree. Replace the
+velocity xi_i of stage i by xi_i + x, and leave the velocities of all other stages unchanged. The group
+elements depend on xi_i. Therefore the expansions of the changed group elements contain words (u, x, v), where
+u and v are words of trees. Let c_{(u, x, v)}(j, i) be the coefficient of the word (u, x, v) in the changed
+group element of stage j, where i is the stage with the changed velocity. Let d_{(u, x, v)}(i) be the
+coefficient of the word (u, x, v) in the group element of the update, if the velocity of stage i is changed.
+The coefficients of the trees in the expansions of stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) c_{(u, x, v)}(j, i)``,

@@ -160,12 +160,14 @@ def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
     """Yield pairs (cost, multiset). The elements of each multiset are g*-valued trees that have ``vertices``
-    vertices in total. The cost of each multiset is at most ``rest``. The trees are entries of the lists
-    ``_momenta(n, limit)`` with n <= ``largest``. If ``bound`` is an integer, the list with n = ``largest`` is
-    cut off after the entry with the index ``bound``. The lists with n < ``largest`` have no such restriction.
-    The function calls itself to choose the elements of a multiset one by one. In each inner call, ``largest``
-    is the number of vertices of the previous element, and ``bound`` is the index of the previous element.
-    Hence the elements of a multiset are chosen in only one order, and no multiset is yielded twice."""
+    vertices in total. The cost of each multiset is at most ``rest``. The list ``_momenta(n, limit)`` contains
+    the g*-valued trees that have n vertices and a cost of at most ``limit``. The elements are taken from the
+    lists with n <= ``largest``. If ``bound`` is an integer, the list with n = ``largest`` is cut off after
+    the entry with the index ``bound``. The lists with n < ``largest`` have no such restriction. The function
+    calls itself to choose the elements of a multiset one by one. An element never has more vertices than the
+    element chosen before. If both elements have equally many vertices, the index of the new element is at
+    most the index of the element chosen before. Hence the elements of a multiset are chosen in only one
+    order, and no multiset is yielded twice."""
     if vertices == 0:
         yield 0, ()
         return
