@@ -218,9 +218,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. The map for stage j describes the
-        series dexpinv_{(r),X_j} z, where z is a letter. The module docstring defines the number r, the letter
-        x, the velocities xi_1, xi_2, ..., and the exponent X_j, which depends on the velocities.
+        """Return a list with one map (:data:`Varied`) for each stage j. The exponent X_j of stage j
+        depends on the velocities xi_1, xi_2, .... The map for stage j describes the truncated series
+        dexpinv_X z, where X is the exponent X_j, and z is a letter. The module docstring defines the
+        velocities, the exponents, the truncation, and the letter x.
 
         To obtain entry i of the map for stage j, replace the velocity xi_i by xi_i + x in the exponent X_j.
         Entry i is the coefficient of the word (``before``, x, ``after``, z, ``behind``) in the changed
@@ -235,9 +236,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. The map for stage j describes the
-        series dexpinv_{(r),X_j} z, where z is a letter. The module docstring defines the number r, the letter
-        x, the velocities xi_1, xi_2, ..., and the exponent X_j, which depends on the velocities.
+        """Return a list with one map (:data:`Varied`) for each stage j. The exponent X_j of stage j
+        depends on the velocities xi_1, xi_2, .... The map for stage j describes the truncated series
+        dexpinv_X z, where X is the exponent X_j, and z is a letter. The module docstring defines the
+        velocities, the exponents, the truncation, and the letter x.
 
         To obtain entry i of the map for stage j, replace the velocity xi_i by xi_i + x in the exponent X_j.
         Entry i is the coefficient of the word (``first``, z, ``before``, x, ``after``) in the changed series.
@@ -253,10 +255,9 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
         """Return one triple (q, m, n) for each selected term of the series dexpinv_X xi. The number q is the
-        coefficient of the term. The term has m factors X on the right of xi, and n factors X on the left of
-        xi. A term is selected if its expansion may contain a word that has ``before`` letters on the left of
-        xi and ``behind`` letters on the right of xi. A word lists the factors of a product from right to
-        left."""
+        coefficient of the term. A word lists the factors of a product from right to left. In this order, the
+        factors of the term are m factors X, the factor xi, and n factors X. A term is selected if its
+        expansion may contain a word with ``before`` letters before xi and ``behind`` letters after xi."""
         known = self._in_sight.get((before, behind))
         if known is None:
             known = self._in_sight[before, behind] = [

@@ -21,14 +21,20 @@ the bracket [q_2, [q_1, q_n]]. In general, each linear part has the form sum_n a
 the new letters q_n, and each P_n is a polynomial in the old letters. Let S be the space that the linear parts
 of u_1, ..., u_i span, and let d be the dimension of S.
 
-The linear part of a bracket is defined in the same way. The linear parts of the N brackets span a space that
-contains S. Hence N is at least d. A Lie element is a linear combination of letters and of brackets of
-letters. Let L be the set of all sums sum_n ad_(P_n) q_n over the new letters q_n, where every P_n is a Lie
-element in the old letters. Now assume that d > 0, and that zero is the only common element of S and L. Then N
-is greater than d.
+The linear part of a bracket is defined in the same way. The linear part of each argument is a linear
+combination of the linear parts of the N brackets. Hence N is at least d.
 
-The number of brackets without new letters has a similar lower bound. The sum of the lower bounds for the two
-numbers is a lower bound for the number of all brackets.
+Improvement of the second bound: a Lie element in the old letters is a linear combination of old letters and
+of (nested) brackets of old letters. Let L be the set of all sums sum_n ad_(P_n) q_n over the new letters q_n,
+where every P_n is a Lie element in the old letters. Assume that d > 0, and that zero is the only common
+element of S and L. Consider the first of the N brackets that the program computes. The linear part of this
+bracket is an element of L, because no earlier bracket contains a new letter. If N were equal to d, the linear
+parts of the N brackets would be a basis of S, and the linear part of the first bracket would be a nonzero
+common element of S and L. Hence N is at least d + 1.
+
+The number of brackets without new letters is at least the lower bound for a program that computes u_1, ...,
+u_m. The sum of this lower bound and the lower bound for N is a lower bound for the number of all brackets in
+a program for u_1, ..., u_i.
 """
 
 from __future__ import annotations
@@ -94,8 +100,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
         # The polynomials in ``known`` have no terms of grade ``algebra.largest``. In ``arguments[last]``,
-        # terms of grade ``algebra.largest`` affect the order of the method. Hence the complete polynomial
-        # ``arguments[last]`` is added to ``spans`` if i is ``last``.
+        # terms of grade ``algebra.largest`` affect the order of the method. If i is ``last``, the polynomial
+        # ``arguments[last]`` with the terms of grade ``algebra.largest`` is added to ``spans``.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))

@@ -165,9 +165,9 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
     """Return a map from stages to lists of polynomials. The arguments u_1, u_2, ... of the stages are
     polynomials in the elements q_1, q_2, ... (module docstring).
 
-    Let i and j be two stages with i < j. Some terms of u_j are a number times one element q_n with n >= i.
-    Let v be the polynomial u_j without these terms. The list of stage i contains polynomials d = v - c u_i,
-    where c is a number. There is at most one polynomial d for each j.
+    Each polynomial in the list of stage i has the form d = u_j - c u_i - w. Here j is a stage with j > i, c
+    is a number, and w is a linear combination of the elements q_1, q_2, .... The list of stage i contains at
+    most one polynomial d for each j.
 
     Each d is a candidate for an intermediate result of a program that computes all arguments. The computation
     of d may need fewer brackets than the computation of u_i, and fewer brackets than the computation of u_j.

@@ -126,7 +126,8 @@ class ExponentialsSeries:
         computed are set to zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # In summand r, the last r letters of the word come from the exponential number ``row``.
+        # The list ``heads[r - 1]`` contains the coefficients of the word that remains if the last r trees of
+        # ``word`` are omitted.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]

@@ -2,9 +2,9 @@
 forest.
 
 The left-hand sides for random methods form a matrix with one row for each method and one column for each
-condition. A condition is omitted if its left-hand side is a linear combination of earlier left-hand sides and
-of products of left-hand sides of lower order. The same relation must hold for the right-hand sides
-(coefficients of the exact flow).
+condition. A condition is omitted if two requirements are met. First, its left-hand side is a linear
+combination of earlier left-hand sides and of products of left-hand sides of lower order. Second, the
+right-hand sides (coefficients of the exact flow) satisfy the relation of the left-hand sides.
 """
 
 from __future__ import annotations

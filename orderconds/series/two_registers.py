@@ -4,11 +4,12 @@ The registers are y and k, where k is zero at the start of a step. Stage i repla
 then replaces y by exp(B_i k) y. The series of a step is a linear combination of words in the letters K and D.
 The letter K (kick) is the derivative along the vector field k' = f(y). The letter D (drift) is the derivative
 along the vector field y' = k y. The last letter of a word acts first. Each letter D introduces one factor k,
-and each letter K replaces one factor k by f(y). If a suffix of a word contains more letters K than letters D,
-one of the letters K acts on a term without a factor k, and the result is zero. If a word contains more
-letters D than letters K, the result contains a factor k, and k is zero at the start of a step. Both kinds of
-words contribute nothing to the series. The remaining words have two properties: the numbers of letters K and
-D are equal, and no suffix contains more letters K than letters D.
+and each letter K replaces one factor k by f(y). A suffix of a word (the last n letters, for some n) acts
+before the rest of the word. If a suffix contains more letters K than letters D, one of the letters K in the
+suffix acts on a term without a factor k, and the result is zero. If a word contains more letters D than
+letters K, the result contains a factor k, and k is zero at the start of a step. Both kinds of words
+contribute nothing to the series. The remaining words have two properties: the numbers of letters K and D are
+equal, and no suffix contains more letters K than letters D.
 
 Each word denotes a differential operator. A linear combination of these operators vanishes on all groups if
 and only if it vanishes on all vector spaces (proof: docs/explanation/two_registers.md). Hence the order of a
@@ -33,8 +34,9 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives along vector fields, from left to right. Each entry of the tuple denotes one
-vector field. Let y' = f(y) y be a differential equation, and let k be a constant element of the Lie algebra.
+"""A product of derivatives along vector fields. Each entry of the tuple denotes the vector field of one
+factor. The first entry belongs to the leftmost factor of the product. Let y' = f(y) y be a differential
+equation, and let k be a constant element of the Lie algebra.
 
 - The entry None denotes the vector field of the equation y' = k y.
 - Each entry that is not None is a tuple Q. The tuple Q denotes a product of derivatives, too. The product Q
@@ -125,8 +127,10 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return a selection of the rooted trees with ``order`` vertices. In two-register (2N) schemes, the
-    elementary weights of the omitted trees depend only on those of the selected trees and of smaller trees.
+    """Return a selection of the rooted trees with ``order`` vertices. Let t be a tree with ``order`` vertices
+    that is not selected. For two-register (2N) schemes, the elementary weight of t is a function of the
+    following elementary weights: the weights of the selected trees, and the weights of the trees with fewer
+    vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)
@@ -215,8 +219,8 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Return a sum. Each factor in the tuple ``product`` is a tuple or None. The sum has one summand for each
-    factor that is a tuple: the product in which ``act`` is applied to this factor and to no other factor."""
+    """Apply ``act`` to ``product`` by the product rule, and treat each factor None of ``product`` as a
+    constant."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

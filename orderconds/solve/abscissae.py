@@ -138,9 +138,9 @@ def symmetric_transport(
 ) -> dict[str, str]:
     """Return formulas for coefficients of a symmetric method with s stages and the abscissae m_i.
 
-    ``leave`` contains a number k for each stage in the first half: the stage begins with the first k
-    exponentials of ``update``. All later exponentials of the stage are own (:mod:`orderconds.solve.paths`).
-    Add the coefficients of stage j in all own exponentials of stage i, and let x_ij be the result.
+    Stage i in the first half begins with the first ``leave[i - 1]`` exponentials of ``update``. The later
+    exponentials of stage i are called own exponentials. The number x_ij is the sum of the coefficients of the
+    stage value k_j over all own exponentials of stage i.
 
     - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
@@ -149,8 +149,8 @@ def symmetric_transport(
     stage i. With the formulas, sum_j a_ij = m_i for each stage i, and sum_i b_i a_ij = b_j (1 - m_j) for each
     stage j. Let r be the number of rows of ``own``. The result contains formulas for three groups of numbers.
     The first group is x_1s, ..., x_rs, the last column of ``own``. The second group is x_r1, ..., x_rr, the
-    first r entries of the last row of ``own``. The third group is C1, ..., Cr: the formulas for x_r1, ...,
-    x_rr and x_rs contain these numbers. In the formulas, y1, y2, ... are the sums of the rows of ``update``.
+    first r entries of the last row of ``own``. The third group is C1, ..., Cr, where Cj is the sum of b_i
+    (x_ij - x_i(s+1-j)) over i <= r. In the formulas, y1, y2, ... are the sums of the rows of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

@@ -288,8 +288,9 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # A tableau file uses one unknown for all equal decimals, and for x and -x. Therefore the decimal
-            # of a different number must have a different absolute value.
+            # A tableau file uses one unknown for all equal decimals, and for x and -x. The numbers in
+            # ``sharp`` must be different unknowns. Therefore the absolute value of ``decimal`` must differ
+            # from the absolute values of all decimals in ``digits``.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1

@@ -162,8 +162,8 @@ def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
         rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
     reduced = fmpz_mat(rows).lll()
     shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
-    # If the values are linearly independent over Q, the entries of the shortest lattice vector have about
-    # ``known / len(values)`` bits.
+    # The integers in ``shortest`` are accepted only if they have few bits. If the values are linearly
+    # independent over Q, the integers have about ``known / len(values)`` bits, and the result is None.
     longest = max(abs(c) for c in shortest).bit_length()
     if 2 * longest * (len(values) + 1) > known:
         return None

@@ -106,10 +106,11 @@ def infeasible(problem: Problem) -> Infeasible | None:
         return None
     # The formulas of symplectic methods divide by the weights. Hence the proof considers only methods with
     # nonzero weights. These methods are sufficient, because each method with a zero weight can be changed
-    # into a method with nonzero weights. Let stage i have the weight zero. Stage i has no effect on the step.
-    # Hence stage i can be replaced by a copy of a stage j whose weight b_j is not zero. The weight b_j is
-    # divided: stage j and the copy both get the weight b_j/2. The changed method computes the same step as
-    # the method before the change.
+    # into a method with nonzero weights. Let stage i have the weight zero. Because the method is symplectic,
+    # no stage with a nonzero weight uses stage i. Hence stage i has no effect on the step, and stage i can be
+    # replaced by a copy of a stage j whose weight b_j is not zero. The weight b_j is divided: stage j and the
+    # copy both get the weight b_j/2. The changed method computes the same step as the method before the
+    # change.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:

@@ -299,9 +299,10 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     ]
     # The list ``order`` contains the same names as ``gamma``. The names from the two ends of ``gamma`` come
     # first in ``order``, and the names from the middle of ``gamma`` come last in ``order``. The constraint
-    # ``total`` is imposed after the constraints in ``mirrored``. The constraint ``total`` is solved for one
-    # of the step sizes that are unknown at this point. If several step sizes are unknown, the last one in
-    # ``order`` is chosen.
+    # ``total`` is imposed after the constraints in ``mirrored``. The names in ``gamma`` denote the step
+    # sizes. The constraint ``total`` is solved for a step size that is still unknown after the constraints in
+    # ``mirrored`` have been imposed. If several step sizes are still unknown, the last one in ``order`` is
+    # chosen.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)

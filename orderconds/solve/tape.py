@@ -57,7 +57,8 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        # The method ``placed`` may append a constant to the list ``operations``.
+        # The method ``placed`` may append a constant to the list ``operations``. Therefore ``placed`` is
+        # called before the list ``operations`` is passed to a function.
         wanted = [x.placed() for x in outputs]
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)

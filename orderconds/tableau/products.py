@@ -168,8 +168,9 @@ class Magnus:
         return int(sum(words)) <= MOST_WORDS
 
     def is_commutator_free(self, ring: Ring) -> bool:
-        """Return True if every exponent expands to a linear combination of the A_i. Return False if the
-        expansion is too long (:meth:`is_expandable`)."""
+        """Return True if the expansion of every exponent is a linear combination of the matrices A_i = h
+        A(c_i h). Return False if an expansion contains a product of these matrices, or if the expansions are
+        too long (:meth:`is_expandable`)."""
         if not self.is_expandable():
             return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)

@@ -48,8 +48,8 @@ class RootedRing(Ring, Protocol):
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal in a tableau file: a possible unknown of the equations in :class:`Proof`.
-    ``constant`` is the absolute value of the decimal."""
+    """A rounded decimal in a tableau file, with its name. ``constant`` is the absolute value of the
+    decimal."""
 
     name: str
     constant: Constant

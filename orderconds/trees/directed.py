@@ -178,8 +178,9 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        # ``hats[place]`` is the number of edges of kind 1 if ``place`` is the root. A move of the root across
-        # an edge changes the kind of this edge only.
+        # Each edge of a tree has the kind 0 or 1. Consider the tree in which the vertex ``place`` is the
+        # root. The number of edges of kind 1 in this tree is ``hats[place]``. A move of the root across an
+        # edge changes the kind of this edge only.
         hats[place] = hats[parents[place]] + 1 - 2 * kind
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)

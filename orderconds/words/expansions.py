@@ -182,9 +182,9 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
     result = Fraction(0)
     for cut in range(1, len(word)):
         # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. A word lists the factors of a product from right
-        # to left: the word (2, 1) denotes X_1 X_2. In the product F_n x, ``head`` is a word of x, and
-        # ``tail`` is a word of F_n. In the product x F_n, ``head`` is a word of F_n, and ``tail`` is a word
-        # of x.
+        # to left: the word (2, 1) denotes X_1 X_2. Hence a word of the product F_n x is a word ``head`` of x,
+        # followed by a word ``tail`` of F_n. A word of the product x F_n is a word ``head`` of F_n, followed
+        # by a word ``tail`` of x.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result
