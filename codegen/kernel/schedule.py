@@ -224,7 +224,7 @@ def _alone(function: Function) -> Kernel:
 
 
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
-    """Return the expressions in ``statement`` that every step evaluates, without expressions in a loop body.
+    """Return the expressions in ``statement`` that every step evaluates, except those in a loop body.
 
     For a ``Let``, the result contains the assigned expression. For a ``Loop``, the result is
     ``statement.starts``. These expressions are evaluated before the first iteration of the loop. For a

@@ -51,7 +51,7 @@ SUBSTEPS = 24
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that :meth:`PiecewiseField.beyond` returns."""
+"""The largest result of :meth:`PiecewiseField.beyond`, a number of continuous derivatives."""
 
 
 @dataclass(frozen=True)

@@ -31,9 +31,9 @@ class Assign:
 
 @dataclass(frozen=True)
 class Array:
-    """The declaration of an array or record with the entries ``values``.
+    """The declaration of an array or record.
 
-    If ``values`` is empty and ``zero`` is True, all entries are 0.
+    The initial entries are ``values``. Without ``values``, all entries are 0 if ``zero`` is True.
     """
 
     name: Term

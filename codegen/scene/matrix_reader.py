@@ -303,7 +303,7 @@ class _Compiler:
 
 
 def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
-    """Return the statements without a superfluous copy at the end."""
+    """Remove a superfluous copy at the end of the list of statements, and return the list."""
     *before, last = body
     assert isinstance(last, Combination)
     (term,) = last.terms

@@ -1,6 +1,6 @@
 """Lyapunov exponents of Lorenz's system.
 
-The scene is from section 2.4.4 of H. Marthinsen's thesis (the method of L. Dieci and E. Van Vleck). The
+The scene is the method of L. Dieci and E. Van Vleck in section 2.4.4 of H. Marthinsen's thesis. The
 trajectory satisfies x' = F(x), and A is the Jacobian of F. The frame Q, an element of St(3, k), has k
 orthonormal columns. Let P = Q Q^T. The generator of the frame is (1 - P) A P - P A^T (1 - P) + Q S Q^T. Here
 S is the skew matrix that equals Q^T A Q below the diagonal. In equation (2.24) the thesis prints the

@@ -426,7 +426,7 @@ TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
 
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
-    """Return the ansatz for methods of the family with the label ``family`` that satisfy the specification.
+    """Return the ansatz for methods that satisfy the specification. ``family`` is the label of a family.
 
     Raises :class:`~orderconds.errors.InputError` if options of the specification contradict each other, or if
     the family does not support an option.
