@@ -34,7 +34,8 @@ if TYPE_CHECKING:
     "-a",
     "peers",
     multiple=True,
-    help="Names of peers to measure. Peers are other integrators, such as those of SciPy.",
+    help="Names of peers to measure. Peers are other integrators, such as those of SciPy. The names 'scipy', "
+    "'c' and 'all' select groups of peers.",
 )
 @click.option(
     "--form",
@@ -69,7 +70,7 @@ def command(
     error and run time.
 
     With --adaptive, methods run with step-size control. Their tableaux must have an embedded method for the
-    error estimate.
+    error estimate. Examples are ambient:dop853, rkmk(3):dormand_prince5 and ambient:radau2a3.
 
     With --against, other integrators (peers) also run. Their names are scipy-lsoda, scipy-dop853,
     scipy-dop853-projected, scipy-radau, scipy-radau-projected, heyoka, diffrax, c-dop853 and c-rk4-projected.

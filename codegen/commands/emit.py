@@ -69,13 +69,13 @@ if TYPE_CHECKING:
     "--integrate",
     is_flag=True,
     help="Also emit a function that integrates to a given end time. The function accepts output times "
-    "and bounds on the step size.",
+    "and bounds on the step size. A call can continue the run of an earlier call.",
 )
 @click.option(
     "--dense",
     is_flag=True,
-    help="Compute the states at output times with the continuous extension of the tableau. This "
-    "option implies --integrate.",
+    help="Compute the states at output times with the continuous extension of the tableau. By default, "
+    "shorter steps compute these states. This option implies --integrate.",
 )
 @click.option(
     "--events",

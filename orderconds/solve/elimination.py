@@ -74,8 +74,8 @@ class Infeasible:
             return f"{self.consequence} = 0 is false"
         if self.weight:
             return (
-                f"{self.consequence} = 0 implies {self.weight} = 0 for real {self.weight} (Sturm), but no "
-                f"method of the family has {self.weight} = 0"
+                f"{self.consequence} = 0 implies {self.weight} = 0 for real {self.weight} (Sturm), but "
+                f"the formulas of the family divide by {self.weight}"
             )
         return f"{self.consequence} = 0 has no real root (Sturm)"
 
