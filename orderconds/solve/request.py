@@ -110,8 +110,8 @@ def solve(
 ) -> SearchResult:
     """Find a method of ``family`` with the given number of stages and the given order, and prove the order.
 
-    The arguments are the options of ``orderconds solve``. ``report`` receives lines about the progress.
-    Raises InputError if constraints contradict each other.
+    The arguments are the options of ``orderconds solve``. ``fix`` contains equations such as ``"a21=1/2"``.
+    ``report`` receives lines about the progress. Raises InputError if constraints contradict each other.
 
     >>> solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"]).tableau.b
     (Fraction(1, 2), Fraction(1, 2))

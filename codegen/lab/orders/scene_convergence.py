@@ -133,8 +133,8 @@ def converge(
     """Measure the order of methods on a scene, and compare the measured order with ``stated``.
 
     By default, ``stated`` is the order from the order conditions. The arguments are those of the command
-    ``orderconds converge``. If a method cannot be emitted for the scene, its result contains the reason.
-    Wrong arguments raise InputError.
+    ``orderconds converge``. A method is given by its name, or by a :class:`orderconds.Tableau`. If a
+    method cannot be emitted for the scene, its result contains the reason. Wrong arguments raise InputError.
     """
     if not methods:
         raise InputError("no method", where="converge", expected="at least one method, such as cf4")
