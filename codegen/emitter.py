@@ -316,8 +316,7 @@ def emit(
     - ``precision``: ``double`` or ``single``. ``frame``: the frame of momenta, ``space`` or ``body``.
     - ``solver``: the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point`` or
       ``auto``. With ``auto``, the compiler selects the solver.
-    - ``form``: ``printed`` (the equations of the scene), or another form, such as ``quaternion``. The default
-      is ``printed``.
+    - ``form``: by default ``printed`` (the equations of the scene), or another form, such as ``quaternion``.
     - ``adaptive``: add a run with step-size control.
     - ``batch``: add a C function for many systems (:meth:`codegen.integrator.Integrator.run_batch`).
     - ``integrate``: the module also contains a function that integrates to a given end time.
