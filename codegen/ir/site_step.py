@@ -357,7 +357,7 @@ def _stored(sweep: Sweep) -> int:
 
 
 def _added(pairs: Iterable[tuple[int, int]]) -> tuple[int, int]:
-    # Each pair counts numbers in the memory: how many are read, and how many are written.
+    # Each pair contains the number of memory reads and the number of memory writes.
     read, written = zip(*pairs, strict=True)
     return sum(read), sum(written)
 

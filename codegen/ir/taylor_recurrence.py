@@ -82,9 +82,7 @@ class _Builder:
         if base is not node:
             return (base,)
         if node.op == "div":
-            # The second argument of the quotient equals c x^e, where c and e are numbers and x is an
-            # expression. The series of the quotient is built from the series of x. The series of c x^e is not
-            # needed. The variable ``divisor`` denotes x, not c x^e.
+            # The series of the quotient needs only the series of the base of the monomial.
             _, divisor, _ = self.monomial(node.args[1])
             return node.args[0], divisor
         return node.args

@@ -91,7 +91,7 @@ def compiled(
     The function ``refusal`` returns the error that is raised for a method with implicit stages.
     """
     lowered = lower(model, method)
-    # ``blocks.run`` replaces explicit stages by assignments. Other statements are implicit stages.
+    # ``blocks.run`` replaces explicit stages by assignments, so only implicit stages remain here.
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
         expected = "an explicit method for a scene with large matrices"
         raise refusal(scene, f"{method.label} has implicit stages", expected)
@@ -291,8 +291,7 @@ class _Builder:
         Therefore W X^T - X W^T is B (E C^T - C E^T) B^T, and S is the matrix E C^T - C E^T.
         """
         k = self.k
-        # Without terms, ``self.sum`` sets all entries of the matrix ``core`` to zero. The statements below
-        # change only the nonzero blocks of ``core``.
+        # ``self.sum`` without terms sets all entries of the matrix ``core`` to zero.
         core = self.sum(Matrix(name, first + k, first + k))
         # For D = 0, S has two nonzero blocks: a unit matrix in ``below``, and its negative in ``right``.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
@@ -326,7 +325,7 @@ class _Builder:
             case Apply(constant=constant):
 
                 def entry(given: Entry) -> Entry:
-                    # A tuple contains only numbers. It is not changed.
+                    # If ``given`` is a tuple, its entries are numbers, so ``given`` is not changed.
                     return given if isinstance(given, tuple) else now(given)
 
                 diagonals = tuple(replace(d, entry=entry(d.entry)) for d in constant.diagonals)

@@ -188,8 +188,7 @@ class Solved:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
-            # An image g_i(u) without operations is a symbol or a number. This class replaces an image g_i(u)
-            # by the unknown u_i only if the image contains an operation.
+            # An image without operations is a symbol or a number, which costs nothing to evaluate again.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 

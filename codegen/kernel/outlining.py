@@ -124,8 +124,8 @@ class Outline:
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # Operands and results of assignments also get levels. After simplification, ``roots`` may lack
-        # some of these operands and results.
+        # Simplification can remove operands and results of assignments from ``roots``, so they are added
+        # here.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):

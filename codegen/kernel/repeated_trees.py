@@ -180,7 +180,7 @@ class Trees:
         i, j = places[0]
         # If the first or second tree also occurs elsewhere, its own function remains in the code.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # For each pair, one call replaces two calls. This saves about three lines.
+        # Each joined pair saves a call, which is about three lines.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:

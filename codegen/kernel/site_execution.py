@@ -185,8 +185,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # A ghost is a value to be used if the neighbour is outside the lattice. ``self.ghosts`` maps each
-        # symbol to one ghost. If a symbol is already mapped to a different ghost, new symbols are needed.
+        # New symbols are needed if the same symbols would get two different ghosts (values outside the
+        # lattice).
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}

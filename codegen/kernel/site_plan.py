@@ -103,8 +103,7 @@ class Planner:
             # it also reads the old values.
             need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
         count = self._store(needs)
-        # The stopping rule of fixed-point iteration needs rows of the workspace. That of Newton's method
-        # needs none.
+        # Only the stopping rule of fixed-point iteration needs rows of the workspace.
         measured = MEASURED if self.blocks and not self.newton else 0
         sweeps = tuple(
             self._sweep(k, need, outputs if k == last else (), needs[k + 1 :], count)

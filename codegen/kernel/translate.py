@@ -160,8 +160,8 @@ class _Translation:
             # ``gathered`` combines numeric factors, but does not rewrite the expressions ``known``.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # Outlined functions cannot read run-time inputs. An operation with a time argument may read these
-        # inputs.
+        # An operation with a time argument may read run-time inputs, but an outlined function cannot read
+        # them.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
         # The current block is added to ``blocks`` later, so its index is the length of ``blocks``.
         place = len(self.blocks) if self.inside else -1

@@ -113,9 +113,8 @@ class ChainSolver:
 
         The border consists of the columns of the matrix that multiply the unknowns of the last site.
         """
-        # The emitted function ``substitute`` solves linear equations. The right-hand side can be a column of
-        # the border or the residuals. Therefore a column of the border and the residuals are stored in the
-        # same way.
+        # The emitted function ``substitute`` accepts residuals or a column of the border, so both have the
+        # same layout.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:

@@ -172,8 +172,7 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # A deviation with alternating sign may grow although the fitted line has no slope. Fast growth of the
-        # deviation gives a large ``exponent``. Therefore ``exponent`` must be below WALK.
+        # If the deviation grows fast, ``exponent`` is large, even if the fitted line has no slope.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
