@@ -91,8 +91,7 @@ def function(
             # In ``numbers``, the coefficients of this sum begin at the index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
-            # The input of the function is the coefficient without its power of h. The function multiplies by
-            # this power.
+            # The function itself multiplies by the power of h of a coefficient.
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [

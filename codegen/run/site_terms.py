@@ -90,8 +90,7 @@ def padded(sites: Count) -> Count:
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
     """
-    # Let k be the integer quotient (sites + 7) // 16. The result is 16 k + 8 = 8 (2 k + 1), and the factor
-    # 2 k + 1 is odd.
+    # The result is 8 times an odd number.
     return (sites + 7) // 16 * 16 + 8
 
 

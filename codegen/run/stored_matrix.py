@@ -127,8 +127,7 @@ class StoredMatrix(ABC):
         """
         total: Term | None = None
         for term, given, table in entries:
-            # ``constant_entry`` returns a list of statements and the entry. The list is ignored here, because
-            # the method named ``before`` returns the same statements.
+            # Only the entry is needed, because the method ``before`` returns the statements.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             # No multiplication is emitted for the coefficient 1.
@@ -325,8 +324,7 @@ class FullMatrix(StoredMatrix):
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
         """Return the statement that adds the contribution of one diagonal to ``_ENTRY``."""
-        # In the table of the diagonal, the index of an entry is the smaller of i and j. The test
-        # adds |offset| to one index, because a difference of unsigned indices could wrap around.
+        # An offset is added to one index, because a difference of unsigned indices could wrap around.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]
