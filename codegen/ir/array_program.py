@@ -94,8 +94,8 @@ class ConstantMatrix:
 
     @property
     def entries(self) -> tuple[Entry, ...]:
-        """The ``entry`` of each diagonal: a formula or a tuple of numbers. If ``diagonals`` is empty, the
-        result is a tuple with the single element ``full``.
+        """The attribute ``entry`` of each diagonal. For a matrix that is not stored by diagonals, the result
+        is (``full``,).
         """
         return tuple(d.entry for d in self.diagonals) or (self.full,)
 

@@ -149,7 +149,7 @@ class ExponentialAction(VectorFunction):
         # If the block matrix has at most :data:`SPARSE` rows, ``expanded`` omits its zero entries.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
-        # The second half of the results is exp(A) y.
+        # The derivatives are the first half of the results.
         return tuple(results[:n])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:

@@ -281,7 +281,7 @@ class _Loop:
 
 
 def _operands(series: Series) -> Sequence[Series]:
-    """Return the series a for which a_n occurs in the formula for coefficient n of ``series``."""
+    """Return all series whose coefficient n is needed to compute coefficient n of ``series``."""
     match series:
         case Sum(a=a, b=b) | Convolution(a=a, b=b) | Quotient(a=a, b=b):
             return a, b

@@ -347,7 +347,7 @@ class _Builder:
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
         """Append the computation of S in the bracket [B x B^T, B y B^T] = B S B^T, and return S.
 
-        With the Gram matrix G = B^T B and N = x G y, the core of the bracket is S = N - N^T.
+        The matrices x and y are skew-symmetric. With N = x B^T B y, the result is S = N - N^T.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
         # The sizes of x, G and y do not depend on the number of rows of the state, so x G y is cheap.

@@ -95,7 +95,8 @@ class Frames:
         )
 
     def carried(self, domain: ExprDomain) -> Carried | None:
-        """Return the kernels that convert the momentum at the beginning and at the end of a run of steps.
+        """Return the kernels that convert the momentum to the body frame at the beginning of a run, and back
+        at the end.
 
         If the two kernels are not needed, the result is None.
         """

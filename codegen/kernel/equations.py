@@ -182,7 +182,7 @@ def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
 
 
 class Solved:
-    """Replaces expressions g_i(u) by the unknowns u_i. Both are equal for the solution of u = g(u)."""
+    """Replaces expressions g_i(u) by the unknowns u_i. This is correct for the solution of u = g(u)."""
 
     def __init__(self, block: Block) -> None:
         self.space: Space = block.images[0].space

@@ -61,7 +61,8 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a small linear problem for tests of each compiler pass. A depends on t if ``timed`` is true."""
+    """Return a small linear problem for tests of each compiler pass. Its matrix depends on t if ``timed`` is
+    true."""
     from sympy import Matrix as SquareMatrix
     from sympy import Rational, Symbol
 

@@ -80,7 +80,8 @@ class _Element:
 
     Here a is the number ``a``, and lambda is the eigenvalue of the linear operator L for this mode.
 
-    ``b`` contains the coefficients of a linear combination of values of the nonlinearity N.
+    The vector b is a linear combination of values of the nonlinearity N. The attribute ``b`` contains its
+    coefficients.
     """
 
     a: Number

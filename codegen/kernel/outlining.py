@@ -119,7 +119,7 @@ class Outline:
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
-                    # If two trees have the same result, the call for the first tree computes it.
+                    # A result of several trees is computed by the call for the first of them.
                     calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 

@@ -212,7 +212,7 @@ class Execution:
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
-            # The ghosts must have the same order as the loads (:class:`codegen.ir.site_step.Sweep`).
+            # ``ghosts`` must have the same order as ``self.loads`` (:class:`codegen.ir.site_step.Sweep`).
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
             # All values that the ghosts depend on are loaded, too.

@@ -129,7 +129,7 @@ class Planner:
         # The rows of the workspace contain, in this order: variables, residuals, ``border`` and ``matrix``
         # (:class:`codegen.ir.site_step.SiteNewton`).
         border = count + most
-        # A periodic chain couples the first site to the last site, hence the border.
+        # A periodic chain needs ``most * most`` more rows, because its first and last sites are coupled.
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):

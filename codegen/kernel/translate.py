@@ -354,7 +354,7 @@ def _outlined(
     # A value in ``kept`` is removed if no expression in ``flat`` reads the value.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
-    # ``flat`` contains all blocks, because different blocks may repeat the same computation.
+    # All blocks are outlined together, because different blocks may repeat the same computation.
     flat += [x for block in blocks for _, x in block.kept]
     owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
     shorter = outline.run(flat, owners)

@@ -122,8 +122,8 @@ def _distributed(
 
     Each entry of ``parts`` is a tuple (s, (y, W, v)). In this tuple, s is a rational number, y and v are
     variables, and W is a function, given by its factors. Let F be the function whose factors are in ``word``.
-    The term for the entry is c F(s ad_y) W(ad_y) v. The number c is the coefficient of the corresponding term
-    in the sum ``total``. The result is the variable of the new sum.
+    The term for the entry is c F(s ad_y) W(ad_y) v, where c is the coefficient of the same term in ``total``.
+    The result is the variable of the new sum.
     """
     terms = []
     for scale, (y, inner, v) in parts:

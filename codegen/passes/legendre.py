@@ -114,7 +114,8 @@ def path(block: Solve, unknown: Var) -> Path | None:
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the invertible linear maps from a value u to ``var``, and the assignment of u, if any.
+    """Find a value u from which invertible linear maps compute ``var``. Return these maps, and the assignment
+    of u or None.
 
     The maps are in order of application.
     """

@@ -264,7 +264,8 @@ class _Exponential:
         yield from self.loops.statements(Combination(self.target, terms))
 
     def advanced(self, scale: Term) -> Iterator[Statement]:
-        """Yield the statements that multiply the current point by exp(``scale`` B S B^T)."""
+        """Yield the statements that multiply the current point by the matrix exponential of ``scale`` B S
+        B^T."""
         m, k, loops = self.core.rows, self.target.columns, self.loops
         total, term, following = (loops.array(x) for x in (self.total, self.term, self.next))
         terms, order, factor = count("terms"), count("order"), real("ratio")

@@ -132,8 +132,8 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of the last failed attempt.
 
-        There is one exception: the result is TOO_FAR in place of NOT_FINITE if a shorter step succeeded and
-        the problem has no run-time inputs.
+        NOT_FINITE is replaced by TOO_FAR if a shorter step succeeded. This is omitted for problems with
+        run-time inputs.
         """
         # A run-time input may be the cause of the failure, and not the length of the step.
         if self.plan.kernel.inputs:

@@ -306,7 +306,7 @@ class _Exponential:
         error, bound = real("error_bound"), real("bound")
         body = (
             self.norm(result, bound),
-            # The spectral norm is at most ``growth``, and at most the Frobenius norm (``bound``).
+            # Both ``growth`` and the Frobenius norm are upper bounds of the spectral norm.
             Assign(bound, select(bound < growth, bound, growth)),
             # The norm of the n x n matrix is at most r = ``bound``, and its error is at most e = ``error``.
             # With the unit roundoff u, the error of the computed square is at most about

@@ -52,7 +52,8 @@ ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str, Term], ...] = ()) -> For:
     """Return a parallel loop over ``number`` consecutive sites, divided into chunks of CHUNK sites.
 
-    ``body`` computes the SIZE sites that begin at the index FIRST.
+    ``body`` computes the sites of one chunk. FIRST is the index of its first site, and SIZE is the number of
+    its sites.
     """
     rest = number - FIRST
     # The last chunk may have fewer sites than the other chunks.

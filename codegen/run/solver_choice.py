@@ -1,9 +1,9 @@
 """The choice of a solver for each block of equations: fixed-point iteration, Newton's method or simplified
 Newton.
 
-Newton's method can keep its matrix for several steps. Simplified Newton computes a new matrix in each step or
-substep. This matrix is correct to first order in h. Fixed-point iteration needs no matrix, and each sweep
-multiplies the error by a factor O(h).
+Newton's method here keeps its matrix for several steps. Simplified Newton computes a new matrix in each step
+or substep, but only to first order in h. Fixed-point iteration needs no matrix, and each sweep multiplies the
+error by a factor O(h).
 
 The solver with the shortest predicted time is chosen, but robust solvers are preferred. The first trial of a
 solver (:mod:`codegen.run.trial`) makes :data:`STEPS` steps from the initial state of the problem's example.
@@ -15,8 +15,8 @@ of :data:`LONGER` times this size. A solver is robust if it converges in both tr
 :data:`SWEEPS` sweeps in the second trial.
 
 A robust solver is preferred if its predicted time is at most :data:`PRICE` times the time of the fastest
-solver. Without this limit, a step would take 5 to 14 times as long for some problems of the gallery with 24
-or 36 unknowns (``benchmarks/README.md``).
+solver. Without this limit, some methods of the gallery would be 5 to 14 times as slow
+(``benchmarks/README.md``).
 
 For linear equations, a robust solver is preferred at any cost, because the step size can be much larger.
 """
