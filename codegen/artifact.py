@@ -44,13 +44,12 @@ class Artifact:
     def write(self, directory: str | Path) -> list[Path]:
         """Write the files and the manifest into a folder, and return their paths.
 
-        If the folder contains an old module with the name and the target of the new module, the old module is
-        replaced.
+        An old module of the same name and target is replaced.
 
         InputError is raised in two cases:
         - The folder cannot be written to.
-        - The old module and the new module belong to different scenes or to different methods, and the option
-          ``--prefix`` was used for neither of these two modules.
+        - The old module belongs to another scene or method, and no prefix was chosen for the old or the new
+          module.
         """
         folder = Path(directory)
         try:

@@ -31,12 +31,12 @@ class CertifiedOrder:
 
     - ``certificate`` is the kind of proof. :meth:`text` explains each kind.
     - ``failing`` contains order conditions of order ``order`` + 1 that the method violates.
-    - ``bound`` is true if the conditions of order ``order`` + 1 were not all checked. The order of the method
-      is then at least ``order``.
+    - ``bound`` is true if ``order`` is only a lower bound, because some conditions of the next order were not
+      checked.
     - ``classical`` is the name of the classical family whose conditions were checked, or ''. These
       conditions are used only on abelian groups.
-    - If the uncertainty of the coefficients exceeds the rounding error of a double, ``radius`` is this
-      uncertainty and the certificate is "none".
+    - ``radius`` is the uncertainty of the coefficients, if it exceeds the rounding error of a double. The
+      certificate is then "none".
     """
 
     order: int

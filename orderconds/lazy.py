@@ -19,8 +19,7 @@ class _LazyPackage(ModuleType):
         return value
 
     def __setattr__(self, name: str, value: object) -> None:
-        # The import system calls this method to store a module. The module ``name`` must not replace an
-        # exported object ``name``.
+        # A module must not replace an exported object with the same name.
         if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
             super().__setattr__(name, value)
 

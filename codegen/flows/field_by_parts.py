@@ -1,6 +1,7 @@
 """The field of a Hamiltonian as the sum of the fields of its parts.
 
-A known exact flow of a part often gives a shorter formula for its field than differentiation.
+If the exact flow of a part is known, it often gives a shorter formula than differentiation of the
+Hamiltonian.
 """
 
 from __future__ import annotations

@@ -35,8 +35,8 @@ POTENTIAL = "potential"
 class SiteFlow(Flow):
     """The flow of one part of the field of a lattice. ``part`` is the index of the part in the scene.
 
-    ``colour`` is the index of the interacting pairs in :data:`COLOURS`: 0 for even pairs, 1 for odd pairs. If
-    the part couples no sites, ``colour`` is 0.
+    ``colour`` is an index in :data:`COLOURS`: 0 for even pairs of sites, and 1 for odd pairs. If the part
+    couples no sites, ``colour`` is 0.
     """
 
     part: int

@@ -53,7 +53,7 @@ class Turn(Flow):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return the velocity xi and the force n.
 
-        Let s = r e.P + c be the angular speed of the turn (:class:`Turn`).
+        The class docstring defines the angular speed s and the axis e.
 
         - If the axis is fixed in space, xi = s e and n = 0.
         - If the axis is fixed in the body, xi = s Ad_q e and n = ad*_xi mu. Then mu' = n - ad*_xi mu = 0.

@@ -444,10 +444,9 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return tuples of indices of coordinates. The method :meth:`complete` accepts each of these tuples.
+        """Return tuples of indices. :meth:`complete` can compute the coordinates with these indices from all
+        other coordinates.
 
-        Let T be one of these tuples. Suppose that only the coordinates whose indices are in T are unknown.
-        The known coordinates determine the unknown coordinates.
         """
 
     @abstractmethod

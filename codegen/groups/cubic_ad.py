@@ -14,7 +14,7 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""A product of functions of ad_x with the single factor dexp (see :mod:`codegen.ir.ad_series`)."""
+"""The function dexp, as a product with one factor (see :mod:`codegen.ir.ad_series`)."""
 
 
 class CubicAd(ClosedFormSeries):

@@ -278,9 +278,8 @@ class MatrixColumns(Representation):
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
         """Return the derivatives of <p, phi(x) u> with respect to x and u. For phi see :meth:`translation`.
 
-        Let A be the matrix of x, and M = [[A, u], [0, 0]]. Let P be the matrix with p in the last column and
-        zeros elsewhere. The gradient of <p, phi(x) u> with respect to the entries of M is the derivative of
-        exp at M^T in the direction P.
+        Let A be the matrix of x. Both derivatives are parts of the derivative of the matrix exponential at
+        the transpose of M = [[A, u], [0, 0]].
         """
         n, bordered = self._bordered(d, group, x, u)
         zero: S = d.rational(0)
@@ -331,7 +330,7 @@ class PlaneVectors(MatrixColumns):
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True: the equation ad_x^3 = -w^2 ad_x for x = (w, u) gives a closed form."""
+        """Return True. The series have closed forms, because ad_x^3 = -w^2 ad_x for x = (w, u)."""
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:

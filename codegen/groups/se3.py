@@ -17,7 +17,7 @@ class SE3(Semidirect):
 
     - The bracket is [(w, u), (w', u')] = (w cross w', w cross u' - w' cross u).
     - The exponential is exp(w, u) = (exp w, dexp_w u).
-    - The formula for a function F(ad_w) also gives F(ad_(w, u)): replace w by w + u e with e^2 = 0.
+    - A function of ad_(w, u) is computed with dual numbers: w is replaced by w + e u, where e^2 = 0.
 
     An element of ``SE3(SU2())`` has a unit quaternion in place of R.
     """

@@ -183,7 +183,7 @@ class Semidirect(
         """
         (a, u), (b, v) = self._split(x), self._split(y)
         first = self.point_velocity(d, y, u, translated=False)
-        # ``moved`` is t = v + (b.u)/2. The second part of the result is t - (a.t)/2.
+        # The formula of the docstring has a common subexpression, which is computed first.
         half: S = d.rational(1, 2)
         moved = _sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)

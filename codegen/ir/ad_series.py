@@ -71,9 +71,7 @@ def simplified(word: Word) -> Word:
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
-            # Let s = ``scale``. The product exp(-s t) dexp(s t) equals dexp(-s t). The two lines above remove
-            # the factor dexp(s t) and add the factor dexp(-s t). The factor exp(-s t) is removed, too, so
-            # ``rate`` becomes 0.
+            # The new factor already contains the factor exp(-s t).
             rate = Fraction(0)
     # Sorting makes the result independent of the order of the factors in ``word``.
     factors = [Factor("exp", rate)] if rate else []

@@ -94,8 +94,8 @@ class ConstantMatrix:
 
     @property
     def entries(self) -> tuple[Entry, ...]:
-        """The ``entry`` of each diagonal: a formula or a tuple of numbers. If ``diagonals`` is empty, the
-        result is a tuple with the single element ``full``.
+        """The attribute ``entry`` of each diagonal. For a matrix that is not stored by diagonals, the result
+        is (``full``,).
         """
         return tuple(d.entry for d in self.diagonals) or (self.full,)
 
@@ -321,7 +321,7 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
-        # The entry C[row, column] is ``a``. For M C, M[b, row] C[row, column] is added to target[b, column].
+        # The entry C[row, column] is ``a``. The loop adds M[b, row] ``a`` to target[b, column].
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column
@@ -366,8 +366,7 @@ def operations(statement: ArrayStatement) -> dict[str, int]:
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)
-            # A sum of k > 0 products needs k - 1 additions. An entry of the target may have no products,
-            # so ``products - size`` may be negative.
+            # A sum of k > 0 products needs k - 1 additions.
             return {"add": max(0, products - size), "mul": products}
         case Combination(terms=terms):
             sizes = [term.matrix.size for term in terms]

@@ -40,7 +40,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            # The node is treated as an atom: the linear combination of the node is 1 times the node.
+            # The linear combination has one term, which is the node itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
     # The expressions in ``bare`` are not rewritten, so their operations are not counted.
     still = set(work.sums)
@@ -81,7 +81,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
-            # Let c be a number and y = 1/sqrt x. ``ranks`` maps a node c y^n to (node number of y, n).
+            # The node is c y^n with a number c.
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             # Exponents are added in a product, and multiplied in a power of a power.
@@ -201,8 +201,7 @@ class _Gathering:
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
-        # ``under`` is x^m, where m is half of ``exponent``, rounded down. x^m does not depend on sqrt x, so a
-        # processor can compute x^m and sqrt x at the same time.
+        # x^m does not depend on sqrt x, so a processor can compute both at the same time.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}
@@ -243,7 +242,6 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
             # The sign of the first term is factored out of the whole group.
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # Let s be the sum of all terms in this group. If ``first`` is true, the coefficient of the first term
-        # is negative, and s = -``part``. Otherwise s = ``part``. In both cases, s is added to ``result``.
+        # ``part`` has the opposite sign if ``first`` is true.
         result = result - part if first else result + part
     return result

@@ -42,8 +42,7 @@ def degrees(bits: int) -> tuple[int, ...]:
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
-    # An integer needs no rounding if its largest odd divisor has at most ``bits`` bits. The
-    # largest odd divisor of m!/j! divides the largest odd divisor of m!, so only m! is tested.
+    # The largest odd divisor of m!/j! is at most that of m!, so only m! is tested.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
@@ -150,7 +149,7 @@ class ExponentialAction(VectorFunction):
         # If the block matrix has at most :data:`SPARSE` rows, ``expanded`` omits its zero entries.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
-        # The second half of the results is exp(A) y.
+        # The derivatives are the first half of the results.
         return tuple(results[:n])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
@@ -206,9 +205,8 @@ class ExponentialAction(VectorFunction):
             for k in range(degree, 1, -1):
                 # With m = ``degree``, the next line changes ``weight`` from m!/k! to m!/(k - 1)!.
                 weight *= k
-                # Let A be the matrix with the entries ``a``. The next line is one step of Horner's rule for
-                # the Taylor polynomial of exp(A) y. The new vector p is ``weight`` times the vector that
-                # Horner's rule computes in this step.
+                # This is a step of Horner's rule for the Taylor polynomial of exp(a) y, multiplied by
+                # ``weight``.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
             # The last step of Horner's rule divides p by ``weight`` = m!.
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
@@ -252,8 +250,7 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # If the matrix of constant terms is nilpotent, A^n = O(h). Then the series has fewer than ``longest``
-        # terms.
+        # If the constant terms form a nilpotent matrix, the series ends before this term.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)

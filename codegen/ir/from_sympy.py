@@ -220,8 +220,8 @@ class _Reader:
             # A negative power is infinite for the base 0.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # If a branch of a Piecewise formula is not selected, ``guarded`` replaces the base in this branch
-            # by 1. The number 0 is not suitable, because the derivative of the root is infinite at 0.
+            # Where the root is not selected, its base is replaced by 1, because the derivative of a root is
+            # infinite at 0.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
             # For odd n > 0, the power x^(n/2) is x^m sqrt(x) with m = (n - 1)/2.

@@ -178,9 +178,7 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # If ``done`` is true, the function returns before the values of the unknowns in ``env`` are replaced.
-        # In this case, ``env`` contains the values ``old`` of the unknowns, and the results of ``block.body``
-        # that were computed from ``old``.
+        # If the iteration is done, ``env`` keeps the values that were computed from ``old``.
         done, size = domain.settled(old, new, size)
         if done:
             return

@@ -58,7 +58,7 @@ class _Graph:
             # A variable has no incoming edges and is never eliminated.
             if node.id in columns:
                 continue
-            # All derivatives of a node without variables are zero. Such a node is not a vertex of the graph.
+            # All derivatives of such a node are zero.
             if any(a.id in self.after for a in node.args):
                 self.inner.append(node.id)
                 self.before[node.id], self.after[node.id] = {}, {}
@@ -66,8 +66,7 @@ class _Graph:
                     self._add(arg.id, node.id, factor)
         for i, root in enumerate(roots):
             self.before[-1 - i] = {}
-            # The vertex number -1 - i represents result i. The edge from ``root`` to this vertex has the
-            # label 1.
+            # Results have the negative vertex numbers -1, -2, ...
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:

@@ -164,8 +164,8 @@ class Loop:
         # reason, the result is larger than ``tolerance``.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # If Newton's matrix is expanded to first order in h, the factor ``close`` is ``tolerance``.
-        # Otherwise, the factor ``close`` is ``tolerance`` / 16.
+        # The two bounds differ because Newton's matrix is less accurate if it is expanded to first order in
+        # h.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 

@@ -78,9 +78,9 @@ class TimeMatrix:
 class Element:
     """A linear combination of matrices h A(t_i) and of commutators, for example an exponent.
 
-    A letter is a linear combination of the matrices h A(t_i). ``letter`` is an index in
-    :attr:`LinearArrayStep.letters`, or None if there is no letter. ``commutators`` contains pairs of a
-    coefficient and an index in :attr:`LinearArrayStep.commutators`.
+    ``letter`` is the index of the combination of the matrices h A(t_i) in :attr:`LinearArrayStep.letters`, or
+    None if there are no such matrices. ``commutators`` contains pairs of a coefficient and an index in
+    :attr:`LinearArrayStep.commutators`.
     """
 
     letter: int | None

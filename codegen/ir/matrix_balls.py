@@ -31,7 +31,7 @@ def ball(x: mpmath.mpf) -> arb:
     """Return a ball with radius zero around an mpmath number."""
     sign, mantissa, exponent, _ = x._mpf_
     if not mantissa:
-        # In mpmath, the mantissa of zero, infinities and NaN is 0. Only zero has the exponent 0.
+        # In mpmath, zero, infinities and NaN have the mantissa 0.
         return arb(0) if not exponent else arb(float(x))
     # mpmath stores the sign separately, so ``mantissa`` is never negative.
     return arb((-int(mantissa) if sign else int(mantissa), int(exponent)))

@@ -142,8 +142,7 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
-    # In Horner's rule, each pass multiplies ``total`` by the power ``b4`` and adds a polynomial of degree 3.
-    # The first pass omits the multiplication, because ``total`` begins with the factor ``b4``.
+    # ``total`` already contains the factor ``b4`` of the first pass.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group

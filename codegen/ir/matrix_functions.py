@@ -72,7 +72,7 @@ class MatrixExponential(VectorFunction):
         # A jet is nilpotent if its matrix (without the derivatives) is nilpotent.
         if not is_nilpotent(self.n, pattern):
             return None
-        # The loop counts the terms 1, A, A^2/2, ... until ``power`` is zero.
+        # The loop counts the nonzero powers of A, beginning with A^0.
         count = 1
         while any(power):
             count += 1

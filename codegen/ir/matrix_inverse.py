@@ -29,8 +29,7 @@ def inverse(
         rows[k], rows[pivot] = rows[pivot], rows[k]
         factor = one / rows[k][k]
         rows[k] = [x * factor for x in rows[k]]
-        # Column k of the matrix becomes a unit vector and is not stored. Its place in ``rows`` is used for
-        # the inverse of ``a``.
+        # Column k is stored in place: it now belongs to the inverse matrix.
         rows[k][k] = factor
         for i in range(n):
             if i != k:

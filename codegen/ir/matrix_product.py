@@ -60,8 +60,7 @@ class BilinearFunction(VectorFunction):
         ``args`` are the entries of a and b, and ``argument`` is the index of this one entry in ``args``.
         """
         space = args[0].space
-        # Let E be the matrix with E_ij = 1 and zeros elsewhere. The derivative of f(a, b) with respect
-        # to the entry a_ij is f(E, b). The derivative with respect to the entry b_ij is f(a, E).
+        # The product is linear in each factor, so its derivative replaces a factor by a unit matrix.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
         # ``half`` is the slice of the replaced entries in ``args``.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)

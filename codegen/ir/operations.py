@@ -329,7 +329,7 @@ class Adjoint(OfGroup):
         return G + own, own
 
     def opposite(self) -> Adjoint:
-        """Return the operation for the inverse linear map. The argument g is the same."""
+        """Return the inverse of this operation, as an operation with the same argument g."""
         # The inverse of Ad_g is Ad_{g^-1}, and the inverse of Ad*_g is Ad*_{g^-1}.
         return Adjoint(self.dual, not self.inverse)
 

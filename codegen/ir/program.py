@@ -126,9 +126,8 @@ class Program:
     statements are executed once for each substep.
 
     If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. Let q' and
-    m' be the new values of q and m. In exact arithmetic, the new value of mu is Ad*_{q'^-1} m', and mu equals
-    Ad*_{q^-1} m. In floating-point arithmetic, the new value of mu is computed as the sum of mu and the
-    difference Ad*_{q'^-1} m' - Ad*_{q^-1} m. The errors of the two terms nearly cancel in this difference.
+    m' be the new values of q and m. The new value of mu is computed as mu + (Ad*_{q'^-1} m' - Ad*_{q^-1} m).
+    Rounding errors nearly cancel in this difference.
     """
 
     name: str

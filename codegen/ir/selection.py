@@ -24,8 +24,8 @@ SELECTING = (CHOOSE, ABSOLUTE)
 
 
 class Kink(ArithmeticError):
-    """Raised if the constant term of a power series x is a boundary between two formulas, or if this cannot
-    be decided."""
+    """Raised if the constant term of a power series x does not determine which formula of a function must be
+    used at x."""
 
 
 def selects(function: str) -> bool:
@@ -43,7 +43,7 @@ def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign
     if isinstance(function, PiecewisePolynomial):
         return function.value(domain, x, sign)
     order = sign(x)
-    # A NaN argument must give a NaN, and neither formula guarantees a NaN.
+    # A NaN argument must give a NaN.
     if order is None:
         return x
     if function == ABSOLUTE:

@@ -154,7 +154,7 @@ class SiteNewton:
         # The matrix of a periodic chain is not block-tridiagonal, because the last site is a neighbour of the
         # first site.
         if periodic:
-            # In this case, n additional linear systems are solved, one for each unknown of the last site.
+            # The unknowns of the last site need n additional solutions of linear systems.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written
@@ -357,7 +357,7 @@ def _stored(sweep: Sweep) -> int:
 
 
 def _added(pairs: Iterable[tuple[int, int]]) -> tuple[int, int]:
-    # Each pair counts numbers in the memory: how many are read, and how many are written.
+    # Each pair contains the number of memory reads and the number of memory writes.
     read, written = zip(*pairs, strict=True)
     return sum(read), sum(written)
 

@@ -48,10 +48,7 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
-            # A selection is a function call that chooses one of several formulas. For example, ``fabs(x)``
-            # chooses between -x and x. The arguments of ``node`` may contain selections from ``nodes``. In
-            # ``args``, each selection ``nodes[k]`` is already replaced by the formula with the index
-            # ``sides[k]``.
+            # The node is a selection, so it is replaced by one of its formulas.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:

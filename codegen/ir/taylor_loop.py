@@ -240,8 +240,7 @@ class _Loop:
                 # 0 < j < n.
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # For the power p = a^e, let u be the sum of j a_j p_{n-j} and v the sum of a_j p_{n-j} over
-                # 0 < j <= n. Then p_n = ((e + 1) u/n - v)/a_0.
+                # This is the recurrence for the Taylor coefficients of a power.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -282,15 +281,14 @@ class _Loop:
 
 
 def _operands(series: Series) -> Sequence[Series]:
-    """Return the series a for which a_n occurs in the formula for coefficient n of ``series``."""
+    """Return all series whose coefficient n is needed to compute coefficient n of ``series``."""
     match series:
         case Sum(a=a, b=b) | Convolution(a=a, b=b) | Quotient(a=a, b=b):
             return a, b
         case Power(a=a, slope=slope):
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
-            # Coefficient n of the sine depends on coefficient n of ``slope``, but not on coefficient n of the
-            # cosine. Therefore the result contains ``slope``, and does not contain the cosine.
+            # Coefficient n of the sine does not need coefficient n of the cosine.
             return (slope,)
         case Chosen(a=a, b=b):
             return a, b

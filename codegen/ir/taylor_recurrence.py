@@ -82,9 +82,7 @@ class _Builder:
         if base is not node:
             return (base,)
         if node.op == "div":
-            # The second argument of the quotient equals c x^e, where c and e are numbers and x is an
-            # expression. The series of the quotient is built from the series of x. The series of c x^e is not
-            # needed. The variable ``divisor`` denotes x, not c x^e.
+            # The series of the quotient needs only the series of the base of the monomial.
             _, divisor, _ = self.monomial(node.args[1])
             return node.args[0], divisor
         return node.args
@@ -317,8 +315,8 @@ class Recurrence:
         return [coordinate.terms for coordinate in self.coordinates]
 
     def following(self, n: int) -> list[Coefficient]:
-        """Return Taylor coefficient n + 1 of each coordinate with a derivative in ``roots``. All
-        coefficients up to n must be known.
+        """Return Taylor coefficient n + 1 of each coordinate. ``roots`` contains the derivatives of the
+        coordinates. All coefficients up to n must be known.
         """
         factors: dict[object, Scalar] = {}
         new = []

@@ -267,8 +267,7 @@ class Antiderivative(Series):
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # For the series r = ``self.rate``, only the coefficients r_0, ..., r_{n-1} are needed. These
-        # coefficients do not depend on coefficient n of f(a).
+        # The sum does not need coefficient n of ``self.rate``.
         return _mean(self.domain, self.slope, self.rate, n)
 
 
@@ -318,8 +317,7 @@ class Angle(Series):
         """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
-        # Coefficient n is the difference of two sums. The first sum contains the terms j y_j p_{n-j}/n, and
-        # the second sum contains the terms j x_j q_{n-j}/n.
+        # Coefficient n is the difference of two weighted sums.
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
         return _subtract(*means)
 

@@ -91,7 +91,7 @@ def compiled(
     The function ``refusal`` returns the error that is raised for a method with implicit stages.
     """
     lowered = lower(model, method)
-    # ``blocks.run`` replaces explicit stages by assignments. Other statements are implicit stages.
+    # ``blocks.run`` replaces explicit stages by assignments, so only implicit stages remain here.
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
         expected = "an explicit method for a scene with large matrices"
         raise refusal(scene, f"{method.label} has implicit stages", expected)
@@ -291,8 +291,7 @@ class _Builder:
         Therefore W X^T - X W^T is B (E C^T - C E^T) B^T, and S is the matrix E C^T - C E^T.
         """
         k = self.k
-        # Without terms, ``self.sum`` sets all entries of the matrix ``core`` to zero. The statements below
-        # change only the nonzero blocks of ``core``.
+        # ``self.sum`` without terms sets all entries of the matrix ``core`` to zero.
         core = self.sum(Matrix(name, first + k, first + k))
         # For D = 0, S has two nonzero blocks: a unit matrix in ``below``, and its negative in ``right``.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
@@ -326,7 +325,7 @@ class _Builder:
             case Apply(constant=constant):
 
                 def entry(given: Entry) -> Entry:
-                    # A tuple contains only numbers. It is not changed.
+                    # If ``given`` is a tuple, its entries are numbers, so ``given`` is not changed.
                     return given if isinstance(given, tuple) else now(given)
 
                 diagonals = tuple(replace(d, entry=entry(d.entry)) for d in constant.diagonals)
@@ -348,7 +347,7 @@ class _Builder:
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
         """Append the computation of S in the bracket [B x B^T, B y B^T] = B S B^T, and return S.
 
-        With the Gram matrix G = B^T B and N = x G y, the core of the bracket is S = N - N^T.
+        The matrices x and y are skew-symmetric. With N = x B^T B y, the result is S = N - N^T.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
         # The sizes of x, G and y do not depend on the number of rows of the state, so x G y is cheap.

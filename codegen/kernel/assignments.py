@@ -131,11 +131,8 @@ class Assignments:
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a first value depends on the unknowns of a loop")
         for node in walk(values):
-            # This method returns a statement that computes the first values of the unknowns. If solutions of
-            # earlier steps are stored, a step extrapolates the first values from the stored solutions. In
-            # this case, the step does not execute the assignments inside this statement. However, each step
-            # needs the subexpressions in ``later``. Therefore these subexpressions are assigned before this
-            # statement.
+            # A step with a warm start skips the statement that is built here, but it needs the subexpressions
+            # in ``later``. So they are assigned before this statement.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []

@@ -42,9 +42,7 @@ class Frames:
     @property
     def _alike(self) -> bool:
         """True if ``program`` and the emitted code use the same frame for momenta."""
-        # The left-hand side is true if the program uses the body frame. The right-hand side is true if the
-        # scene has a body group. The scene has a body group if and only if the emitted code uses the body
-        # frame. Therefore both sides are equal if the program and the emitted code use the same frame.
+        # The result is true if the program and the emitted code use the same frame.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
@@ -81,8 +79,7 @@ class Frames:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
         if not self.whole:
             return new
-        # ``outward`` converts the momenta in ``start`` and ``new`` to the space frame. The difference of
-        # these two momenta is added to the momentum in ``state``.
+        # ``outward`` converts the momenta of ``start`` and ``new`` to the space frame.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 
@@ -98,7 +95,8 @@ class Frames:
         )
 
     def carried(self, domain: ExprDomain) -> Carried | None:
-        """Return the kernels that convert the momentum at the beginning and at the end of a run of steps.
+        """Return the kernels that convert the momentum to the body frame at the beginning of a run, and back
+        at the end.
 
         If the two kernels are not needed, the result is None.
         """

@@ -140,8 +140,7 @@ class Increments:
             # If a = x + d, then (a + b) - x = d + b.
             if (rest := self.of(a, name)) is not None:
                 return rest + b if e.op == "add" else rest - b
-            # Let x be the symbol ``name``. If b = x + d, then (a + b) - x = a + d. There is no such formula
-            # for (a - b) - x.
+            # For b = x + d, the result is a + d.
             if e.op == "add" and (rest := self.of(b, name)) is not None:
                 return a + rest
         if e.op == "mul":

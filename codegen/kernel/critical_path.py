@@ -213,7 +213,7 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # Other nodes are not expanded. The sum has one product: the node times 1.
+        # All other nodes remain one factor.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
@@ -223,9 +223,7 @@ class _Chains:
         the total sum.
         """
         x, y = self._product(*a[1:]), self._product(*b[1:])
-        # Without signs, the two products are x and y. The signs ``a[0]`` and ``b[0]`` are 1 or -1. The total
-        # is ``a[0]`` x + ``b[0]`` y. If the signs are equal, the total is ``a[0]`` (x + y). If the signs
-        # differ, the total is ``a[0]`` (x - y).
+        # The factors 1 or -1 in ``a[0]`` and ``b[0]`` are the signs of the two products.
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
     def _product(self, steps: Expr, rest: Expr) -> Expr:

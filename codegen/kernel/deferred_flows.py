@@ -60,8 +60,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # If ``kept`` is empty, all flows can be moved out of the steps. If ``joined`` and ``spun`` are empty, no
-    # flow can be moved out of the steps.
+    # Nothing remains in the loop over steps, or nothing can be moved out of it.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
@@ -72,7 +71,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     # The previous step has already applied the flows in ``heads``, so the core omits them.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
-    # One flow replaces the flows of a part in n steps: exp(h X)^n = exp(n h X) for a vector field X.
+    # For a vector field X, one flow replaces n equal flows: exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
     return Parted(
         verify(_program(program, first)) if first else None,
@@ -158,7 +157,7 @@ def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)
     for number, (letter, duration) in enumerate(letters):
         targets = tuple(Var(f"{v.name}{number + 1}", v.kind) for v in first)
-        # FlowOf has the duration c h with a number c. FlowFor reads its duration from a variable.
+        # The duration of ``FlowOf`` is a fixed multiple of h, and the duration of ``FlowFor`` is a variable.
         operation: Operation = FlowOf(letter.part, letter.duration, bool(letter.time))
         args = (*state, *letter.time)
         if duration is not None:

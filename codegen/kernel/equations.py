@@ -182,14 +182,13 @@ def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
 
 
 class Solved:
-    """Replaces expressions g_i(u) by the unknowns u_i. Both are equal for the solution of u = g(u)."""
+    """Replaces expressions g_i(u) by the unknowns u_i. This is correct for the solution of u = g(u)."""
 
     def __init__(self, block: Block) -> None:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
-            # An image g_i(u) without operations is a symbol or a number. This class replaces an image g_i(u)
-            # by the unknown u_i only if the image contains an operation.
+            # An image without operations is a symbol or a number, which costs nothing to evaluate again.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 

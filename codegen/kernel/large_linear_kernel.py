@@ -61,14 +61,14 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a small linear problem for tests of each compiler pass. A depends on t if ``timed`` is true."""
+    """Return a small linear problem for tests of each compiler pass. Its matrix depends on t if ``timed`` is
+    true."""
     from sympy import Matrix as SquareMatrix
     from sympy import Rational, Symbol
 
     t = Symbol(TIME) if timed else Rational(1, 3)
-    # For two different times s and t, the matrices A(s) and A(t) do not commute in this problem if ``timed``
-    # is true. If the matrices commuted, all commutators would be zero, and an error of a compiler pass in a
-    # commutator would remain undetected.
+    # For different times s and t, the matrices A(s) and A(t) should not commute. Otherwise, all commutators
+    # would be zero.
     A = SquareMatrix(3, 3, lambda i, j: Rational(i + 1, j + 2) * t + Rational(i * j - 1, 3) + (i - j) * t**2)
     return LinearScene(group=GL(3), action=LinearMaps(), A=A, y0=[1, 0, 0], span=(0, 1))
 
@@ -142,8 +142,7 @@ class _Builder:
             for var in _needed(x, statements):
                 self.run(statements[var])
             value = self.values[x]
-            # A :class:`_Value` represents x/h^p, where ``power`` is p. The matrix exponential is applied only
-            # to values with p = 0.
+            # The matrix exponential is applied only to matrices without a power of h.
             if value.power:
                 raise AssertionError(value.power)
             if not value.is_zero:

@@ -80,7 +80,8 @@ class _Element:
 
     Here a is the number ``a``, and lambda is the eigenvalue of the linear operator L for this mode.
 
-    ``b`` contains the coefficients of a linear combination of values of the nonlinearity N.
+    The vector b is a linear combination of values of the nonlinearity N. The attribute ``b`` contains its
+    coefficients.
     """
 
     a: Number
@@ -181,8 +182,7 @@ class _Execution:
                 # Times are in units of h, and the step begins at time 0.
                 self.times[var] = ZERO
             else:
-                # Points are represented by the coefficients of linear combinations (:data:`Sum`). The initial
-                # point of the step is the old state, so the only coefficient is 1.
+                # The initial point of the step is 1 times the old state.
                 self.points[var] = {STATE: _constant(ONE)}
         for assign in program.assigns():
             self._execute(assign)
@@ -269,9 +269,8 @@ class _Execution:
         """Record an evaluation of the nonlinearity N at ``point`` and ``time``."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # N_j is the value of the nonlinearity N in this evaluation. The result represents the vector field
-        # u -> lambda u + N_j. The first argument of ``_Element`` is the factor of lambda u. This factor is
-        # ``ONE``.
+        # The result represents the vector field u -> lambda u + N_j, where the index j belongs to this
+        # evaluation.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
@@ -314,7 +313,7 @@ class _Execution:
             return y
         assert x.power == 1
         if x.a.is_zero:
-            # If x.a is zero, the series of dexp^{-1}_x y ends after two terms: y - [x, y]/2.
+            # If x.a is zero, the series of dexp^{-1}_x y is y - [x, y]/2.
             half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
             return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
         beta = Multiplier.of(BERNOULLI, x.a)

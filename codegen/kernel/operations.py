@@ -90,9 +90,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     if kernel.modes is not None:
         return {STEP: {"transform": kernel.modes.transforms}}
     expansion = kernel.expansion
-    # If ``kernel`` has no outputs, the Taylor polynomial ``expansion`` describes the whole step. In this
-    # case, the operations of the polynomial are counted below. Otherwise, the operations that compute the
-    # outputs are counted.
+    # A kernel without outputs is described by its Taylor polynomial.
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))
     total = operations(arrange(expansion.coefficients))[STEP]

@@ -91,7 +91,7 @@ def function(
             # In ``numbers``, the coefficients of this sum begin at the index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
-            # For a coefficient c = a h^p, each call sets the input x = a. The function computes x h^p.
+            # The function itself multiplies by the power of h of a coefficient.
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [
@@ -130,7 +130,7 @@ def calls(kernel: Kernel) -> dict[str, int]:
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
         if name in places:
-            # A call has one node for each result. These nodes have equal arguments and count as one call.
+            # All nodes with equal arguments belong to one call.
             places[name][tuple(a.id for a in node.args)] = None
     return {name: len(calls_of_it) for name, calls_of_it in places.items()}
 
@@ -197,7 +197,7 @@ def rewritten(
                 waiting.pop()
                 continue
             call = calls.get(node.id)
-            # The operands of the new node: the arguments in ``calls``, or the operands of ``node``.
+            # A call reads the arguments of the call, and not the operands of ``node``.
             below = node.args if call is None else call[2]
             missing = [a for a in below if a.id not in new]
             if missing:

@@ -146,7 +146,8 @@ class Trees:
                 # ``owner`` does not contain the assignments for which ``may_join`` is false.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # The key of the joined tree shows how tree j uses the result of tree i.
+                    # Two pairs are equal only if their second trees use the results of the first trees in the
+                    # same way.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
             # The choice is greedy: the pair that saves the most lines is joined first.
@@ -180,7 +181,7 @@ class Trees:
         i, j = places[0]
         # If the first or second tree also occurs elsewhere, its own function remains in the code.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # For each pair, one call replaces two calls. This saves about three lines.
+        # Each joined pair saves a call, which is about three lines.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:

@@ -232,7 +232,7 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
     """
     if isinstance(statement, Let):
         return [statement.value]
-    # A step may skip a ``Start`` statement. Therefore the result contains no expressions of such a statement.
+    # The expressions of a ``Start`` statement are excluded, because a step may skip this statement.
     return statement.starts if isinstance(statement, Loop) else []
 
 

@@ -18,8 +18,7 @@ LONGEST = 64
 arguments of earlier calls.
 
 In the methods of the gallery, arguments that are equal to an earlier argument have 12 to 42 nodes. For nine
-methods of the gallery, the limits 64, 128 and 256 give the same kernels. The limit 32 changes one of these
-kernels. Some of the equal arguments have more than 32 nodes, but none of them has more than 64 nodes.
+methods of the gallery, the limits 64, 128 and 256 give the same kernels. The limit 32 changes one of them.
 """
 
 

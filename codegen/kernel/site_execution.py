@@ -185,8 +185,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # A ghost is a value to be used if the neighbour is outside the lattice. ``self.ghosts`` maps each
-        # symbol to one ghost. If a symbol is already mapped to a different ghost, new symbols are needed.
+        # New symbols are needed if the same symbols would get two different ghosts (values outside the
+        # lattice).
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
@@ -212,7 +212,7 @@ class Execution:
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
-            # The ghosts must have the same order as the loads (:class:`codegen.ir.site_step.Sweep`).
+            # ``ghosts`` must have the same order as ``self.loads`` (:class:`codegen.ir.site_step.Sweep`).
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
             # All values that the ghosts depend on are loaded, too.

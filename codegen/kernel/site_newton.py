@@ -147,7 +147,7 @@ class Linearisation:
         if var.kind is Kind.REAL:
             return self.domain.space.sym(var.name)
         blocks = {block.name: block.symbols for block in self.problem.state}
-        # All variables of other kinds are stored in rows of the lattice arrays.
+        # A variable is stored in rows of the lattice arrays, one row for each coordinate.
         rows = self.rows[var]
         names = blocks[var.name] if var in self.given else [f"{var.name}_{k}" for k in range(len(rows))]
         if site != OWN:

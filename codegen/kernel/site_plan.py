@@ -103,8 +103,7 @@ class Planner:
             # it also reads the old values.
             need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
         count = self._store(needs)
-        # The stopping rule of fixed-point iteration needs rows of the workspace. That of Newton's method
-        # needs none.
+        # Only the stopping rule of fixed-point iteration needs rows of the workspace.
         measured = MEASURED if self.blocks and not self.newton else 0
         sweeps = tuple(
             self._sweep(k, need, outputs if k == last else (), needs[k + 1 :], count)
@@ -130,7 +129,7 @@ class Planner:
         # The rows of the workspace contain, in this order: variables, residuals, ``border`` and ``matrix``
         # (:class:`codegen.ir.site_step.SiteNewton`).
         border = count + most
-        # A periodic chain couples the first site to the last site, hence the border.
+        # A periodic chain needs ``most * most`` more rows, because its first and last sites are coupled.
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):

@@ -160,8 +160,8 @@ class _Translation:
             # ``gathered`` combines numeric factors, but does not rewrite the expressions ``known``.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # Outlined functions cannot read run-time inputs. An operation with a time argument may read these
-        # inputs.
+        # An operation with a time argument may read run-time inputs, but an outlined function cannot read
+        # them.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
         # The current block is added to ``blocks`` later, so its index is the length of ``blocks``.
         place = len(self.blocks) if self.inside else -1
@@ -354,7 +354,7 @@ def _outlined(
     # A value in ``kept`` is removed if no expression in ``flat`` reads the value.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
-    # ``flat`` contains all blocks, because different blocks may repeat the same computation.
+    # All blocks are outlined together, because different blocks may repeat the same computation.
     flat += [x for block in blocks for _, x in block.kept]
     owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
     shorter = outline.run(flat, owners)

@@ -193,7 +193,8 @@ class Sided:
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Find the first event in a step from (y, t), and set ``sides`` to the cases after the event.
+        """Find the first event in a step from (y, t), and set ``sides`` to the formulas that are valid after
+        the event.
 
         At an event, a margin is zero (:meth:`margins`). The result is the time and the state of the event, or
         None if the caller must try a shorter step.

@@ -197,8 +197,8 @@ def spread(times: Sequence[float]) -> float | None:
 
 
 def _batch(call: Callable[[], object], calls: int) -> float:
-    # If the CPU time of the process is limited (``ulimit -t``), its CPU clock lags by a few milliseconds.
-    # The CPU clock of the thread is accurate, but omits other threads.
+    # The CPU clock of the process can lag by a few milliseconds, and the CPU clock of the thread omits other
+    # threads. So both clocks are read.
     start, own = time.process_time(), time.thread_time()
     for _ in range(calls):
         call()

@@ -116,7 +116,8 @@ def lower(scene: Problem, method: Method) -> Program:
 def lower_composed(scene: Problem, method: Method) -> Program | None:
     """Return the program of one substep of a composition, or None if a step cannot be divided into substeps.
 
-    The program lists the length and the initial time of each substep.
+    The program is the same for all substeps. Its attribute ``substeps`` contains the length and the initial
+    time of each substep.
     """
     # The steps of some families have no substeps. A step of a VRKMK method, for example, is one exponential.
     if not lowering(method.family).repeats_substeps:

@@ -26,8 +26,7 @@ class CayleyLowering(LinearLowering):
 
         The family accepts a scene if the equation has the form y' = A(t).y and the group has a Cayley map.
         """
-        # If the equation does not have the form y' = A(t).y, the base class returns the reason why the family
-        # does not accept the scene. If the equation has this form, the base class returns None.
+        # The equation must be linear: y' = A(t).y. Otherwise, the base class returns a reason.
         linear = super().objection(scene)
         group = scene.as_field().group
         if linear is not None or group.offers(CayleyMap) is not None:

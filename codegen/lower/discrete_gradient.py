@@ -140,7 +140,7 @@ def _agrees(scene: Problem) -> bool:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # If gamma = 0, ``image`` is zero. The result is then False if f is not zero.
+        # If ``image`` is zero and f is not, the result is False.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

@@ -173,8 +173,7 @@ class FlowLowering(Lowering):
                 # A summand of the Hamiltonian can depend on time. The flow of such a summand is computed for
                 # a fixed value of the time. This value is the argument ``time``.
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # The flow of the summand ``carrier`` advances the time. The summand ``carrier`` does not depend
-            # on t.
+            # Only the flow of the summand ``carrier`` advances the time.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
@@ -272,7 +271,7 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The first summand without t is chosen. With any other choice, the order would be the same.
+        # The order of accuracy is the same for each choice, so the first summand without t is chosen.
         if not summand.timed:
             return summand
     raise MethodError(

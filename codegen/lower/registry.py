@@ -72,7 +72,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
             f'the class {lowering.__name__} does not set the attribute "family"',
             expected='family = "NAME" in the class',
         )
-    # Each family has one lowering. A second class would replace the first class.
+    # Each family has one lowering, so a second class would replace the first one.
     known = _lowerings().get(lowering.family)
     # A second call with the same class is harmless, so only another class is an error.
     if known is not None and type(known) is not lowering:
@@ -140,7 +140,8 @@ def families_for(scene: Problem) -> tuple[str, ...]:
 
 def _lowerings() -> dict[str, Lowering]:
     """Return the lowerings of all families, with the names of the families as keys."""
-    # The first call adds the built-in lowerings. Their import at the top of this file would be circular.
+    # An import of the built-in lowerings at the top of this file would be circular, so the first call adds
+    # them.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())
     return _registered

@@ -85,10 +85,7 @@ class MuntheKaas(FieldLowering):
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of a method.
-
-        If ``method.cutoff`` is None and the coordinate map is exp, ``failing`` is empty in the result.
-        """
+        """Return the order of a method."""
         if method.cutoff is not None or (scene is not None and scene.coordinates is not None):
             return super().order(method, scene)
         return _order(self, method)

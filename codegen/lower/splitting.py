@@ -127,9 +127,7 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
 
     Each pair (beta_i, alpha_i) contains the durations of Phi* and Phi in units of the step size.
     """
-    # Let A be the part whose flow acts first, and B the other part. Phi* applies first A and then B. Phi
-    # applies first B and then A. The composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... consists
-    # of the flows A_{beta_1}, B_{beta_1 + alpha_1}, A_{alpha_1 + beta_2}, and so on.
+    # In the composition, neighbouring flows of the same part are one flow, for example B_{beta_1 + alpha_1}.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:

@@ -101,7 +101,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
             [[x / total for x in row] for row in (*([A[i][j] for j in g] for i in g), [b[j] for j in g])]
             for g, total in zip(groups, sums, strict=True)
         ]
-        # ``scaled`` contains the tableau of each group of stages. All coefficients are divided by ``total``.
+        # ``scaled`` contains the tableau of each group of stages.
         first = scaled[0]
         # Explicit substeps are excluded, because a loop would hide common subexpressions.
         if all(rows == first for rows in scaled) and _implicit(first):

@@ -80,7 +80,7 @@ def brackets(method: Method) -> int:
     MethodError is raised for a method without a cut-off.
     """
     if method.cutoff is None:
-        # The compiler chooses the brackets only for ``rkmk`` methods. Here the user must give the cut-off.
+        # Without a cut-off of the series, the number of brackets is unknown.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} needs a cut-off", expected=f"the number of brackets, as in {family}(2):{name}"

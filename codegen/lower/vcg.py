@@ -39,8 +39,7 @@ class VariationalCrouchGrossman(VariationalLowering):
         return _program(problem, method)
 
 
-# If a_ji = b_i, the product b_j (a_ji/b_i) must be exactly b_j, even for balls (intervals). The quotient
-# a_ji/b_i is therefore computed before the product with b_j.
+# The quotient a_ji/b_i is computed first, because it is exactly 1 if a_ji = b_i.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs

@@ -134,8 +134,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # The pass "blocks" determines which variables depend on the unknowns. A term with coefficient zero
         # would count as a dependency, so the pass "zeros" comes earlier.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # The pass "factored maps" counts the operations that read the value L(x) of a linear map L. Unused
-        # operations are removed before the count.
+        # The pass "factored maps" counts how often each value is read, so unused operations are removed
+        # before it.
         Pass("unused values", UNUSED, dead.run),
         # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y).
         Pass("factored maps", FACTORED, factor_linear.run),

@@ -60,7 +60,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     for component in order:
         inside = set(members[component])
         assigns = [block.body[k] for k in members[component]]
-        # An unknown is in ``own`` if the component reads it and computes the right-hand side of its equation.
+        # ``own`` contains the unknowns of the new block.
         own = [
             u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)
         ]

@@ -116,9 +116,7 @@ class _Framing:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
         E = self.relative[element]
-        # Let q' = q E~ be the final position. In the new program, the variable ``E`` contains E~. Because
-        # Ad*_{q'} = Ad*_{E~} Ad*_q, the map Ad*_{E~} transforms the momentum from the body frame at q to the
-        # body frame at q'.
+        # ``E`` is the group element with q E = q', where q is the initial and q' the final position.
         m = momentum if E is None else self.build.adjoint("m", E, momentum)
         ends = {"q": self.names.get(element, element), "mu": m}
         body += self.build.take()

@@ -172,7 +172,8 @@ class Reference:
                 yield result
 
     def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
-        """Return the arithmetic (``digits`` decimal digits, step size h) and the state at the start.
+        """Return an arithmetic with ``digits`` decimal digits in which the step size is h, and the state at
+        the start.
 
         The state is the initial state of the scene, or a nearby state if ``moved`` is True.
         """

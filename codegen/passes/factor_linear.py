@@ -15,7 +15,7 @@ def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
     # Every round removes at least one map, so the loop ends.
     while True:
-        # Unused operations are removed: ``rewriter.uses`` of the next round must not count them.
+        # The next round counts uses, so unused operations are removed.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return program

@@ -25,8 +25,7 @@ from codegen.scene.problem import Problem
 
 def run(program: Program, scene: Problem) -> Program:
     """Combine successive functions of ad_x, if the group has closed forms for products of such functions."""
-    # Without a closed form, the product f(ad_x) g(ad_x) needs as many Lie brackets as f(ad_x) and g(ad_x)
-    # together. The program is not changed, because combining f and g would save nothing.
+    # Without a closed form, combining f and g would not save Lie brackets.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
@@ -123,8 +122,8 @@ def _distributed(
 
     Each entry of ``parts`` is a tuple (s, (y, W, v)). In this tuple, s is a rational number, y and v are
     variables, and W is a function, given by its factors. Let F be the function whose factors are in ``word``.
-    The term for the entry is c F(s ad_y) W(ad_y) v. The number c is the coefficient of the corresponding term
-    in the sum ``total``. The result is the variable of the new sum.
+    The term for the entry is c F(s ad_y) W(ad_y) v, where c is the coefficient of the same term in ``total``.
+    The result is the variable of the new sum.
     """
     terms = []
     for scale, (y, inner, v) in parts:

@@ -29,7 +29,7 @@ def run(program: Program) -> Program:
     computed once.
     """
     while True:
-        # Unused sums are removed: ``rewriter.uses`` of the next round must not count them.
+        # The next round counts uses, so unused sums are removed.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -87,11 +87,10 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # ``relative`` contains all coefficients of v, divided by the first coefficient of v. The values of a
-        # group have equal tuples ``relative``.
+        # Values with proportional coefficients have equal tuples ``relative``.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
-        # ``distinct`` is False if a sum contains v twice, with two powers of h. Such values v are omitted.
+        # ``distinct`` is False if a sum contains v twice, with different powers of h.
         distinct = len({k for k, _ in places}) == len(places)
         # The quotients in ``relative`` must not contain negative powers of h.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):

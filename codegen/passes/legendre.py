@@ -71,8 +71,7 @@ def run(program: Program, scene: Problem) -> Program:
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # At the solution, each unknown equals its image (the right-hand side of its equation). Later
-        # statements read the unknown in place of its image.
+        # Later statements read the unknown, because it equals its image at the solution.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -115,7 +114,8 @@ def path(block: Solve, unknown: Var) -> Path | None:
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the invertible linear maps from a value u to ``var``, and the assignment of u, if any.
+    """Find a value u from which invertible linear maps compute ``var``. Return these maps, and the assignment
+    of u or None.
 
     The maps are in order of application.
     """
@@ -218,8 +218,7 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # A later pass removes the new variables that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # Assignments outside ``route`` still read the old variable ``route.base`` if two conditions hold. First,
-    # ``route.inward`` is not empty. Second, ``route.base`` is not an unknown of ``block``.
+    # In this case, assignments outside ``route`` still read the old variable ``route.base``.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # The assignments of ``route`` keep their old arguments.

@@ -100,7 +100,7 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A sum can contain a value twice, with two powers of h. Such combinations are omitted.
+        # A sum that contains a value twice is omitted.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # All coefficients are divided by the first, so proportional combinations become equal.

@@ -142,6 +142,6 @@ class Interface:
 
 def _order_of_extension(kernel: Kernel) -> int:
     """Return the order of the continuous extension of a kernel, or 0 if there is none."""
-    # ``kernel.observed`` describes a run to a given end time. Only such a run uses the extension.
+    # Only a run to a given end time uses the continuous extension.
     extension = None if kernel.observed is None else kernel.observed.extension
     return 0 if extension is None else extension.order

@@ -88,7 +88,7 @@ class ModeFormulas:
         # Coefficients of the old state have no factor h.
         if not table.power:
             return inner
-        # Coefficients of values of the nonlinear part have the factor h.
+        # Values of the nonlinear part are multiplied by h.
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:

@@ -19,8 +19,7 @@ def functions_of(unit: Unit) -> tuple[str, ...]:
             if term.value is not None:
                 # If ``n`` is a function call, ``n.payload`` is the name of the function.
                 names |= {n.payload for n in walk([term.value]) if n.op == "call"}
-        # The module itself defines the functions in ``unit.parts``. The caller of the module supplies the
-        # functions in ``LANGUAGE``.
+        # The caller of the emitted code supplies the functions in ``LANGUAGE``.
         calls = (s.function for s in statements(function.body) if isinstance(s, Call))
         names |= {name for name in calls if name not in unit.parts and name not in LANGUAGE}
     # The names are sorted, because the order of a set varies between runs.

@@ -318,8 +318,7 @@ def constant_entry(
         return [], real(table, len(given))[place]
     read = {node.payload for node in walk([given]) if node.op == "sym"}
     indices = ((ROW, row), (COLUMN, column))
-    # An index is converted only if the formula contains it. Otherwise, C compilers would report an unused
-    # variable.
+    # Only indices in the formula are converted, because C compilers report unused variables.
     before: list[Statement] = [Assign(own(s), narrow(wide(at))) for s, at in indices if s in read]
     return before, value(given)
 

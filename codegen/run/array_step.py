@@ -220,8 +220,7 @@ class _Exponential:
         # eigenvalues of a skew matrix form conjugate pairs, so the squared spectral norm is at most half of
         # ``square``.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
-        # Rounding may make ``square`` slightly negative. For a finite ``square``, ``square - square`` is
-        # zero. For a NaN it is a NaN.
+        # Rounding can make ``square`` slightly negative. Then the norm is 0, but a NaN remains a NaN.
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))
@@ -231,8 +230,7 @@ class _Exponential:
         yield from self.terms(norm * scale)
         yield from self.begun()
         yield For(part, parts, tuple(self.advanced(scale)))
-        # If even ``MOST_PARTS`` factors are too few, the series is inaccurate. The result is set to NaN, so
-        # the step returns NOT_FINITE.
+        # With more parts than ``MOST_PARTS``, the series is inaccurate, so the result is set to NaN.
         lost = For(
             _PLACE,
             whole(self.target.size),
@@ -266,7 +264,8 @@ class _Exponential:
         yield from self.loops.statements(Combination(self.target, terms))
 
     def advanced(self, scale: Term) -> Iterator[Statement]:
-        """Yield the statements that multiply the current point by exp(``scale`` B S B^T)."""
+        """Yield the statements that multiply the current point by the matrix exponential of ``scale`` B S
+        B^T."""
         m, k, loops = self.core.rows, self.target.columns, self.loops
         total, term, following = (loops.array(x) for x in (self.total, self.term, self.next))
         terms, order, factor = count("terms"), count("order"), real("ratio")

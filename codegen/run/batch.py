@@ -168,8 +168,7 @@ def _advance_lanes(plan: Plan) -> Function:
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
         ]
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The kernel does not read the components in ``unread``, so their old values are tested, too. The
-    # difference x - x is 0 only if x is finite.
+    # Components that the kernel does not read can be NaN, too, so they are tested.
     unread = [own(s) for s in plan.symbols if s not in read]
     check = real("check")
     passed = check.equals(number(0.0))

@@ -19,11 +19,8 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # After a failed step with a warm start, :mod:`codegen.run.continuation` determines the status. To find
-    # the cause of a failed step, the emitted function makes a test step of size zero. This test step
-    # evaluates run-time inputs only at the time at the beginning of the failed step. If an input is a NaN at
-    # a later time, the test step does not find this cause. Therefore the function is not emitted if the
-    # problem has run-time inputs.
+    # The function makes a test step of size zero, which cannot find a run-time input that is a NaN at a later
+    # time.
     return plan.start is None and not plan.kernel.inputs
 
 

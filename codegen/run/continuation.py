@@ -132,12 +132,10 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of the last failed attempt.
 
-        There is one exception: the result is TOO_FAR in place of NOT_FINITE if a shorter step succeeded and
-        the problem has no run-time inputs.
+        NOT_FINITE is replaced by TOO_FAR if a shorter step succeeded. This is omitted for problems with
+        run-time inputs.
         """
-        # A run-time input can be NaN near the end of the full step. In this case, a shorter step can succeed,
-        # but the length of the full step is not the cause of the failure. Therefore the result is not TOO_FAR
-        # if the problem has run-time inputs.
+        # A run-time input may be the cause of the failure, and not the length of the step.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))

@@ -101,8 +101,8 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies the kernel of ``plan`` to the state."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The callers test whether the state is finite, but only after all deferred flows. Until then, a
-    # non-finite state remains non-finite.
+    # The state is tested after all deferred flows, because a state that is not finite cannot become finite
+    # again.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 

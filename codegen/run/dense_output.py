@@ -73,8 +73,7 @@ class DenseOutput:
         # The polynomials in theta have no constant term. For each polynomial, Horner's rule computes the
         # factor ``total``. The polynomial is theta times ``total``.
         horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
-        # The result is exp(x) applied to the old state. The polynomials in theta are the coordinates of x.
-        # The array ``pair`` contains the old state and the coordinates of x.
+        # The result is exp(x) applied to the old state, where the coordinates of x are polynomials in theta.
         body = (
             Array(pair),
             Assign(pair.part(0, plan.size), state),

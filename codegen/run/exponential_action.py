@@ -26,8 +26,7 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     norm, scale, weight = real("norm"), real("scale"), real("weight")
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
-    # If the norm is at most ``bounds[k]``, a Taylor polynomial of degree ``sizes[k]`` is accurate enough. The
-    # loop starts with the innermost conditional expression. The outermost test is for the lowest degree.
+    # The degree is the first of ``sizes`` whose bound is at least the norm, or the last of ``sizes``.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
@@ -87,8 +86,7 @@ def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
     """Return the statements that compute ``norm``, the infinity norm (largest absolute row sum) of ``a``."""
     row = real("row_sum")
     larger = Assign(norm, select(row > norm, row, norm))
-    # For a large matrix, loops compute the sums. For a small matrix, each row has its own sum, and entries
-    # that are always zero are omitted.
+    # Loops compute the sums for a large matrix. For a small matrix, the sums are unrolled.
     if function.n > SPARSE:
         added = Assign(row, row + size(a[function.n * _ROW + _COLUMN]))
         inner = (Assign(row, number(0.0)), For(_COLUMN, whole(function.n), (added,)), larger)

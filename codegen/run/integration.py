@@ -121,8 +121,7 @@ class _Constant:
     def own_step(self) -> bool:
         """True if each step calls the function ADVANCE. False if each step calls ``run``."""
         plan = self.plan
-        # The result is False in three cases: flows are deferred, the momentum is converted, or the kernel is
-        # inlined.
+        # Such a step is not a single call of the kernel.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:

@@ -119,9 +119,8 @@ class _Step:
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
-            # All exponents without commutators use the function EXPONENTIAL. The matrix is an argument of
-            # EXPONENTIAL, so this function is the same for all these exponents. ``Element(0)`` is an example
-            # of such an exponent.
+            # The matrix is an argument of EXPONENTIAL, so all exponents without commutators share this
+            # function.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
@@ -188,8 +187,7 @@ class _Step:
         The pair (X, Y) is ``step.commutators[number_of]``.
         """
         left, right = self.step.commutators[number_of]
-        # The method ``letters`` needs an ``Element``. This ``Element`` is the commutator with the coefficient
-        # 1.
+        # ``letters`` needs an ``Element``: 1 times the commutator.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
@@ -229,9 +227,8 @@ class _Step:
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
-        # Horner's rule computes p. This vector is the sum of (m!/j!) b^(j - 1) y over j = 1, ..., m. Here m
-        # is the degree, y is the state, and b is X times ``scale``. The integers m!/j! are exact. The usual
-        # coefficients 1/j! have rounding errors that would accumulate over many steps.
+        # The coefficients m!/j! are exact integers. The rounding errors of 1/j! would accumulate over many
+        # steps.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
@@ -344,8 +341,7 @@ class _Step:
 
         ``x`` is the time t or the step size h.
         """
-        # For a banded matrix, the function computes h A(t). For a full matrix, the function computes
-        # only subexpressions of A(t), and h is not an argument.
+        # For a full matrix, the function computes only subexpressions of A(t), without h.
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:

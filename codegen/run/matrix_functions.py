@@ -233,8 +233,8 @@ class _Exponential:
         The argument of exp is ``powers[0]``, a matrix with derivatives. The norm ``norm`` of the matrix
         determines the degree: 4, 8, 12 or 16.
         """
-        # The method of Paterson and Stockmeyer evaluates a polynomial of degree 4 g in b = ``powers[0]``. The
-        # method applies Horner's rule in b^4 to g groups of four terms.
+        # The polynomial is evaluated by the method of Paterson and Stockmeyer: Horner's rule in the fourth
+        # power of the matrix.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
         # The degree 4 suffices for norms up to ``first``, 8 up to ``second``, and 12 up to ``third``.
@@ -306,7 +306,7 @@ class _Exponential:
         error, bound = real("error_bound"), real("bound")
         body = (
             self.norm(result, bound),
-            # The spectral norm is at most ``growth``, and at most the Frobenius norm (``bound``).
+            # Both ``growth`` and the Frobenius norm are upper bounds of the spectral norm.
             Assign(bound, select(bound < growth, bound, growth)),
             # The norm of the n x n matrix is at most r = ``bound``, and its error is at most e = ``error``.
             # With the unit roundoff u, the error of the computed square is at most about

@@ -59,8 +59,7 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         # The group element q is the same in both frames, so it is copied.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
-        # ``_leave`` computes the converted final momentum minus the array ``before``. Both momenta are
-        # results of ``to_space``, so their rounding errors nearly cancel.
+        # The rounding errors of the two converted momenta nearly cancel in their difference.
         Call("to_space", (moving, before)),
     )
     about = (

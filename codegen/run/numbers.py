@@ -20,9 +20,8 @@ def numbers_held(unit: Unit) -> int:
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
-    # A compiler may inline all private functions into one public function, so the result
-    # includes the numbers of all private functions. Only one public function runs at a time, so only the
-    # largest one is counted.
+    # A compiler may inline all private functions, so all their numbers are counted. Only one public function
+    # runs at a time.
     return sum(held.values()) - sum(public) + max(public)
 
 

@@ -40,8 +40,6 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
-        # If ``kernel.state`` contains a variation, the variation is the last element of ``kernel.state``. No
-        # element after the variation reads ``start``, so the length of the variation can be added to
-        # ``start``.
+        # The variation is last, so no later element reads this ``start``.
         start += n
     return tuple(result)

@@ -125,8 +125,8 @@ class _Scopes:
             if name in self.own(statement):  # the variable occurs outside the inner blocks
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # An inner block may read a value that was assigned in another inner block. In this case, the variable
-        # must be declared in ``body``, so the result is empty.
+        # If an inner block reads a value from another inner block, the variable must be declared outside
+        # both.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result

@@ -102,8 +102,8 @@ class _Kick:
         # In the kernel of a kick, the symbol h denotes the duration of the kick.
         given = {STEP.text: duration, TIME.text: moment}
         scalars = tuple(given.get(x.text, x) for x in self.loop.scalars)
-        # A kick is never the first flow of a step. Earlier flows of the step have written the new state to
-        # the array RESULT, so the kick only changes this array.
+        # The first flow of a step has written the new state to the array RESULT, and the kick changes this
+        # array.
         return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 
@@ -131,9 +131,7 @@ class _Part:
         _, inside, _ = split(self.own.kernel, set())
         # The functions ``sqrt``, ``fabs`` and ``choose`` never have branches, so they need no fast variant.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
-        # The functions in VECTORISED and the Stumpff functions can be computed without branches. A function
-        # that is neither in VECTORISED nor a Stumpff function has branches. A loop with such a function
-        # cannot use vector instructions, so fast variants of sines would save no time in this loop.
+        # If a called function has branches, compilers cannot use vector instructions for the loop.
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
         return bool(called) and able
 
@@ -190,7 +188,8 @@ class _Part:
             # If the second index is PLACE + 1, compilers can load both sites of a pair with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # Only flows of single sites test for infinities and NaNs. The last flow of a step is such a flow.
+        # Only flows of single sites test for infinities and NaNs, because the last flow of each step is one
+        # of them.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
@@ -301,8 +300,7 @@ class _Part:
             else:
                 body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
-                # The first site of this pair is in the last column, which has an odd index. Therefore the
-                # pair has the colour 1.
+                # The last column has an odd index, so its pairs have the colour 1.
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:

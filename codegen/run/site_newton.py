@@ -113,9 +113,8 @@ class ChainSolver:
 
         The border consists of the columns of the matrix that multiply the unknowns of the last site.
         """
-        # The emitted function ``substitute`` solves linear equations. The right-hand side can be a column of
-        # the border or the residuals. Therefore a column of the border and the residuals are stored in the
-        # same way.
+        # The emitted function ``substitute`` accepts residuals or a column of the border, so both have the
+        # same layout.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
@@ -215,7 +214,7 @@ class ChainSolver:
         # The caller tests the number of singular pivot blocks.
         counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
         # The pivot block is B_i - A_i D_{i-1}^{-1} C_{i-1}. At site i - 1, the block RIGHT already contains
-        # D_{i-1}^{-1} C_{i-1}.
+        # At site i - 1, the block RIGHT was already multiplied by the inverse of the pivot block.
         left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
         pivot = (
             Assign(_SUM, self.cell(_SITE, OWN_BLOCK, _I, _J)),
@@ -303,7 +302,7 @@ class ChainSolver:
         for k, symbol in enumerate(self.step.sweeps[self.block.last].unknowns):
             unknown = entry_of(self.step, rows[symbol], PLACE)
             # The solution of the linear equations consists of the changes of the unknowns. The solution has
-            # overwritten the residuals.
+            # The changes of the unknowns have overwritten the residuals.
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
                 Assign(most, greatest([most, size(change)])),

@@ -52,7 +52,8 @@ ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str, Term], ...] = ()) -> For:
     """Return a parallel loop over ``number`` consecutive sites, divided into chunks of CHUNK sites.
 
-    ``body`` computes the SIZE sites that begin at the index FIRST.
+    ``body`` computes the sites of one chunk. FIRST is the index of its first site, and SIZE is the number of
+    its sites.
     """
     rest = number - FIRST
     # The last chunk may have fewer sites than the other chunks.
@@ -90,8 +91,7 @@ def padded(sites: Count) -> Count:
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
     """
-    # Let k be the integer quotient (sites + 7) // 16. The result is 16 k + 8 = 8 (2 k + 1), and the factor
-    # 2 k + 1 is odd.
+    # The result is 8 times an odd number.
     return (sites + 7) // 16 * 16 + 8
 
 

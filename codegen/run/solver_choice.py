@@ -1,9 +1,9 @@
 """The choice of a solver for each block of equations: fixed-point iteration, Newton's method or simplified
 Newton.
 
-Newton's method can keep its matrix for several steps. Simplified Newton computes a new matrix in each step or
-substep. This matrix is correct to first order in h. Fixed-point iteration needs no matrix, and each sweep
-multiplies the error by a factor O(h).
+Newton's method here keeps its matrix for several steps. Simplified Newton computes a new matrix in each step
+or substep, but only to first order in h. Fixed-point iteration needs no matrix, and each sweep multiplies the
+error by a factor O(h).
 
 The solver with the shortest predicted time is chosen, but robust solvers are preferred. The first trial of a
 solver (:mod:`codegen.run.trial`) makes :data:`STEPS` steps from the initial state of the problem's example.
@@ -15,8 +15,8 @@ of :data:`LONGER` times this size. A solver is robust if it converges in both tr
 :data:`SWEEPS` sweeps in the second trial.
 
 A robust solver is preferred if its predicted time is at most :data:`PRICE` times the time of the fastest
-solver. Without this limit, a step would take 5 to 14 times as long for some problems of the gallery with 24
-or 36 unknowns (``benchmarks/README.md``).
+solver. Without this limit, some methods of the gallery would be 5 to 14 times as slow
+(``benchmarks/README.md``).
 
 For linear equations, a robust solver is preferred at any cost, because the step size can be much larger.
 """
@@ -298,9 +298,7 @@ class _Selection:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
-        # Normally only the robust solvers are allowed. In two cases, every solver that converges is allowed.
-        # In the first case, no solver is robust. In the second case, the equations are nonlinear, and each
-        # robust solver takes more time for a step than ``PRICE * least``.
+        # For nonlinear equations, a robust solver must not be slower than ``PRICE * least``.
         if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
@@ -357,12 +355,7 @@ class _Selection:
         The first of these trials must have converged. Newton's method is an exception: if the equations are
         linear and fixed-point iteration is not robust, Newton's method is tried without regard to the limit.
         """
-        # The result is the step time of ``candidate``, multiplied by a factor. If ``candidate`` is robust,
-        # the factor is 1. If ``candidate`` is not robust, the factor is usually PRICE, which is above 1. A
-        # robust solver is preferred to ``candidate``, even if the robust solver is slower by a factor of up
-        # to PRICE. The factor PRICE is replaced by 1 if ``solver`` is Newton's method and the equations have
-        # more than LARGE unknowns. The limit is lower in this case, because trials take a long time for more
-        # than LARGE unknowns.
+        # A robust solver is preferred, even if it is slower by a factor of up to PRICE.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 

@@ -68,8 +68,8 @@ def kernel_step(plan: Plan) -> Function:
     # The results do not depend on unread entries of the state, so a test of the results does not find a NaN
     # in an unread entry. A NaN in an unread entry must be found here.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
-    # In the emitted code, the statements for the guess for the next step come before the statements for the
-    # outputs. With this order, a processor can execute both groups of statements at the same time.
+    # The initial guess for the next step is computed first, because a processor can compute it and the
+    # outputs at the same time.
     inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
     array = whole_result(plan.arrangement.outputs)
     finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)

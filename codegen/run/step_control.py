@@ -276,8 +276,8 @@ class Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed after a rejected step.
 
-        The next step is shorter. If the next step changes the time (after rounding), the status is set to OK,
-        and the run continues. Otherwise the status keeps its value.
+        The run continues with a shorter step, and the status is set to OK. If this step is too short to
+        change the time in floating-point arithmetic, the status keeps its value, and the run ends.
         """
         # If a step fails and no shorter step is possible, the run ends with the status of the failed step.
         following = real("next")

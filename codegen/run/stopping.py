@@ -111,8 +111,7 @@ class Stopping:
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            # With the stored rate of convergence, a loop can end after one sweep (Hairer and Wanner). If no
-            # rate is stored, the rate is 1 (no convergence).
+            # With a stored rate of convergence, one sweep can be enough (Hairer and Wanner).
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -135,8 +134,8 @@ class Stopping:
             return []
         first = self.plan.memory.field("first")
         return [
-            # ``first`` is the largest change in the first sweeps of all loops. If ``first`` is large, the
-            # initial guess was bad, and the warm start discards the stored solutions.
+            # ``first`` is the largest change in a first sweep. If it is large, the stored solutions gave a
+            # bad initial guess.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
                 # If the changes are as small as rounding errors, their quotient may be tiny by accident, so
@@ -151,11 +150,8 @@ class Stopping:
         # The tolerances are multiples of the unit roundoff, so they are larger in single precision.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # ``next_change`` tests whether the product of CHANGE and the rate is at most ``form.unit * SCALE``.
-        # Without a warm start, the rate is CHANGE / ``previous``. To avoid a division by zero, both sides of
-        # ``next_change`` are multiplied by ``previous`` if there is no warm start. In the first sweep
-        # ``previous`` is 0. Without a warm start, ``next_change`` in the first sweep is the test
-        # CHANGE * CHANGE <= 0, which is true only if CHANGE is zero.
+        # Without a warm start, both sides of the test are multiplied by ``previous``, because ``previous`` is
+        # zero in the first sweep.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm

@@ -127,8 +127,7 @@ class StoredMatrix(ABC):
         """
         total: Term | None = None
         for term, given, table in entries:
-            # ``constant_entry`` returns a list of statements and the entry. The list is ignored here, because
-            # the method named ``before`` returns the same statements.
+            # Only the entry is needed, because the method ``before`` returns the statements.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             # No multiplication is emitted for the coefficient 1.
@@ -231,13 +230,7 @@ class BandedMatrix(StoredMatrix):
 
 
 class FullMatrix(StoredMatrix):
-    """A matrix whose entries are computed from the row i and the column j and are not stored.
-
-    The array for a time t_i contains the values of those subexpressions of the entries that are independent
-    of i and j.
-
-    The array of the sum of w_i h A(t_i) contains the numbers h w_i, followed by the arrays for all times t_i.
-    """
+    """A matrix whose entries are computed from the row i and the column j and are not stored."""
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         super().__init__(matrix, columns, nodes)
@@ -266,9 +259,8 @@ class FullMatrix(StoredMatrix):
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
         """Return the statements that store data on the linear combination ``letter`` in the array ``target``.
 
-        The data are not the matrix entries of the linear combination. A matrix entry is computed from the
-        data whenever the entry is needed. First come the coefficients of ``letter``, multiplied by the step
-        size h. Copies of the arrays in ``nodes`` follow.
+        The data are the coefficients of ``letter``, multiplied by the step size h, and copies of the arrays
+        in ``nodes``. Matrix entries are computed from the data when they are needed.
         """
         weights = dict(letter)
         # If the linear combination does not contain the matrix A(t_i), its coefficient is zero.
@@ -325,8 +317,7 @@ class FullMatrix(StoredMatrix):
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
         """Return the statement that adds the contribution of one diagonal to ``_ENTRY``."""
-        # In the table of the diagonal, the index of an entry is the smaller of i and j. The test
-        # adds |offset| to one index, because a difference of unsigned indices could wrap around.
+        # An offset is added to one index, because a difference of unsigned indices could wrap around.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]

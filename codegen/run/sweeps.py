@@ -176,9 +176,8 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # After convergence the unknowns keep their values. The last sweep has computed results with these
-        # values of the unknowns, and later statements use these results. A single ``If`` is cheaper than a
-        # ``select`` for each unknown.
+        # After convergence, the unknowns keep their values, because later statements use results that were
+        # computed from them.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
@@ -190,8 +189,7 @@ class _FixedPoint(_Loop):
             Assign(change, size(x - u))
             for change, x, u in zip(changes, self.images, self.unknowns, strict=True)
         ]
-        # CHANGE is a maximum, and a maximum may ignore a NaN, because comparisons with a NaN are false. The
-        # sum of the sizes is not finite if a change is not finite.
+        # A maximum may ignore a NaN, so the sum is used to find infinities and NaNs.
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:

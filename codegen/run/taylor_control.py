@@ -85,9 +85,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
-    # The call ``own.polynomial()`` returns the emitted functions for the Taylor polynomial. For a kernel
-    # without outputs, the result of :func:`polynomial_step` already contains these functions. The emitted
-    # module must not contain a function twice.
+    # Without outputs, the kernel already contains the functions for the Taylor polynomial, and no function
+    # may occur twice.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 
@@ -327,8 +326,7 @@ class _Controlled:
         """Return the function that evaluates the polynomial by Horner's rule."""
         n, i, result = self.size, count("i"), real("total")
         entries = [self.series[i + k * n] for k in range(self.degree)]
-        # The state is added last. The rounding errors of all earlier additions are small, because they are
-        # multiplied by h.
+        # The state is added last, because rounding errors of earlier additions are multiplied by h.
         horner = [Assign(result, result * STEP + x) for x in reversed(entries[:-1])]
         inner = (Assign(result, entries[-1]), *horner, Assign(self.moved[i], self.start[i] + STEP * result))
         about = "The value of the Taylor polynomial at the end of a step of size h."
@@ -403,7 +401,7 @@ class _Controlled:
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
             Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),
-            # The bound of the caller is for the first step only. The value 0 means that there is no bound.
+            # Without this reset, the initial step size of the caller would bound all steps.
             Assign(self.length, number(0.0)),
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.advised >= size(self.left)),

@@ -230,8 +230,8 @@ def run(plan: Plan) -> Function:
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
     if carried:
-        # LEAVE (the conversion to the space frame) fails if the momentum overflows. ``state`` remains the
-        # initial state, so the number of completed steps is set to zero.
+        # If LEAVE fails, ``state`` is still the initial state, so the number of completed steps is set to
+        # zero.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))

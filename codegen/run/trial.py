@@ -40,7 +40,7 @@ class Trial:
 
 
 class Trials:
-    """Counts the sweeps and matrices in test runs of one kernel.
+    """Counts the sweeps, and the evaluations of Newton's matrix, in test runs of one kernel.
 
     If a step with a warm start fails, it is repeated once, without the solutions of earlier steps. If
     ``continuation`` is True and the step fails again, it is repeated by continuation in h

@@ -139,7 +139,7 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
     Otherwise ``added`` is (1/k!, k modulo 4).
     """
     last = real("last")
-    # ``added[1]`` is k modulo 4. For 2 and 3, 1/k! is subtracted, because i^2 = -1 and i^3 = -i.
+    # 1/k! has a minus sign if k is 2 or 3 modulo 4, because i^2 = -1 and i^3 = -i.
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [
         # The old coefficient of H^2 is saved, because the last two statements still need it.

@@ -64,8 +64,7 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # If no solution is stored, the guess takes more work. Usually only the first step of a run has no stored
-    # solution, so the ``If`` avoids this work in all other steps.
+    # Usually only the first step of a run has no stored solution, so all other steps skip this work.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
@@ -269,10 +268,7 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The simplest guess is the previous solution. The error of this guess is ``moved``, the sum of
-            # the absolute differences between the new and the previous solution. ``self.first`` is the
-            # estimated error of the last guess. The stored solutions are discarded if ``self.first`` exceeds
-            # ``Start.ROUGH`` times ``moved``.
+            # The stored solutions are discarded if the previous solution would be a much better guess.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 

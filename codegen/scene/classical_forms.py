@@ -70,9 +70,8 @@ class ClassicalForm:
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
     """Return the classical forms of a scene.
 
-    The first form uses the coordinates of the scene. Each later form uses the body frame, coordinates of
-    covering groups, or both. A later form uses the frame (space or body) in which its equations need fewer
-    operations.
+    The first form uses the coordinates of the scene. Later forms use the body frame, coordinates of covering
+    groups, or both.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)

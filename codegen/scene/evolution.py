@@ -44,8 +44,8 @@ class Evolution:
 
     - ``inner``: the equations, as a problem on R^m for m coordinates.
     - ``outer``: the scene as a field y' = f(y).y.
-    - ``body``: the group G, for coordinates on T*G with the momentum in the body frame; otherwise None.
-    - ``missing``: the indices of the coordinates of the state that are omitted.
+    - ``body``: the group G if the coordinates contain the momentum in the body frame of T*G, otherwise None.
+    - ``missing``: the indices of those coordinates of the state that these coordinates omit.
     """
 
     inner: Problem
@@ -72,8 +72,8 @@ class Evolution:
 
         - ``moved``: the coordinates after a step.
         - ``y``: the state before the step.
-        - ``frame``: None if the momentum in a state is the momentum in the space frame. If it is the momentum
-          in the body frame, ``frame`` is the group of the configuration q.
+        - ``frame``: the group of the configuration q if states contain the momentum in the body frame,
+          otherwise None.
         """
         z = self._completed(domain, moved)
         if self.body is None:

@@ -229,8 +229,8 @@ class Deviation(Figure):
 class Scan(Figure):
     """The distance between the final states of a run and of the reference run, plotted against a parameter.
 
-    The attribute ``sweep`` of each run contains the values of the parameter. The figure marks the parameter
-    value with the least distance, computed by minimisation.
+    The values of the parameter are in the attribute ``sweep`` of the runs. The least distance is computed by
+    minimisation and marked in the figure.
     """
 
     axis: str = ""

@@ -376,8 +376,7 @@ def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
     """Return the diagonal ``-offset`` of the transpose A^T of a matrix A.
 
     ``entry`` is the diagonal ``offset`` of A: a function of the row index, a list of numbers or one number.
-    The entry of A^T in row i and column i - offset is the entry of A in row i - offset and column i.
-    Therefore a function is shifted by ``offset``. A list or a number is returned unchanged.
+    The argument of a function is shifted by ``offset``. A list or a number is returned unchanged.
     """
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 

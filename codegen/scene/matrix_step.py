@@ -442,7 +442,7 @@ def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     s, traceless, z = _split(d, m)
     one, half = d.rational(1), d.rational(1, 2)
     r = d.call("sqrt", d.call("fabs", z))
-    # ``choose`` evaluates both alternatives. If z > 0, the argument of the logarithms is 1.
+    # ``choose`` evaluates both alternatives, so the logarithms must be finite for z > 0, too.
     above, below = (d.call("log", d.call("choose", z, one, x)) for x in (s + r, s - r))
     angle = d.call("choose", z, d.call("atan2", r, s), half * (above - below))
     g = d.call("choose", r, d.call("quotient", angle, r), d.call("quotient", one, s))

@@ -29,9 +29,8 @@ TOLERANCE = Fraction(1, 10**20)
 """
 
 FLOOR = Fraction(1, 10**28)
-"""The absolute tolerance of the test whether a sum is zero. If all terms are only rounding errors, |sum| can
-be as large as the sum of |terms|. In this case the test needs FLOOR, because |sum| exceeds
-TOLERANCE * (sum of |terms|) although the exact sum is zero.
+"""The absolute tolerance of the test whether a sum is zero. A relative tolerance is not enough if all terms
+of the sum are rounding errors.
 """
 
 POINTS = 4

@@ -69,8 +69,8 @@ def SiteScene(
     - ``parts``: the summands of the field. A part is a column of formulas in ``y``, or a
       :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: the energy of a site, and the energies of pairs of neighbours (:class:`Bond`).
-    - ``invariants``: functions of the state of one site. Each function must be constant along the solutions
-      of y' = g.y. Here g is ``f`` with arbitrary constants in place of the coordinates of neighbours.
+    - ``invariants``: functions of the state of one site. Each function must be constant along all solutions
+      of y' = f.y, even if the states of the neighbours are replaced by arbitrary constants.
 
     :class:`SceneError` is raised for each error that :func:`codegen.scene.FieldScene` lists, and for these
     errors: offsets of neighbours differ in length, ``outside`` has no state for a neighbour, the parts do not

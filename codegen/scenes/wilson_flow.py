@@ -2,10 +2,9 @@
 
 A link is a matrix V in SU(3). The equation of a link is V' = -g0^2 (dS(V)) V, where g0 is the coupling
 constant and S is the Wilson action. Let V^H be the conjugate transpose of V. The plaquette P = V0 V1 V2^H
-V3^H gives g0^2 S = 2 Re tr(1 - P). A link V determines a product X of four matrices. If V is V0 or V1,
-permute the four factors of P cyclically, until V is the first factor. X is the product of the permuted
-factors. If V is V2 or V3, X is defined in the same way by the four factors of P^H = V3 V2 V1^H V0^H. The
-generator -g0^2 dS(V) is the traceless anti-Hermitian part of -X.
+V3^H gives g0^2 S = 2 Re tr(1 - P). The generator -g0^2 dS(V) is the traceless anti-Hermitian part of -X,
+where X is a product of four matrices that begins with V. If V is V0 or V1, X is a cyclic permutation of the
+product P. If V is V2 or V3, X is a cyclic permutation of the product P^H = V3 V2 V1^H V0^H.
 
 A link V is stored as a real 6 x 3 matrix: Re V above Im V.
 
@@ -31,9 +30,9 @@ def full(c: Matrix) -> Matrix:
 
 
 def product(*factors: Matrix) -> Matrix:
-    """Return the product of matrices, multiplied from right to left.
+    """Return the product of matrices.
 
-    The product of sympy asks of each entry whether it may be infinite, which takes seconds for long formulas.
+    This is much faster than the product of sympy, which tests for each entry whether it may be infinite.
     """
     *others, total = factors
     for a in reversed(others):

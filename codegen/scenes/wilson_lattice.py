@@ -65,7 +65,7 @@ def start(shape: Sequence[int]) -> np.ndarray:
     return np.concatenate([columns.real, columns.imag], axis=1).reshape(*shape, -1)
 
 
-# Each entry is the 6 x 3 matrix of a plaquette P: Re P above Im P.
+# Each entry is a 6 x 3 matrix: the real part of a plaquette, and below it the imaginary part.
 plaquettes = [
     product(link(a), link(b, (a, 1)), link(a, (b, 1)).T, link(b).T[:, :3]) for a, b in combinations(axes, 2)
 ]

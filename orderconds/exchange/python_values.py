@@ -184,10 +184,9 @@ class Values:
         """Mark arrays as unknown if they may share memory with ``changed``.
 
         A value was assigned to an entry of ``changed``. The array ``changed`` stays known. A row of an array
-        is an :class:`Array`, so ``changed`` can be a row of a larger array. Let B be such a larger array. If
-        a row of B is the Python object ``changed`` itself, the assignment has changed B correctly, and B
-        stays known. If a row of B is a different Python object that may share memory with ``changed``, B
-        becomes unknown.
+        is an :class:`Array`, so ``changed`` can be a row of a larger array. If a row of B is the Python
+        object ``changed`` itself, B stays known. If a row of B is a different Python object that may share
+        memory with ``changed``, B becomes unknown.
         """
         for name, other in self.known.items():
             if isinstance(other, Array) and changed.memory in other.parts() and not _contains(other, changed):
@@ -353,9 +352,7 @@ def _require_digits(node: ast.Call) -> None:
     """Raise an error if a call such as ``Float('0.577', 2)`` drops digits of its text."""
     text = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
     digits = sum(x.isdigit() for x in text) if isinstance(text, str) else 17
-    # The keyword ``precision`` is in bits, and one bit corresponds to log10(2) = 0.30103 digits. Let d be the
-    # number of digits in the first argument of the call. A call with the keyword ``precision`` is accepted if
-    # 0.30103 ``precision`` is at least d - 2.
+    # One bit corresponds to log10(2) = 0.30103 digits.
     allowed = [(x, 1.0, 0) for x in node.args[1:]]
     allowed += [(k.value, 0.30103, 2) if k.arg == "precision" else (k.value, 1.0, 0) for k in node.keywords]
     for given, factor, more in allowed:

@@ -23,8 +23,8 @@ ONE = Constant(Fraction(1))
 class CoefficientTooLong(TableauError):
     """The error for a coefficient whose text is too long for a file.
 
-    A tableau file can give names to numbers. When definitions replace these names,
-    the text of a coefficient becomes longer.
+    A coefficient can contain names of numbers. Its text becomes longer when each name is replaced by its
+    definition.
     """
 
 

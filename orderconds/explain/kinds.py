@@ -294,10 +294,7 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # Each byte of ``tree`` encodes the direction of the edge between a vertex and the parent of the
-        # vertex. The function ``partitioned_differential`` reads the direction as the colour of the vertex. A
-        # vertex is white if the edge between the vertex and the parent points to the root. All other vertices
-        # are black.
+        # The function ``partitioned_differential`` reads the direction of an edge as the colour of a vertex.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

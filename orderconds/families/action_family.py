@@ -84,10 +84,10 @@ class ActionFamily(Family):
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
         """Return one polynomial for each dependent condition of the given order.
 
-        The keys of the result are the trees of the dependent conditions. The polynomial equals the
-        left-hand side of the dependent condition. The variables of the polynomial are the left-hand sides of
-        independent conditions. A polynomial is a tuple of terms (q, trees). A term is the number q times the
-        left-hand sides of the conditions of ``trees``.
+        The keys of the result are the trees of the dependent conditions. The polynomial equals the left-hand
+        side of the dependent condition. The variables of the polynomial are the left-hand sides of
+        independent conditions. A polynomial is a tuple of terms (q, trees). A term is the product of the
+        number q and the left-hand sides of the conditions of ``trees``.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}

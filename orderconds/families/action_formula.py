@@ -173,7 +173,7 @@ class ExponentialsFormula(ActionFormula):
         """
         if not word:
             return one()
-        # In the first term, each run is a single letter of the word.
+        # The first term has the most indices: one index for each letter.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 

@@ -370,9 +370,8 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions than this family, or None if no such family is known.
-
-        For a symmetric ``method``, these conditions are sufficient to determine the order.
+        """Return a family with fewer conditions, which determine the order of ``method`` because it is
+        symmetric. If no such family is known, return None.
         """
         return None
 

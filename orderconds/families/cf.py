@@ -87,7 +87,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if a method is a commutator-free method that is proved to be symmetric.
+        """Return True if ``method`` is certainly symmetric. Only commutator-free methods are tested.
 
         If the result is False, the method may still be symmetric.
         """

@@ -127,9 +127,9 @@ class NystroemFamily(Family):
         least the order ``order`` in the family ``rkn``, its order in the family ``label`` is at least
         ``bound``.
 
-        The bound for this family is ``order``. The bound for the family ``splitting`` is min(``order``, 4).
-
-        Up to order three, both families have the same conditions. The order of a symmetric method is even.
+        The bound for the family ``rkn`` is ``order``. The bound for the family ``splitting`` is
+        min(``order``, 4): both families have the same conditions up to order three, and the order of a
+        symmetric method is even.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 

@@ -53,8 +53,7 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
     limit j - 1 of i. If i is a free index, the relation gives the lower limit i + 1 of j."""
     limits, remaining = [], list(indices)
     while remaining:
-        # Each entry of the list ``limits`` is a triple (index, start, end). In sympy.Sum, start and end may
-        # contain the index of a later triple, but not the index of an earlier triple.
+        # In sympy.Sum, the bounds of an index may depend only on the indices of later triples.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

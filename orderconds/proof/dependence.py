@@ -28,7 +28,7 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The initial number of random methods. If :data:`SPARE` requires it, more methods are used."""
+"""The initial number of random methods. It is increased if there are too few methods (:data:`SPARE`)."""
 
 SPARE = 24
 """A polynomial with n unknown coefficients is computed from at least n + ``SPARE`` random methods. With fewer
@@ -219,9 +219,8 @@ class _Sampling:
         """Return the two sides of each condition. The left-hand side is evaluated for ``count`` random
         methods.
 
-        ``root`` is None or a residue modulo ``prime``. If ``root`` is a residue, ``root`` replaces every
-        square root in the formulas of the sub-family. If ``root`` is None, random residues replace all roots
-        in the formulas, including square roots.
+        ``root`` is a residue modulo ``prime`` for the square root in the formulas. If ``root`` is None, each
+        root is replaced by a random residue.
         """
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)

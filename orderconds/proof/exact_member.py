@@ -107,8 +107,8 @@ class ExactMember:
         insert these values into the polynomial. The result must be equal to the left-hand side of
         ``condition`` for the random method. Second, insert the right-hand sides of the order conditions into
         the polynomial in place of the left-hand sides. The result must be equal to the right-hand side of
-        ``condition``. If the polynomial does not express ``condition`` for all methods of the sub-family, the
-        result is True only with negligible probability. Return False if ``combination`` is None.
+        ``condition``. The test is probabilistic: a wrong ``combination`` passes only with negligible
+        probability. Return False if ``combination`` is None.
         """
         if combination is None:
             return False

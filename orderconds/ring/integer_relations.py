@@ -16,8 +16,8 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""A safety margin in bits. For random numbers, :func:`relation` finds a relation with a probability of at
-most about 2^-GUARD."""
+"""A safety margin in bits. The probability that :func:`relation` finds a false relation between random
+numbers is at most about 2^-GUARD."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:

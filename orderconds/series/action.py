@@ -8,8 +8,8 @@ trees, and M is a multiset of smaller trees. Let b_i be the weight of stage i, a
 coefficient of the word w in the group element of stage i. Let tau_t(i) be the coefficient of the tree t in
 the velocity of stage i. Let psi_p(i) be the coefficient of the tree p in the momentum of stage i.
 
-The formulas for psi_p(i) contain derivatives with respect to the velocity of stage i. These derivatives are
-terms that are linear in a change x of the velocity. Treat x as a letter that is not a tree. Replace the
+The formulas for psi_p(i) contain derivatives with respect to the velocity of stage i. A derivative is the
+part that is linear in a small change x of the velocity. In the words, x is an additional letter. Replace the
 velocity xi_i of stage i by xi_i + x, and leave the velocities of all other stages unchanged. The group
 elements depend on xi_i. Therefore the expansions of the changed group elements contain words (u, x, v), where
 u and v are words of trees. Let c_{(u, x, v)}(j, i) be the coefficient of the word (u, x, v) in the changed

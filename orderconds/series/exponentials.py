@@ -53,8 +53,7 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The coefficient is a sum over r. In summand r, the last r letters of ``word`` come from the
-                # factor exp(X_J), and the first letters of ``word`` come from the factors before exp(X_J).
+                # In each summand, the last r letters of ``word`` come from the factor exp(X_J).
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

@@ -56,8 +56,7 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # For each order, the rank is at most the number of ordered forests. The highest order has the largest
-    # number of forests.
+    # The rank is at most the number of ordered forests, which is largest for the highest order.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

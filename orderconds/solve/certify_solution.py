@@ -288,9 +288,8 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # A tableau file uses one unknown for all equal decimals, and for x and -x. The numbers in
-            # ``sharp`` must be different unknowns. Therefore the absolute value of ``decimal`` must differ
-            # from the absolute values of all decimals in ``digits``.
+            # A tableau file uses one unknown for all decimals with the same absolute value, so these values
+            # must differ.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1

@@ -78,9 +78,7 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with the exponentials update[0], ..., update[whole - 1]. The list ``update`` has m
-        # entries. If stage i is not the middle stage, the value of ``whole`` for stage i and the value of
-        # ``whole`` for stage s + 1 - i add up to m.
+        # Stage i begins with the first ``whole`` exponentials of ``update``.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

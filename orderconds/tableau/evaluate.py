@@ -84,8 +84,7 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            # Evaluate unused numbers after ``ring`` is known. Their roots must not enlarge the field of the
-            # coefficients.
+            # Unused numbers are evaluated later, because they must not enlarge the field of the coefficients.
             evaluation.check_unused()
             return ring, _shared(values, lift)
         except DegreeError:

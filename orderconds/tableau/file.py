@@ -155,7 +155,7 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # The method ``build`` does not know ``where``. Its errors contain the name of the tableau.
+    # The message of ``build`` contains the name of the tableau. It is replaced by ``where``.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise

@@ -38,8 +38,8 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # For the next sequence, subtract 1 from the last level that is greater than ``lowest``. Each later
-        # level is 1 greater than the level before it.
+        # The last level above ``lowest`` decreases by 1, and the levels after it increase by 1 from one to
+        # the next.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

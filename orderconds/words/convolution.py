@@ -41,7 +41,7 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     Fraction(3, 1)
     """
     n = len(word)
-    # powers[end] is the value of f^m on the first ``end`` letters. At the start, m = 1.
+    # powers[end] is the value of the convolution power f^m on the first ``end`` letters. At first, m is 1.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
     # tails[end] contains the pairs (start, f(word[start:end])) with start >= 1. Pairs with the value ``zero``

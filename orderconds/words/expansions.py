@@ -122,8 +122,7 @@ def dexp_inverse(length: int) -> Series:
     """
     numbers = [Fraction(1)]
     for n in range(1, length):
-        # Let f(x) = sum_k B_k/k! x^k. Then f(x) (e^x - 1)/x = 1. The coefficient of x^n is
-        # sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0.
+        # For n > 0, the Bernoulli numbers satisfy sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0.
         numbers.append(-sum((q / factorial(n + 1 - k) for k, q in enumerate(numbers)), Fraction(0)))
     return _adjoint_series(length, numbers.__getitem__)
 

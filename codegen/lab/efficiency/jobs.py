@@ -45,10 +45,9 @@ delay. The next recipe comes from the queue with the smallest delay. All recipes
 FAILED = 4.0
 """The slowness of a queue of recipes, if no recipe of the same kind has a finite predicted CPU time.
 
-All recipes in a queue have the same kind (:data:`Kind`). T1 is the least predicted CPU time of recipes of
-this kind. T2 is the least predicted CPU time of all recipes. The slowness of the queue is log2(T1/T2) if T1
-is finite, and FAILED if T1 is infinite. Recipes from a queue with a large slowness are predicted late
-(:data:`EVEN`).
+A queue contains recipes of one kind (:data:`Kind`). Its slowness is log2(T1/T2). T1 is the least predicted
+CPU time of the recipes of this kind, and T2 is the least predicted CPU time of all recipes. Predictions for
+slow queues are made last (:data:`EVEN`).
 """
 
 

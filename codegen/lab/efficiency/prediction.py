@@ -363,9 +363,10 @@ def _reached(
     most: float,
     end: float,
 ) -> tuple[int, float, float]:
-    """Run a program with equal steps. Their number starts at ``steps`` and doubles up to ``most``.
+    """Run a program several times with equal steps. The first run makes ``steps`` steps, and each later run
+    makes twice as many steps, up to ``most``.
 
-    The series ends when the error is small (:data:`SMALL`), or when the CPU time of the process
+    No further run is started if the error is small (:data:`SMALL`), or if the CPU time of the process
     (``time.process_time``) reaches ``end``.
 
     Returns three numbers for the most accurate run: the number of steps, the error (infinite if all runs

@@ -44,9 +44,9 @@ Short times are not reliable, because the first run of a module is slower than l
 """
 
 PATIENT = 8.0
-"""If a run takes too long, the recipe is not run again with higher accuracy.
+"""A recipe is not run again with higher accuracy if its last run takes longer than PATIENT t + BRIEF.
 
-The limit on the CPU time is PATIENT times the least CPU time of the other recipes, plus BRIEF.
+Here t is the least CPU time of another recipe that reaches the error.
 """
 
 
@@ -236,7 +236,7 @@ class Racer:
 
         - There are at least five runs.
         - The smallest error, relative to the size of the state, is below 1e-9.
-        - Each of the last three errors exceeds e/2. Here e is the smallest earlier error.
+        - No error of the last three runs is less than half of the smallest error in the runs before them.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2

@@ -307,8 +307,8 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If the recipe does not reach the error, a long time is assumed. The predicted times of
-                # similar recipes then become longer.
+                # If the run misses the required error, a long time is assumed, so the predicted times of
+                # similar recipes become longer.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)

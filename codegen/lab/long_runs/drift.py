@@ -83,9 +83,9 @@ CONFINED.
 STRAIGHT = 0.0225
 """A record does not count as a random walk if its scatter about a line is below STRAIGHT.
 
-The scatter is V/(n D). A line is fitted to the means over n blocks. V is the variance of the residuals. D is
-the variance of the differences between consecutive means. Only 1 % of all random walks have a scatter below
-STRAIGHT.
+A line is fitted to the means over n blocks of the record. Let V be the variance of the residuals, and let D
+be the variance of the differences between consecutive means. The scatter is V/(n D). Only 1 % of all random
+walks have a scatter below STRAIGHT.
 """
 
 STEADY = 3.2
@@ -96,9 +96,8 @@ Here m is the average difference between the means of consecutive blocks, and s 
 """
 
 TINY = 1e-24
-"""Differences between block means count as rounding errors if their variance is below TINY.
-
-Before the comparison with TINY, the variance is divided by the square of the largest deviation in the record.
+"""Differences between block means count as rounding errors if their variance is below TINY d^2, where d is
+the largest deviation in the record.
 """
 
 FINE, NEAR, FAR = 100, 5, 20
@@ -118,7 +117,7 @@ class Drift:
     - ``slope``: the slope of the fitted line per unit of time, or NaN if too few deviations are finite.
     - ``half_width``: the half width of the 95 % confidence interval of the slope.
     - ``largest``: the largest absolute deviation of the record.
-    - ``exponent``: the exponent p, if the largest deviation up to the time t grows like t^p.
+    - ``exponent``: the exponent p in a fit of t^p to the largest deviation up to the time t.
     - ``rounding``: the largest deviation that rounding errors can cause.
     - ``persists``: True if the means over consecutive sections of the record are monotone.
     - ``later``: the growth factor that is defined at :data:`LATE`.
@@ -172,8 +171,7 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # A deviation with alternating sign may grow although the fitted line has no slope. Fast growth of the
-        # deviation gives a large ``exponent``. Therefore ``exponent`` must be below WALK.
+        # If the deviation grows fast, ``exponent`` is large, even if the fitted line has no slope.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):

@@ -197,8 +197,8 @@ def _before_saturation(
 ) -> Drift:
     """Return the drift of a quantity, fitted to the samples before the deviation saturates.
 
-    If these samples are too few, the first n steps are repeated with dense samples (``early(n)``). The number
-    n is at least the number of steps before the deviation saturates.
+    If these samples are too few, the steps before the deviation saturates are repeated with dense samples
+    (``early``).
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0

@@ -85,7 +85,8 @@ class Growth:
         - ``random walk or systematic``: the interval contains 1/2 and 1.
         - ``neither law``: no other case applies.
 
-        For the tests of 1/2 and 1, a half width below 0.1 is replaced by 0.1.
+        An interval with a half width below 0.1 is widened to the half width 0.1 before the tests for 1/2 and
+        1.
         """
         if self.exponent + self.half_width < 0.25:
             return "bounded"

@@ -137,7 +137,8 @@ class CanonicalFields:
         self._known: dict[DirectedTree, Vector] = {}
 
     def tree(self, tree: DirectedTree) -> Vector:
-        """Return the elementary differential (xi, nu) of a tree as one vector."""
+        """Return the elementary differential of a tree: the velocity xi and the force nu, joined to one
+        vector."""
         if tree not in self._known:
             n, point, bit = self.scene.dimension(), list(self.point), 1
             for kind, child in directed_branches(tree):

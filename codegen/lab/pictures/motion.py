@@ -196,7 +196,8 @@ def _lengths(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
 
 
 def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, unit: str = "") -> str:
-    """Return the SVG transform that maps a horizontal line to a projected bar at the time with index ``k``.
+    """Return the SVG transform that turns a horizontal line into the picture of a bar at the time with index
+    ``k``.
 
     The horizontal line begins at the origin. The length of the line is the maximum over all times of the
     length of the projected bar. ``turn`` is the angle of the projected bar in degrees. If ``unit`` is ``px``,

@@ -177,7 +177,7 @@ def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple
 
 
 def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
-    """Return the norm of the vector field at (state, t), an element of the Lie algebra."""
+    """Return the norm of the field f(state, t). The field is an element of the Lie algebra."""
     field = compiled.scene.as_field()
     domain = FloatDomain(0.0)
     (value,) = field.apply(domain, "field", None, (tuple(state), t))

@@ -73,9 +73,8 @@ class FunctionPrinter:
 
         If ``near`` is true, the C function has no branches and is valid only for arguments near zero.
         """
-        # Loops over batch systems or lattice sites compute sines and cosines of small arguments by
-        # polynomials. If a module has such loops, all its functions use the polynomials and have the same
-        # rounding errors.
+        # In a module with loops over many systems, all functions compute sines and cosines by the same
+        # polynomials, so all rounding errors agree.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -435,7 +434,7 @@ class _Body:
             yield from fill("event(", _arguments(given), ";", separator="")
             return
         if name == "sample":
-            # ``given[0]`` is two names: ``input, context``. The emitted call is ``input(..., context)``.
+            # ``given[0]`` is the text "input, context". The context is moved to the end of the call.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")

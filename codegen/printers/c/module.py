@@ -257,11 +257,11 @@ def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     names |= {"integrate", "event"} if interface.integrated else set()
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
-    # The names of all helpers are reserved, even without a call of the helper.
+    # The names of all helper functions are reserved, because the module may call each of them.
     names |= {snippet.name for snippet in snippets(interface.format)}
     # The parameters ``event`` and ``data`` have no prefix, so local variables must not have these names.
     local = {"event", "data"} if interface.events else set[str]()
-    # The name H with the prefix is the include guard of the emitted header.
+    # PREFIX_H is the include guard of the emitted header.
     constants = {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
     return frozenset({f"{prefix}{name}" for name in names} | constants | local)
 
