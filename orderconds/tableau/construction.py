@@ -94,7 +94,8 @@ is a list of numbers, and a stage or an update is a list of exponentials
 
 
 def _starts(starts: object, stages: int) -> list[tuple[int, int]]:
-    """Return the items of ``starts``. Raises TableauError if ``starts`` does not map stages to stages."""
+    """Return the pairs (stage, stage) of the dictionary ``starts``. Raises TableauError if a key or value is
+    not the number of a stage."""
     if starts is None:
         return []
     if not isinstance(starts, Mapping):

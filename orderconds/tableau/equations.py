@@ -196,8 +196,8 @@ def _name(name: str) -> str:
 
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:
-    """Return the parts of the formula of a stage, a product of exponentials. The rightmost exponential acts
-    first."""
+    """Return the parts of a formula. The formula is the product of exponentials that gives the value of a
+    stage. The rightmost exponential acts first."""
     start = "y_0" if stage.start is None else f"Y_{{{stage.start + 1}}}"
     parts = [part for row in reversed(stage.exponentials) for part in _exponential(row, tableau)]
     return [*parts[:-1], parts[-1] + start] if parts else [start]

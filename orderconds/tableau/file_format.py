@@ -61,16 +61,16 @@ class ProofEntry(Struct, forbid_unknown_fields=True):
 Number = Coefficient | RootEntry
 """A value in the table ``numbers`` of a tableau file."""
 Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
-"""A value in the table ``claims`` of a tableau file. The value of a property is True or False. The value of a
-family of methods is the order of the method. If the order depends on the option ``cutoff`` of the family, the
+"""A value in the table ``claims`` of a tableau file. For a property, the value is True or False. For a family
+of methods, the value is the claimed order. If the order depends on the option ``cutoff`` of the family, the
 value is a list of :class:`CutoffClaim`."""
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     """The base class of all formats.
 
-    ``family`` is the name of the format and of a family of methods, for example ``rk``. ``order`` is the
-    claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
+    ``family`` is the family of the method, for example ``rk``. It also determines the format. ``order`` is
+    the claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
     ``claims`` contains the claimed properties, and the claimed orders in other families (:data:`Claim`).
     """
 

@@ -216,8 +216,9 @@ class StageEntry(Struct, forbid_unknown_fields=True):
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """The embedded update, for an error estimate. Let s be the number of stages. The key ``from`` can also be
-    s + 1. Then the embedded update starts from the result of the main update."""
+    """The embedded update, for an error estimate. ``from`` is the number of the stage from which the embedded
+    update starts. The number s + 1, where s is the number of stages, denotes the result of the main
+    update."""
 
     order: Annotated[int, Meta(ge=1)]
 

@@ -128,9 +128,9 @@ def _tokens(latex: str) -> Iterator[tuple[str, bool]]:
 
 
 def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
-    r"""Yield the lines of an equation for the LaTeX environment ``aligned``. The joined strings ``parts`` are
-    the right-hand side. Line breaks are possible only between two strings. ``free`` is the available width
-    for the right-hand side, in points.
+    r"""Yield the lines of an equation for the LaTeX environment ``aligned``. The right-hand side is the
+    concatenation of the strings ``parts``. Line breaks are possible only between two strings. ``free`` is the
+    available width for the right-hand side, in points.
 
     >>> list(lines("x", ["a + b", " + c"], 30))
     ['x &= a + b', '&\\quad  + c']

@@ -124,8 +124,8 @@ class CommutatorFree:
         return CommutatorFree(tuple(stage.map(convert) for stage in self.stages), self.update.map(convert))
 
     def from_start(self, stage: Stage) -> tuple[Row, ...]:
-        """Return the rows of all exponentials between y0 and the value of ``stage``. The exponential of the
-        first row acts first."""
+        """Return the exponentials that lead from y0 to the value of ``stage``. The first one acts first. A
+        row contains the coefficients of one exponential."""
         before = () if stage.start is None else self.from_start(self.stages[stage.start])
         return before + stage.exponentials
 
@@ -133,8 +133,7 @@ class CommutatorFree:
         """Return True if the update ``other`` and the update of this method are provably equal for all vector
         fields.
 
-        If two products are equal for all vector fields, their simplified exponents (:func:`_reduced`) agree
-        (Chen 1958).
+        The test compares the simplified exponents of both updates (:func:`_reduced`; Chen 1958).
         """
         one, two = (_reduced(self.from_start(stage), ring) for stage in (self.update, other))
         return len(one) == len(two) and all(

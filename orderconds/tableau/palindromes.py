@@ -1,16 +1,14 @@
 """Symmetry of commutator-free methods: their exponentials form a palindrome.
 
 A step of length h maps y0 to y1. The method is symmetric if a step of length -h maps y1 back to y0. An
-exponent has s coefficients, one for each stage. The conjugate of an exponential is the exponential with these
-coefficients in reverse order. For each stage, a sequence of exponentials leads from y0 to the value of the
+exponent has s coefficients, one for each stage. In the conjugate of an exponential, the s coefficients of the
+exponent are in reverse order. For each stage, a sequence of exponentials leads from y0 to the value of the
 stage. The method is symmetric if two conditions hold:
 
 - The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
   original sequence.
-- For every stage i, take the sequence from y0 to the value of stage i. Let X be the exponent of an
-  exponential in this sequence, and let Y be the exponent with the s coefficients of X in reverse order.
-  Replace exp(X) by exp(-Y). Replace every exponential of the sequence in this way, and do not change the
-  order of the exponentials. The new sequence leads from y1 to the value of stage s + 1 - i.
+- Take the sequence from y0 to the value of any stage i, and replace each exponential by the inverse of its
+  conjugate. The new sequence must lead from y1 to the value of stage s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """

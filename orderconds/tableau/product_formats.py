@@ -140,8 +140,8 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
     """The format ``family = "magnus"``: the nodes c, and one table for each exponent. The table contains the
-    coefficient of each term. A term is the number of a node (counted from 1), the name of an element, or a
-    bracket of two terms.
+    coefficient of each term. A term is written as the number of a node (counted from 1), as the name of an
+    element, or as a bracket of two terms.
 
     ``elements`` defines named Lie elements. ``map`` is the map to the group: ``exp`` (exponential) or ``cay``
     (Cayley transform). With ``cay``, a term may also be a product of terms.

@@ -59,9 +59,9 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     """Rewrite a Runge-Kutta or commutator-free method as a low-storage scheme with two registers (2N). The
     result contains the scheme, or the reason why there is no such scheme. Return None for all other methods.
 
-    If rounded decimals are too inaccurate to decide, the method is tested with random numbers in their place.
-    This test requires a table ``[proof]`` in the file. The probability of an error is then negligible
-    (:mod:`orderconds.tableau.random_member`).
+    If rounded decimals are not accurate enough for an answer, they are replaced by random numbers
+    (:mod:`orderconds.tableau.random_member`). This requires a table ``[proof]`` in the file. The probability
+    of a wrong answer is negligible.
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds
@@ -106,8 +106,9 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Return True if the method is symmetric for random values of the rounded decimals, and None otherwise.
-    The result is never False, because the method with the exact coefficients may still be symmetric."""
+    """Replace the rounded decimals by random numbers. Return True if the resulting method is symmetric, and
+    None otherwise. The result is never False, because the method with the exact coefficients may still be
+    symmetric."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember

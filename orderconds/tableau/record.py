@@ -57,7 +57,8 @@ class Tableau:
     embedded: LowerOrder | None = None
     path: str | None = None
     proof: Proof | None = field(default=None, compare=False)
-    """The table ``[proof]`` of the file: equations that the rounded decimals solve approximately."""
+    """The table ``[proof]`` of the file. It contains equations for the exact values of the rounded decimals
+    in the file."""
     file: File | None = field(default=None, compare=False, repr=False)
     """The parsed tableau file, or None if the tableau is a copy with other coefficients."""
     doubles: bool = False

@@ -33,8 +33,8 @@ LARGEST = 100
 block of this size with rational entries, the computation takes about a second."""
 
 EFFORT = 10**11
-"""The limit on the number of bit multiplications in polynomial operations (about a second in total). The
-coefficients in Euclid's algorithm grow fast, so a limit is necessary."""
+"""The limit on the work in Euclid's algorithm for polynomials, whose coefficients grow fast. Work is
+estimated as the number of products of two bits. The limit corresponds to about a second."""
 
 
 class SignedRing(Ring, Protocol):
@@ -137,8 +137,7 @@ class _Limited:
         return getattr(self.ring, name)
 
     def spend(self, work: int) -> None:
-        """Subtract ``work`` from the remaining part of the limit :data:`EFFORT`. Work is measured in
-        multiplications of two bits."""
+        """Subtract ``work`` from the remaining part of the limit :data:`EFFORT`."""
         self.left -= work
         if self.left < 0:
             raise _Undecided

@@ -62,8 +62,7 @@ def _headings(prefix: str, table: Mapping[str, object]) -> Iterator[str]:
 
 
 def _blocks(value: object, key: str) -> TypeGuard[list[Mapping[str, object]]]:
-    """Return True if the value is the list of stages: the key is ``stage``, and the value is a list of
-    tables."""
+    """Return True if the key is ``stage`` and the value is a list of tables, one for each stage."""
     return key == "stage" and isinstance(value, list) and all(isinstance(x, Mapping) for x in value)
 
 

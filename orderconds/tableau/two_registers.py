@@ -10,7 +10,8 @@ leads to the update. In a 2N scheme, increment i is B_i K_i with K_i = F_i + sum
 The recognition computes B_i and A_i from the increments of a tableau:
 
 - B_i is the coefficient of F_i in increment i.
-- Let x and y be the coefficients of F_{i-1} and F_i in the first increment with non-zero y. Then A_i = x/y.
+- A_i is the quotient of the coefficients of F_{i-1} and F_i in one increment. The first increment in which
+  F_i has a non-zero coefficient is used.
 
 The tableau is a 2N scheme if all its increments are equal to the increments B_i K_i.
 """
@@ -57,8 +58,8 @@ class TwoRegisters:
         return tuple(rows)
 
     def as_commutator_free(self, ring: Ring) -> CommutatorFree:
-        """Return the scheme as a commutator-free method. The exponential of increment i
-        (:meth:`increments`) leads from stage i to stage i + 1."""
+        """Return the scheme as a commutator-free method. Exponential i leads from the value of stage i to the
+        value of stage i + 1. Its exponent is increment i (:meth:`increments`)."""
         steps = [Stage(i, (row,)) for i, row in enumerate(self.increments(ring))]
         return CommutatorFree((Stage(None, ()), *steps[:-1]), steps[-1])
 
@@ -127,8 +128,8 @@ def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | 
 
 
 def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
-    """Return the coefficient A_i of a 2N scheme. ``rows[m]`` is increment m. Here i and m are counted from 0.
-    If A_i does not exist or is undecided, return a :class:`Rewriting` with the reason."""
+    """Return the coefficient A_i of a 2N scheme. ``rows[m]`` contains the coefficients of increment m. Here i
+    and m are counted from 0. If A_i cannot be computed, return a :class:`Rewriting` with the reason."""
     above = ""
     for m in range(i, len(rows)):
         denominator = rows[m][i]

@@ -15,10 +15,9 @@ equations, and the rounded decimals are approximate values of the unknowns in th
 
 Each unknown has a name. If the rounded decimal occurs in a number of the table ``numbers``, the name of the
 unknown is the name of this number. Otherwise, the name is the position of the coefficient that contains the
-decimal, for example ``A[2][1]``. If one number or one coefficient contains several rounded decimals, the
-value of each decimal is appended to the name of the corresponding unknown, for example ``A[2][1]: 0.25``.
-Equal decimals in the file are one unknown. The first of the equal decimals determines the name of the
-unknown.
+decimal, for example ``A[2][1]``. If this name is not unique, the value of the decimal is appended, for
+example ``A[2][1]: 0.25``. Equal decimals in the file are one unknown. The first of the equal decimals
+determines the name of the unknown.
 """
 
 from __future__ import annotations
@@ -57,11 +56,12 @@ class Unknown(Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Proof:
-    """The table ``[proof]`` of a file: equations that the rounded decimals of the file satisfy approximately.
+    """The table ``[proof]`` of a file. It contains equations for the exact values of the rounded decimals in
+    the file.
 
-    The equations are the order conditions of the family ``conditions`` up to order ``order``. The equations
-    are solved for the decimals in ``unknowns``. The decimals in ``pinned`` count as exact numbers.
-    ``printed`` maps the names of numbers in the file to their decimals in the cited publication.
+    The equations are the order conditions of the family ``conditions`` up to order ``order``. ``unknowns``
+    contains the decimals that are the unknowns of the equations. The decimals in ``pinned`` count as exact
+    numbers. ``printed`` maps the names of numbers in the file to their decimals in the cited publication.
     """
 
     conditions: str
@@ -146,5 +146,5 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        # If ``ring`` has no method ``size``, the result 0 switches off the limit on the number of bits.
+        # Without a method ``size``, the number of bits is not limited.
         return 0 if size is None else int(size(x))

@@ -73,8 +73,8 @@ def commutator_free_work(tableau: Tableau) -> Work | None:
 
 
 def crouch_grossman_work(tableau: Tableau) -> Work | None:
-    """Return the cost of a step of a Crouch-Grossman method. For a tableau of the format ``cf``, exponentials
-    and brackets are not counted.
+    """Return the cost of a step of a Crouch-Grossman method. Exponentials are counted only for a Butcher
+    tableau.
 
     >>> from orderconds.tableau import find
     >>> crouch_grossman_work(Tableau.load(find("cg3")))
@@ -86,9 +86,9 @@ def crouch_grossman_work(tableau: Tableau) -> Work | None:
 
 
 def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
-    """Return the cost of a step of a Runge-Kutta-Munthe-Kaas method. The series dexpinv_u omits the powers of
-    ad_u with exponents above ``cutoff``. For a method without a Butcher tableau, only field evaluations are
-    counted (:func:`evaluations`).
+    """Return the cost of a step of a Runge-Kutta-Munthe-Kaas method. The series of dexpinv is truncated after
+    the term with ``cutoff`` brackets, or not at all if ``cutoff`` is None. For a method without a Butcher
+    tableau, only field evaluations are counted (:func:`evaluations`).
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> munthe_kaas_work(heun, 1)
@@ -134,7 +134,8 @@ def _needed(method: RungeKutta, ring: Ring) -> list[int]:
 
 
 def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
-    """Return the exponents of the update and of all stages on which the update depends."""
+    """Return the arguments of the exponentials in the update and in all stages on which the update
+    depends."""
     rows: list[tuple[Element, ...]] = []
     reached: set[int] = set()
     waiting = [method.update]
@@ -191,6 +192,6 @@ def _nested(cutoff: int | None) -> int:
 
 
 def _distinct(rows: Sequence[Sequence[Element]], ring: Ring) -> int:
-    """Return the number of distinct non-zero exponents. A row contains the coefficients of one exponent."""
+    """Return the number of distinct rows that are not zero."""
     moving = [row for row in rows if any(ring.is_zero(x) is not True for x in row)]
     return len({tuple(ring.key(x) for x in row) for row in moving})

@@ -33,8 +33,8 @@ def dumps(tableau: Tableau) -> str:
     """Return the tableau as TOML text.
 
     If the tableau was read from a file, the coefficients are copied as they are written in the file, together
-    with the named numbers and the table ``[proof]``. In all other cases, each named number is
-    replaced by its value (:func:`without_names`). A ball is written as a decimal with ``~``.
+    with the named numbers and the table ``[proof]``. In all other cases, each named number is replaced by its
+    value (:func:`without_names`). A number with an error bound is written as a decimal with ``~``.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\n[numbers]\\na = "0.50~"\\n'
@@ -66,11 +66,10 @@ def as_data(tableau: Tableau) -> Data:
 
 
 def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
-    """Return the content of a tableau file without named numbers: each name in a coefficient is replaced by
-    the number that it denotes.
+    """Return the content of a tableau file. Each name of a number is replaced by the number.
 
-    Real roots that a polynomial (``minpoly``) defines keep their names. If ``name_radicals`` is true, new
-    names r1, r2, ... denote the nested square roots.
+    There are two exceptions. A root of a polynomial (``minpoly``) keeps its name. If ``name_radicals`` is
+    true, nested square roots get new names r1, r2, ....
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'
@@ -157,7 +156,7 @@ class _Radicals:
         return text
 
     def spell(self, x: Element) -> str:
-        """Return the text of the element x. In this text, names replace the nested square roots."""
+        """Return the text of the element x. Nested square roots are replaced by names."""
         return self._named(self.text(x), list(self.names))
 
 

@@ -112,7 +112,8 @@ def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
 
 def moves(tree: BicolouredTree) -> Iterator[tuple[BicolouredTree, BicolouredTree, BicolouredTree]]:
     r"""Yield three trees (u, v, w) for each edge at the root. The removal of the edge gives two trees: u
-    contains the root, and v does not. The tree w is the given tree, but its root is the root of v.
+    contains the root, and v does not. The tree w has the vertices and edges of ``tree``, but its root is the
+    root of v.
 
     >>> list(moves(b"\0\3"))
     [(b'\x00', b'\x01', b'\x01\x02')]

@@ -11,8 +11,9 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Count the multisets of each total weight. Entry k - 1 of ``counts`` is the number of different elements
-    of weight k. Entry k - 1 of the result is the number of multisets of total weight k.
+    """Return the Euler transform of a sequence. Entry k - 1 of ``counts`` is the number of different elements
+    of weight k. Entry k - 1 of the result is the number of multisets of these elements with the total weight
+    k.
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)
@@ -73,8 +74,9 @@ def free_tree_count(vertices: int) -> int:
 
 
 def essential_free_tree_count(vertices: int) -> int:
-    """Return the number of free trees with the given number of vertices. A tree is not counted if it consists
-    of two equal rooted trees and an edge between the two roots (HLW VI.7.1, Table 7.1).
+    """Return the number of free trees with the given number of vertices. Trees that consist of two equal
+    rooted trees and an edge between their roots are not counted (Hairer, Lubich and Wanner, *Geometric
+    Numerical Integration*, VI.7.1, Table 7.1).
 
     >>> [essential_free_tree_count(n) for n in range(1, 11)]
     [1, 0, 1, 1, 3, 4, 11, 19, 47, 97]

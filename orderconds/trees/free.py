@@ -20,7 +20,7 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""A pair (u, v) denotes the move of the root from u o v to v o u, where o is Butcher's product."""
+"""Let o be Butcher's product. A pair (u, v) denotes the move of the root that transforms u o v to v o u."""
 
 
 @lru_cache(maxsize=32)
@@ -79,8 +79,8 @@ def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
 
 def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
     r"""Yield a pair (rooting, moves) for each vertex of a canonical tree. ``rooting`` is the tree with the
-    vertex as root. ``moves`` contains one :data:`Move` for each edge on the path from the given root to the
-    vertex.
+    vertex as root. ``moves`` contains one :data:`Move` for each edge on the path from the root of ``tree`` to
+    the vertex.
 
     >>> list(rootings(b"\0\1"))
     [(b'\x00\x01', ()), (b'\x00\x01', ((b'\x00', b'\x00'),))]

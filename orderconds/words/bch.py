@@ -1,8 +1,9 @@
 """The Baker-Campbell-Hausdorff series log(exp A exp B), from Goldberg's formula for the coefficients.
 
-Goldberg's formula gives the coefficient of each word in closed form (Duke Math. J. 23 (1956) 13). A bracketed
-Lyndon word expands to this word plus a combination of greater words. Hence the coordinates in the basis of
-bracketed Lyndon words follow by forward substitution (Reutenauer, Free Lie Algebras, Thm 5.1).
+Goldberg's formula gives the coefficient of each word in closed form (Duke Math. J. 23 (1956) 13). The
+expansion of a bracketed Lyndon word is the word without brackets plus a combination of greater words. Hence
+the coordinates in the basis of bracketed Lyndon words follow by forward substitution (Reutenauer, Free Lie
+Algebras, Thm 5.1).
 """
 
 from __future__ import annotations
@@ -48,11 +49,11 @@ def bch(length: int) -> dict[Word, Fraction]:
 def goldberg(word: str) -> Fraction:
     """Return the coefficient of a non-empty word over A and B in log(exp A exp B).
 
-    Let s_1, ..., s_m be the lengths of the runs of equal letters in the word. If the first letter is A, the
-    coefficient is the integral of t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t) from t = 0 to t = 1.
-    Here [x] is the integer part of x, G_1 = 1, and G_s = 1/s d/dt (t (t - 1) G_{s-1}) for s > 1. If the first
-    letter is B, the coefficient is (-1)^(n-1) times the integral, where n is the number of letters (Goldberg
-    1956, Thm 1 and Cor. 2).
+    Let s_1, ..., s_m be the lengths of the runs of equal letters in the word, and let [x] be the integer part
+    of x. Let G_1 = 1, and let G_s = 1/s d/dt (t (t - 1) G_{s-1}) for s > 1. If the first letter is A, the
+    coefficient is the integral of t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t) from t = 0 to t = 1. If
+    the first letter is B, the coefficient is (-1)^(n-1) times the integral, where n is the number of letters
+    (Goldberg 1956, Thm 1 and Cor. 2).
 
     >>> str(goldberg("AB")), str(goldberg("BAA")), goldberg("AA") == 0
     ('1/2', '1/12', True)
@@ -95,8 +96,8 @@ def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str
 
 
 def _coefficient(bracketed: str, word: str, expansions: dict[str, Expansion]) -> int:
-    """Return the coefficient of ``word`` in the expansion of a nested bracket, the standard bracketing of the
-    Lyndon word ``bracketed``."""
+    """Return the coefficient of ``word`` in the expansion of a nested bracket. This bracket is the standard
+    bracketing of the Lyndon word ``bracketed``."""
     left, right = standard_factors(bracketed)
     x, y, i, j = expansions[left], expansions[right], len(left), len(right)
     return x.get(word[:i], 0) * y.get(word[i:], 0) - y.get(word[:j], 0) * x.get(word[j:], 0)

@@ -75,11 +75,10 @@ def cayley(word: Word) -> Fraction:
 def fer(n: int, word: Word) -> Fraction:
     """Return the coefficient of a word in the series F_n of the Fer expansion at t = 1.
 
-    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a
-    word denotes the last factor of a product: (2, 1) denotes X_1 X_2. The Fer expansion is
-    Y = exp(F_1) exp(F_2) exp(F_3) .... F_n is the integral of a series A_n from 0 to t. Here A_1 = A and
-    A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. In F_n, the sum of the
-    letters of each word is at least 2^n - 1.
+    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The Fer expansion is Y =
+    exp(F_1) exp(F_2) exp(F_3) .... F_n is the integral of a series A_n from 0 to t. Here A_1 = A and A_{n+1}
+    = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. The word (2, 1) denotes X_1 X_2. In
+    F_n, the sum of the letters of each word is at least 2^n - 1.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')
@@ -111,8 +110,7 @@ def dexp(length: int) -> Series:
 
 
 def dexp_inverse(length: int) -> Series:
-    """Return dexp_U^{-1}(X) = sum_k B_k/k! ad_U^k X as a series of words of at most ``length`` letters
-    U and X.
+    """Return the series dexp_U^{-1}(X) = sum_k B_k/k! ad_U^k X up to words with ``length`` letters.
 
     Here B_k are the Bernoulli numbers with B_1 = -1/2, and ad_U X = U X - X U. The word UX
     denotes the product U X.
@@ -162,7 +160,7 @@ def expansion(coefficient: Callable[[Word], Fraction], weight: int) -> Series:
 
 @lru_cache(maxsize=1 << 14)
 def _fer_field(n: int, word: Word) -> Fraction:
-    """Return the coefficient of a word in A_n(t) at t = 1, where A_n is defined in :func:`fer`."""
+    """Return the coefficient of a word in the series A_n(1) (see :func:`fer`)."""
     if n == 1:
         return Fraction(len(word) == 1)
     result = Fraction(0)
@@ -180,19 +178,14 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
         return _fer_field(n, word)
     result = Fraction(0)
     for cut in range(1, len(word)):
-        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. A word lists the factors of a product from right
-        # to left: the word (2, 1) denotes X_1 X_2. Hence a word of the product F_n x is a word ``head`` of x,
-        # followed by a word ``tail`` of F_n. A word of the product x F_n is a word ``head`` of F_n, followed
-        # by a word ``tail`` of x.
+        # In a word, the last factor of a product comes first: (2, 1) denotes X_1 X_2.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result
 
 
 def _after_first(word: Word) -> Fraction:
-    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. A word
-    lists the factors of a product from right to left: the word (2, 1) denotes X_1 X_2. Therefore each word in
-    the product exp(-F_1) Y consists of a word of Y, followed by a word of exp(-F_1)."""
+    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`."""
     result = iterated_integral(word)
     for cut in range(len(word)):
         scale = exponential_scales(len(word) - cut)[-1]

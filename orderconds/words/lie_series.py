@@ -111,8 +111,9 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return a function that maps a weight to the coefficients of bracketed Lyndon words up to this weight.
-    ``value`` returns the coefficient of a word in the series.
+    """Return a function that writes a series in the basis of bracketed Lyndon words. The argument of the
+    function is the largest weight. Its result contains the coefficients of the bracketed words. ``value``
+    returns the coefficient of a word without brackets in the series.
     """
 
     def coordinates(weight: int) -> Coordinates:
@@ -161,9 +162,9 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
     """Return a function that computes the coefficients c_k of a series sum_k c_k ad_U^k X. Here ad_U^k X is
-    the bracketed form of the Lyndon word with k letters U, followed by one letter X. Let ``g`` be the
-    returned function. For each number n, ``g(n)`` is a map from the words X, UX, UUX, ... with at most n
-    letters to numbers. The number for the word with k letters U is c_k. The number n is called the weight.
+    the bracketed form of the Lyndon word with k letters U, followed by one letter X. The argument of the
+    function is the largest number n of letters. The result maps each of the words X, UX, UUX, ... with at
+    most n letters to its coefficient c_k.
 
     ``expand(n)`` maps the words with at most n letters to their coefficients in the series.
     """
