@@ -87,8 +87,8 @@ def crouch_grossman_work(tableau: Tableau) -> Work | None:
 
 def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
     """Return the cost of a step of a Runge-Kutta-Munthe-Kaas method. The series of dexpinv is truncated after
-    the term with ``cutoff`` brackets, or not at all if ``cutoff`` is None. For a method without a Butcher
-    tableau, only field evaluations are counted (:func:`evaluations`).
+    the term with ``cutoff`` brackets. If ``cutoff`` is None, brackets are not counted. For a method without a
+    Butcher tableau, only field evaluations are counted (:func:`evaluations`).
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> munthe_kaas_work(heun, 1)
