@@ -43,7 +43,7 @@ def _of_sine(x: Expr, f: Expr) -> Expr:
 
 
 def _value(x: Expr, f: Expr) -> Expr:
-    # This is the second derivative of f, where f is sinh or cosh.
+    # The second derivative of sinh is sinh, and the second derivative of cosh is cosh.
     return f
 
 

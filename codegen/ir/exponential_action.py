@@ -5,8 +5,7 @@ In doubles, the number s is chosen such that the matrix B = A/2^s has a small no
 488). Let m be the degree of the Taylor polynomial, and let the vector p be the sum of (m!/j!) B^(j-1) y over
 j = 1, ..., m. A multiplication by the polynomial replaces y by y + B q with q = p/m!.
 
-The integers m!/j! need no rounding. For a skew matrix A, rounded coefficients 1/j! would cause a systematic
-error of the length of y.
+Unlike the coefficients 1/j! of the Taylor polynomial, the integers m!/j! need no rounding.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ def degrees(bits: int) -> tuple[int, ...]:
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
-    # Only every fourth degree is used, because more degrees would save little time.
+    # A list with more degrees would save little time.
     return tuple(range(m, 3, -4))[::-1]
 
 
@@ -146,7 +145,7 @@ class ExponentialAction(VectorFunction):
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
         both = (*block, *v, *y)
-        # If the block matrix has at most :data:`SPARSE` rows, ``expanded`` omits its zero entries.
+        # The block matrix contains zeros, so simpler expressions for the results may exist.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
         # The derivatives are the first half of the results.
@@ -245,8 +244,9 @@ class ExponentialAction(VectorFunction):
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the exact value of exp(A) y for truncated power series.
 
-        If the constant terms of A form a nilpotent matrix, the exponential series is finite. If the series
-        does not end, :class:`ArithmeticError` is raised.
+        The result is the sum of A^k y/k! over k = 0, 1, .... If the constant terms of the entries of A form a
+        nilpotent matrix, only finitely many terms are nonzero. If infinitely many terms are nonzero,
+        :class:`ArithmeticError` is raised.
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])

@@ -22,8 +22,9 @@ class Formulas(ExprDomain):
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function. For a product or commutator of matrices, each entry is
-        a scalar formula.
+        """Return the results of a vector function.
+
+        Matrix products and commutators are replaced by scalar formulas for their entries.
         """
         called = named(function)
         if isinstance(called, BilinearFunction):

@@ -96,8 +96,7 @@ class _Reader:
         name = e.func.__name__
         if isinstance(e, sympy.Function) and name in CALLS:
             argument = self.node(e.args[0])
-            # A function that is not in ``SAFE`` needs no safe argument, because the function is finite at
-            # every finite double.
+            # Only the functions in ``SAFE`` can be infinite or undefined at a finite double.
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
@@ -136,7 +135,7 @@ class _Reader:
 
         If x is constant or ``guard`` is None, x is returned.
         """
-        # If the branch is not selected, ``safe`` avoids a NaN, for example from the root of a negative x.
+        # Emitted code evaluates every branch of a Piecewise formula, even if another branch is selected.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
@@ -170,11 +169,7 @@ class _Reader:
                 where=self.where,
                 expected="a last branch (formula, True)",
             )
-        # ``e`` may be nested in a branch of a larger Piecewise formula. Let B be this branch. ``outer`` is an
-        # expression with the value 1 if B is selected, and with the value -1 if B is not selected. In each
-        # pass of the loop, ``rest`` is true if B is selected and all earlier conditions of ``e`` are false.
-        # If ``e`` is not nested, ``outer`` is None, and ``rest`` is true if all earlier conditions of ``e``
-        # are false.
+        # The loop below changes ``self.guard``, so the old value is stored in ``outer``.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
         for formula, condition in e.args:
@@ -187,7 +182,7 @@ class _Reader:
         self.guard = outer
         # The last branch is the default, because its condition is ``True``.
         (_, total) = branches.pop()
-        # The first true condition selects the branch, so the first condition is the outermost choice.
+        # The loop runs backwards, because the first true condition has priority.
         for holds, formula in reversed(branches):
             total = holds(formula, total)
         return total

@@ -56,8 +56,8 @@ def interpret(
     - ``near`` contains one list of scalars for each block. If ``near`` is given, only Newton's method is
       used, and it begins at these scalars. After the step ``near`` contains the solutions.
 
-    If ``domain`` has a method ``computed``, the assignment of x to a variable ``name`` stores
-    ``computed(name, x)``.
+    If ``domain`` has a method ``computed``, each value x that a statement assigns to a variable is replaced
+    by ``computed(name, x)``. Here ``name`` is the name of the variable.
 
     :class:`NotConverged` is raised if the iteration of a block does not converge.
     """

@@ -84,8 +84,8 @@ class Newton:
       residuals r(u). The matrix is -r'(u), expanded to first order in h. The matrix is computed and
       inverted again after :attr:`period` steps.
 
-    If ``inverted`` is true, ``matrix`` is the inverse of the matrix described above. ``changes`` are the
-    names of the variables for the changes of the unknowns in a sweep.
+    If ``inverted`` is true, ``matrix`` is the inverse of the matrix described above. If ``residuals`` is
+    true, the variable with the name ``changes[k]`` contains the change of unknown k in a sweep.
     """
 
     body: tuple[Let, ...]
@@ -157,7 +157,7 @@ class Loop:
         """The factor ``close`` in the second case of the stopping rule (see :class:`Loop`).
 
         In Newton's method, the values of ``body`` are computed before the last change is added to the
-        unknowns. So these values are less accurate than the unknowns.
+        unknowns. If the code after the loop reads only the unknowns, the factor may be larger.
         """
         # If ``only_unknowns_read`` is true, the code after the loop reads the unknowns, but not the values of
         # ``body``. The error of the unknowns is smaller than the last change of the unknowns. For this
@@ -179,18 +179,16 @@ class Start:
     step, u2 the solution of the step before it, and so on. The extrapolations of degree 0, 1 and 2 are u1,
     2 u1 - u2 and 3 u1 - 3 u2 + u3.
 
-    The backward differences are u1 - u2 (order 1), u1 - 2 u2 + u3 (order 2), and so on. Let d be the degree
-    of the extrapolation. The degree increases to d + 1 only if the backward difference of order d + 1 is
-    smaller than the backward difference of order d. The degree decreases to d - 1 only if the backward
-    difference of order d - 1 is smaller than the backward difference of order d. Let c be the change of the
-    unknowns from one step to the next. If the estimated error of the first values is larger than ``ROUGH``
-    times c, all stored solutions except u1 are discarded.
+    The backward differences are u1 - u2 (order 1), u1 - 2 u2 + u3 (order 2), and so on. The sizes of the
+    backward differences determine the degree of the next extrapolation (:mod:`codegen.run.warm_start`). Let c
+    be the change of the unknowns from one step to the next. If the estimated error of the first values is
+    larger than ``ROUGH`` times c, all stored solutions except u1 are discarded.
 
     A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then the
     step size grows to h. Each solution provides the first values for the next larger step size. After a
     successful step size s < h, the next step size is s times a growth factor, but at most h. The continuation
-    fails after ``TRIES`` attempts. The continuation also fails if the growth factor is 1 + ``SHORTEST`` or
-    less.
+    fails after ``TRIES`` attempts. After the first successful attempt, each failed attempt reduces the growth
+    factor. If the growth factor becomes 1 + ``SHORTEST`` or less, the continuation fails, too.
     """
 
     unknowns: tuple[str, ...]
@@ -198,12 +196,11 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # An extrapolation must have at most half the error of the simplest guess, the last solution.
+    # An extrapolation is used only if it is clearly better than the last solution.
     ROUGH: ClassVar[float] = 0.5
     # Successful continuations need far fewer than 100 attempts.
     TRIES: ClassVar[int] = 100
-    # After the first success, each failure replaces the growth factor by its square root. Nine failures
-    # reduce the growth factor from 4 to less than 1 + ``SHORTEST``.
+    # Nine failed attempts reduce the growth factor from 4 to less than 1 + ``SHORTEST``.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -222,7 +219,7 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """The deferred flows of a splitting method.
+    """Flows of a splitting method that are computed only at the beginning or at the end of a run.
 
     A run has at most :data:`LONGEST` steps. The run calls ``begin``, then the kernel of the step once for
     each step, and then ``finish``.
@@ -471,6 +468,6 @@ class Kernel:
             # The kernels ``begin`` and ``finish`` may use additional scalars.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
-            # The kernel of the Taylor coefficients may use additional scalars.
+            # The Taylor coefficients may contain scalars that are not yet in ``read``.
             read |= set(self.expansion.coefficients.used_scalars())
         return tuple(s for s in self.scalars if s in read)

@@ -20,9 +20,8 @@ from codegen.ir.table import PiecewisePolynomial
 STEP = "h"
 
 EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4))})
-"""The names of the functions that :func:`_called` can expand to first order in h.
-
-Piecewise polynomials can be expanded, too, but they are not in this set.
+"""The names of the functions that :func:`_called` can expand to first order in h, apart from piecewise
+polynomials.
 """
 
 Pair = tuple[Expr, Expr]
@@ -173,7 +172,7 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
     none = (space.zero, space.zero)
 
     def pair(x: Pair, y: Pair) -> Pair:
-        # A sufficiently small h does not change the sign of a nonzero ``test.value[0]``.
+        # The choice depends only on the value of ``test`` at h = 0.
         low, high = (space.call(CHOOSE, test.value[0], p, q) for p, q in zip(x, y, strict=True))
         return low, high
 

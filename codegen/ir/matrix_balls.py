@@ -60,9 +60,9 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
 
     ``jet`` contains the entries of an n x n matrix A, followed by the entries of its derivatives.
 
-    The results are balls with radius zero, so the radius of a result is not a bound of the error. Let |X| be
-    the largest absolute value of an entry of a matrix X. Let e be the maximum of |E| over all derivatives
-    E of A in ``jet``. The errors of the results have these bounds:
+    The results are approximations, stored as balls with radius zero. Let |X| be the largest absolute value of
+    an entry of a matrix X. Let e be the maximum of |E| over all derivatives E of A in ``jet``. The errors of
+    the results have these bounds:
     - The error of each entry of exp(A) is at most 2^-``bits`` |exp(A)|.
     - Let D be a derivative of exp(A). Let b be the maximum of the two numbers |D| and |exp(A)| (e + e^2).
       The error of each entry of D is at most 2^-``bits`` b.

@@ -47,8 +47,7 @@ def pairs(level: int) -> Pairs:
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
     """
-    # For e_m in the module docstring, e_j e_k = 0 if j and k have a common bit. Otherwise
-    # e_j e_k = e_(j + k).
+    # Only matrices whose indices have no common bit are multiplied.
     masks = range(2**level)
     return tuple(tuple((a, m ^ a) for a in masks if a & m == a) for m in masks)
 
@@ -69,7 +68,9 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
 
 def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
-    """Return the exponential of the jet ``a``, an n x n matrix with its derivatives.
+    """Return the exponential of a jet in double precision.
+
+    ``a`` contains the entries of the 2^``level`` matrices of the jet (see the module docstring).
 
     All results are NaN if fewer than three decimal digits are reliable.
     """
@@ -105,7 +106,7 @@ def _norm(a: Sequence[float]) -> float:
 
 
 def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> list[Scalar]:
-    """Return the product of two jets. A jet consists of an n x n matrix and 2^``level`` - 1 derivatives."""
+    """Return the product of the jets ``a`` and ``b`` of level ``level`` (see the module docstring)."""
     size, rows = n * n, range(n)
     result: list[Scalar] = []
     for parts in pairs(level):
@@ -163,8 +164,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     The bound is exp(``scale`` b). Gershgorin's circles give an upper bound b of the eigenvalues of the
     symmetric part of ``a``.
     """
-    # The bound b uses the absolute values of the entries outside the diagonal. The diagonal entries keep
-    # their signs. Therefore the bound b may be negative.
+    # No absolute value of a diagonal entry is taken, so ``largest`` may be negative.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]
@@ -181,10 +181,9 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 
 
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
-    """Square a jet repeatedly, and return the resulting jet.
+    """Return the jet ``total``, squared ``squarings`` times.
 
-    The list ``total`` contains the jet, and ``squarings`` is the number of squarings. A jet is a list
-    with the entries of several n x n matrices: a matrix and its derivatives.
+    A jet is a list with the entries of several n x n matrices: a matrix and its derivatives.
 
     The first matrix of ``total`` (its first n^2 entries) has a spectral norm of at most ``growth``. The error
     of the first matrix of the result is estimated. If the estimate is too large (:data:`LEAST_DIGITS`), all

@@ -29,7 +29,8 @@ class MatrixExponential(VectorFunction):
     are four matrices: A, a derivative B of A, and the derivatives of A and B in a second direction. In
     general, each level doubles the number of arguments. For ``level`` = k, the first half contains the
     arguments for ``level`` = k - 1. The second half contains the derivatives of the matrices in the first
-    half. The results are the results for ``level`` = k - 1, followed by the derivatives of these results.
+    half. The first half of the results contains the results for ``level`` = k - 1. The second half contains
+    the derivatives of the first half.
     """
 
     n: int
@@ -47,7 +48,10 @@ class MatrixExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """Approximate numbers of additions and multiplications in one call. Squarings are not counted."""
+        """Approximate numbers of additions and multiplications in one call.
+
+        In the method of scaling and squaring, the squarings are not counted.
+        """
         # A Taylor polynomial of degree 12 requires five products of jets. A product of two jets consists of
         # 3^``level`` products of matrices.
         products = 5 * 3**self.level * self.n**3
@@ -91,11 +95,11 @@ class MatrixExponential(VectorFunction):
         return tuple(total)
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the exponential of ``args`` in doubles, by the same operations as in emitted code."""
+        """Return the results for the doubles ``args``, by the same operations as in emitted code."""
         return matrix_exponential.in_doubles(self.n, self.level, args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential of the jet ``args`` in mpmath numbers, with about ``digits`` digits."""
+        """Return the results for the mpmath numbers ``args``, with about ``digits`` digits."""
         return matrix_exponential.in_digits(context, self.n, self.level, args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -143,7 +147,7 @@ class MatrixInverse(VectorFunction):
         return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return None: an inverse is never replaced by scalar formulas. Emitted code calls a function."""
+        """Return None: an inverse is never replaced by scalar formulas."""
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:

@@ -34,8 +34,10 @@ class BilinearFunction(VectorFunction):
 
     @abstractmethod
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the entries of f(a, b) for scalars of any type: doubles, mpmath numbers, power series or
-        expressions. ``args`` are the entries of a and b.
+        """Return the entries of f(a, b), where f is this function.
+
+        ``args`` are the entries of a and b. The entries may be doubles, mpmath numbers, power series or
+        expressions.
         """
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
@@ -77,7 +79,7 @@ class BilinearFunction(VectorFunction):
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the entries of f(a, b) for matrices of doubles."""
+        """Return the entries of f(a, b), where f is this function and ``args`` are doubles."""
         return self.arithmetic(args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -85,7 +87,7 @@ class BilinearFunction(VectorFunction):
         return self.arithmetic(args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the entries of f(a, b) for matrices of power series."""
+        """Return the entries of f(a, b), where f is this function and ``args`` are power series."""
         return self.arithmetic(args)
 
 

@@ -20,8 +20,13 @@ if TYPE_CHECKING:
     from codegen.ir.kernel import Kernel
 
 EXP, PHI, BERNOULLI, POWER = "exp", "phi1", "bernoulli", "z"
-"""The names of the functions in the coefficients of a step. As functions of a variable w, they are exp(w),
-phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w itself.
+"""The names of the functions in the coefficients of a step.
+
+The values of these functions at w are:
+- ``EXP``: exp(w)
+- ``PHI``: (exp(w) - 1)/w
+- ``BERNOULLI``: w/(exp(w) - 1)
+- ``POWER``: w
 """
 
 WIDTH = 100
@@ -80,7 +85,7 @@ class Multiplier:
             # At 0, POWER has the value 0, EXP has the value 1, and PHI and BERNOULLI have the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # ``scale`` becomes the coefficient of the monomial z.
+            # The number ``scale`` is stored as a coefficient, so that equal multipliers have equal terms.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -161,10 +166,10 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
 
 @dataclass(frozen=True)
 class Table:
-    """A coefficient of a step: h^``power`` times ``multiplier``, a function of z = h lambda.
+    """A coefficient of a step: the product of h^``power`` and ``multiplier``.
 
-    The coefficient has one value for each Fourier mode. Emitted code computes these values once for each step
-    size, and stores them.
+    The multiplier is a function of z, where z is h times an eigenvalue of L. The coefficient has one value
+    for each Fourier mode. Emitted code computes these values once for each step size, and stores them.
     """
 
     multiplier: Multiplier
@@ -210,7 +215,8 @@ class Evaluation:
 class Nonlinearity:
     """The nonlinear part N(u), a sum of x-derivatives of functions f_j.
 
-    - ``inner`` lists the x-derivatives of u in the functions f_j as pairs (order, name). Order 0 is u itself.
+    - ``inner`` contains a pair (order, name) for each x-derivative of u on which the functions f_j depend.
+      Order 0 is u itself.
     - ``outer`` lists the orders of the x-derivatives of f_1, f_2, ... in the sum.
     - ``formulas`` computes the values of all f_j at one point x. The kernel inputs are: the derivatives in
       ``inner``; x; t; the parameters.
@@ -280,11 +286,9 @@ class ModeStep:
 
     @property
     def growth(self) -> int:
-        """The exponent p of a bound C (1 + |z|)^p for functions of z.
+        """The exponent p in a bound of the multipliers (:attr:`Table.multiplier`) of all tables.
 
-        The functions are the multipliers (:attr:`Table.multiplier`) of all tables in ``tables``.
-
-        For z < 0, the absolute value of each function is at most C (1 + |z|)^p with a constant C. If
+        For z < 0, the absolute value of each multiplier is at most C (1 + |z|)^p with a constant C. If
         :attr:`backwards` is true, p has no meaning.
         """
         # For z -> -infinity, the function f grows at most like |z|^d with d = ``degrees[f]``.

@@ -1,8 +1,8 @@
 """Simplification of expressions by the equations of a group, for example g^T g = 1 for orthogonal g.
 
 A relation is an equation between a product of two symbols and a sum. The expression is expanded as a
-polynomial. The variables of the polynomial are symbols, function calls and inverses. Each product that occurs
-in a relation is replaced by its sum.
+polynomial. The variables of the polynomial are symbols, function calls and inverses. In the polynomial, the
+product in each relation is replaced by the sum in the same relation.
 
 The result is the normal form of the expression. The form is not canonical: equal expressions may have
 different normal forms.
@@ -16,8 +16,8 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""A product of powers of variables, as sorted pairs (node number, exponent). A variable is an expression.
-Its node number is its ``id``.
+"""A product of powers of variables, as sorted pairs (node number, exponent). Each variable is an expression.
+The node number is the ``id`` of this expression.
 """
 
 Polynomial = dict[Monomial, Number]
@@ -159,7 +159,7 @@ class NormalForms:
         return node.id
 
     def _variable(self, node: Expr) -> Polynomial:
-        # A quotient or a call may simplify to a constant, and constants are not variables.
+        # A constant is a coefficient and not a variable.
         if node.op == "const":
             return {(): node.payload}
         return {((self._atom(node), 1),): ONE}

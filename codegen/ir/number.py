@@ -32,7 +32,7 @@ def is_normal(value: Fraction) -> bool:
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]
     """
-    # A denormal double has fewer than 53 bits, so its relative rounding error may be larger.
+    # A denormal double has fewer than 53 bits, so its relative rounding error may be larger than 2^-53.
     return not value or _SMALLEST <= abs(value) <= _LARGEST
 
 
@@ -151,7 +151,7 @@ class Number:
         return Number(ring, x * y)
 
     def __truediv__(self, other: Number) -> Number:
-        # If x is given by a ball (an interval), x/x would be a ball around 1.
+        # In ball arithmetic, x/x would be an interval around 1 and not exactly 1.
         if self == other and not other.is_zero:
             return Number.rational(1)
         ring, x, y = self._join(other)

@@ -124,7 +124,10 @@ class Zero(Operation):
         return NONE, (self.kind,)
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if ``arguments`` is (), ``results`` is (``kind``,), and ``kind`` has a zero vector."""
+        """Return True if there are no arguments, and the only result has the kind ``kind``.
+
+        If ``kind`` has no zero vector, return False.
+        """
         # Groups and manifolds have no zero vector, so ``kind`` must be the algebra or its dual.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
@@ -144,7 +147,10 @@ class Linear(Operation):
     noun = "sum{s}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the result, if all vectors are in the Lie algebra."""
+        """Return the kinds of the arguments and of the result.
+
+        All vectors are assumed to be in the Lie algebra.
+        """
         # The method :meth:`accepts` also permits vectors in the dual of the Lie algebra.
         return (Kind.ALG,) * len(self.coefficients), A
 
@@ -177,7 +183,7 @@ class Linear(Operation):
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
             if not c.is_one:
-                # A product of power series is slow and is omitted for c = 1.
+                # The multiplication by 1 is omitted, because the multiplication of power series is slow.
                 factor = c.evaluate(domain)
                 part = tuple(factor * a for a in part)
             total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))
@@ -318,7 +324,7 @@ class Adjoint(OfGroup):
 
     @property
     def function(self) -> str:
-        """The name of the method of the group that evaluates this operation."""
+        """The name of the Python method that evaluates this operation in the class of the group."""
         # ``Adt`` means Ad*, the transpose of Ad.
         return f"Ad{'t' if self.dual else ''}{'inv' if self.inverse else ''}"
 
@@ -380,7 +386,7 @@ class InverseDexp(Operation):
 
     @property
     def word(self) -> Word:
-        """The operation as a product of functions of ad_x. There is one factor, the truncated dexp^{-1}."""
+        """A tuple with one element that represents the truncated series of dexp^{-1}."""
         # If two functions of the same ad_x are applied one after the other, a compiler pass replaces the two
         # operations by one :class:`AdSeries`.
         return (Factor("dexpinv", UNIT, self.order),)
@@ -415,7 +421,7 @@ class InverseDexpSlope(Operation):
     noun = "derivative{s} of dexpinv"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the order of the truncation."""
+        """Return the name of the operation, followed by ``order`` in parentheses."""
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:

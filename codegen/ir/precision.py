@@ -105,7 +105,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
     # Here ``exponent`` is correct or too small by one.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
-    # Every number of the format is a multiple of the smallest positive number.
+    # The last bit of the result has at least the exponent of the smallest positive number.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
         # Python rounds a Fraction with ties to even, as IEEE 754 does by default.

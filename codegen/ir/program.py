@@ -72,7 +72,8 @@ class Solve:
     - ``residuals`` is empty, or contains one residual for each unknown. Each residual is an estimate of the
       error of its unknown.
 
-    After the block, the variables of the body have their values at the solution.
+    Statements after the block may use the variables that ``body`` assigns. The values of these variables are
+    computed from the solution u.
     """
 
     label: str
@@ -159,8 +160,8 @@ class Program:
         """Return the program as text, with one statement on each line."""
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
-        # In the body frame, the name ``mu`` in the following lines of the text denotes the body momentum.
-        lines += ["  with the body momentum Ad*(q, mu) in place of mu:"] if self.frame == BODY else []
+        # The statements below use the name ``mu`` for the body momentum.
+        lines += ["  mu is replaced by the body momentum Ad*(q, mu):"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):
                 lines.append("  " + statement.text())

@@ -29,7 +29,7 @@ class OfScene(OfGroup):
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
-        """Return ``arguments``, followed by the kind of the time if ``timed`` is true."""
+        """Return ``arguments``. If ``timed`` is true, ``Kind.REAL`` is appended for the time."""
         return arguments + R if self.timed else arguments
 
 

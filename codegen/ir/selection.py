@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 CHOOSE, ABSOLUTE = "choose", "fabs"
 
 SELECTING = (CHOOSE, ABSOLUTE)
-"""The names of the functions that select a formula by the sign of x."""
+"""The names of the functions that select a formula by the sign of their first argument."""
 
 
 class Kink(ArithmeticError):

@@ -87,10 +87,10 @@ class Corrected(Operation):
 
 @dataclass(frozen=True)
 class Wedge(Operation):
-    """The vector (p f - q gamma)/s for a covector gamma, a vector f and numbers p, q and s.
+    """The vector with the components (p f_i - q gamma_i)/s, for a covector gamma and a vector f.
 
-    For s = 0 the result is zero. Let alpha be a covector. For p = <gamma, alpha>, q = <f, alpha> and
-    s = |gamma|^2, the result is the bivector (gamma wedge f)/s times alpha (:mod:`codegen.kernel.site_sums`).
+    The arguments p, q and s are numbers. For s = 0 the result is zero. Discrete gradients on a lattice use
+    this operation (:mod:`codegen.kernel.site_sums`).
     """
 
     name = "wedge"

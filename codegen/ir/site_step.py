@@ -50,8 +50,8 @@ class Row:
 class Load:
     """A number that a sweep reads at each site. ``symbol`` denotes the number in the formulas.
 
-    If ``neighbour`` is :data:`OWN`, the sweep reads the entry of the site itself in ``row``. Otherwise, it
-    reads the entry of neighbour number ``neighbour`` (:attr:`SiteStep.offsets`).
+    ``row`` has one entry for each site. If ``neighbour`` is :data:`OWN`, the sweep reads the entry of the
+    site itself. Otherwise, it reads the entry of neighbour number ``neighbour`` (:attr:`SiteStep.offsets`).
     """
 
     symbol: str
@@ -328,7 +328,9 @@ class SiteStep:
                     f"  Newton's method: the matrix has three blocks of {n} x {n} numbers for each site"
                 )
         if self.flows:
-            lines.append(f"a step executes {len(self.flows)} loops, including repetitions")
+            lines.append(
+                f"a step executes {len(self.flows)} loops; a loop that is executed twice counts twice"
+            )
         lines.append(
             f"workspace: {self.workspace} numbers ({BYTES * self.workspace} bytes) for each site, "
             "plus padding"
