@@ -97,7 +97,7 @@ def end_of_run(t: float, end: object, times: Sequence[float]) -> float:
     1.0
     """
     if end is None and not times:
-        raise TypeError("expected the argument end, which is the time at which the run ends")
+        raise TypeError("the argument 'end' is missing; expected the time at which the run ends")
     last = real(times[-1] if end is None else end, "end")
     if times and (last - times[-1]) * (times[-1] - t) < 0:
         raise ValueError(

@@ -77,8 +77,8 @@ class Artifact:
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
         if (entry["module"], entry["target"]) == self.key and mine != theirs and not chosen:
             raise InputError(
-                f"{theirs[1]} on {theirs[0]} and {mine[1]} on {mine[0]} "
-                f"have the same module name, {self.key[0]}",
+                f"the folder contains a module {self.key[0]} for the method {theirs[1]} and the scene "
+                f"{theirs[0]}, but the new module is for the method {mine[1]} and the scene {mine[0]}",
                 where=str(folder),
                 hint="choose another name with --prefix NAME, or another folder with -o DIR",
             )

@@ -210,7 +210,7 @@ class _Buffers:
 
     @property
     def arguments(self) -> list[Any]:
-        """The event arguments of the C function ``integrate``, in the order of its parameters."""
+        """The arguments for events, in the order of the parameters of the C function ``integrate``."""
         buffers = [self.times, self.rows, self.numbers, self.count]
         return [self.function, self.ffi.NULL, self.stops, self.ROOM, *buffers]
 

@@ -56,8 +56,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     # If the field depends only on the time, methods of different orders can give the same result.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
-            f"no error estimate for {method.label}: the field does not depend on the state, so the method "
-            "and its embedded method give the same result or the same leading error",
+            f"no error estimate for {method.label}: because the field does not depend on the state, the "
+            "method and its embedded method have the same leading error, which cancels in the estimate",
             where=scene.name,
             expected="an embedded method whose leading error on this scene differs from that of the method",
             hint="use another tableau with an embedded method, for example cf:cf3 or rkmk(4):dormand_prince5",

@@ -29,7 +29,7 @@ class Event:
 
     @property
     def stops(self) -> int:
-        """A code for the zeros that end the run.
+        """A code that says which zeros of ``function`` end the run.
 
         The code is 1 for RISING zeros, 2 for FALLING zeros, 3 for all zeros, and 0 for no zeros.
         """

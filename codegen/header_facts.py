@@ -76,7 +76,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
 
 
 def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
-    """Return the header line about the continuous extension, if the module uses one."""
+    """Return the header line about the continuous extension, or () if the module uses no extension."""
     extension = None if kernel.observed is None else kernel.observed.extension
     if extension is None:
         return ()

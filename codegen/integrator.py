@@ -395,7 +395,7 @@ class Integrator(RunToEnd):
         return [real(values[name], name) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
-        """Update ``statistics`` with the numbers of iterations for implicit equations in one call."""
+        """Update ``statistics`` with ``counts``, the numbers of iterations in one call of emitted code."""
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(self.interface.blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]

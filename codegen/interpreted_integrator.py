@@ -84,8 +84,8 @@ class InterpretedIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[dict[str, Any]]:
-        """Yield the keyword arguments for a call of the emitted module. The call must be in the
-        ``with`` block.
+        """Yield the keyword arguments for a call of the emitted module. This function is a context manager,
+        and the call must be in its ``with`` block.
 
         At the end of the block, the numbers of iterations are added to ``begun.statistics``. If the emitted
         module raises its exception ``StepFailed``, this function raises :class:`codegen.arrival.StepFailed`.

@@ -28,8 +28,7 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--form",
-    help="Form of the equations: printed (the default: the equations of the scene), body-matrix or "
-    "quaternion.",
+    help="Form of the equations: printed (as in the scene), body-matrix or quaternion; by default printed.",
 )
 @click.option("--steps", multiple=True, help="Numbers of steps, such as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter in decimal digits.")

@@ -50,8 +50,8 @@ if TYPE_CHECKING:
 @click.option(
     "--form",
     default="printed",
-    help="Form of the equations: printed (the default: the equations of the scene), body-matrix or "
-    "quaternion. The header of the emitted file describes the form.",
+    help="Form of the equations: printed (as in the scene), body-matrix or quaternion; by default printed. "
+    "The header of the emitted file describes the form.",
 )
 @click.option(
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."

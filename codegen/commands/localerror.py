@@ -26,7 +26,7 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
     series is compared with the Taylor series of the solution. The vector field must be a rational function of
     the coordinates. Initial coordinates that are not rational are replaced by nearby rational numbers.
 
-    If the exact order is below the order that the order conditions give, the exit status is 1. If the exact
+    If the exact order is lower than predicted by the order conditions, the exit status is 1. If the exact
     order cannot be computed, the exit status is also 1.
 
     \b

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 NOTICED = 0.1
-"""The output mentions a reference solution that takes at least this fraction of the time budget."""
+"""If the reference solution takes at least this fraction of the time budget, the output says so."""
 
 
 @click.command("recommend", short_help="Find the fastest method with a required accuracy on a scene.")
@@ -131,14 +131,14 @@ def control(asked: Request, place: Result) -> str:
 def searched(result: Recommendation) -> str:
     """Describe the search: its duration, how many methods were compared, and warnings."""
     text = (
-        f"in {result.seconds:.0f} s, the CPU time was predicted for {result.predicted} methods and measured "
-        f"for {result.raced} methods"
+        f"the search took {result.seconds:.0f} s; the CPU time was predicted for {result.predicted} methods "
+        f"and measured for {result.raced} methods"
     )
     if result.kinks:
         text += (
             f"; the solution crosses {result.kinks} points where the vector field is not smooth, which can "
         )
-        text += "lower the order of a method; the measured errors are valid only for this time interval"
+        text += "lower the order of a method; other time intervals can contain more such points"
     text += "" if result.complete else "; the time budget ended the search; increase --budget"
     if result.referred >= NOTICED:
         text += f"; the reference solution took {result.referred:.0%} of the budget"

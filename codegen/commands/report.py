@@ -39,13 +39,14 @@ from orderconds.commands.variadic import Variadic
     "--quick",
     "effort",
     flag_value="quick",
-    help="Make short runs and omit stiff variants of the scenes; each scene takes some seconds.",
+    help="Make short runs and omit stiff variants of the scenes. Each scene then takes some seconds.",
 )
 @click.option(
     "--full",
     "effort",
     flag_value="full",
-    help="Measure all peers (--against), and make runs of a million steps; each scene takes many minutes.",
+    help="Measure all peers (see --against) and make runs of a million steps. Each scene then takes many "
+    "minutes.",
 )
 @click.option("--output", "-o", type=FOLDER, metavar="DIR", required=True, help="The folder for the pages.")
 @click.option(
@@ -91,7 +92,7 @@ def command(
     if everything and scenes:
         raise click.UsageError("SCENE cannot be used with --all")
     if parameters and not scenes:
-        raise click.UsageError("--parameter is used without a SCENE; give the SCENE of the parameter")
+        raise click.UsageError("--parameter requires the argument SCENE")
     scenes = tuple(with_values(name, parameters) for name in scenes)
     request = Request(
         read_scenes(scenes, everything), methods, peers, parts, effort or "usual", adaptive, processes

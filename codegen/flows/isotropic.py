@@ -24,7 +24,7 @@ class Isotropic(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (exp(tau r mu) q, mu), where r is the attribute ``rate``."""
+        """Return (exp(x) q, mu). The components of x are those of mu, multiplied by tau and ``rate``."""
         step: S = tau * d.rational(self.rate.numerator, self.rate.denominator)
         return group.expmul(d, tuple(step * m for m in mu), q), mu
 

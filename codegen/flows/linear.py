@@ -75,8 +75,8 @@ def recognise(formula: Formula) -> Part | None:
     formula. J is the block matrix with the rows (0, I) and (-I, 0).
 
     If the group is not abelian, the result is None. For an abelian group, two conditions are tested: the
-    formula is quadratic in z, and L^2 is diagonal without positive entries. If a condition is violated, the
-    part is returned without a flow, and its ``reason`` names the violated condition.
+    formula is quadratic in z, and L^2 is a diagonal matrix whose entries are at most zero. If a condition is
+    violated, the part is returned without a flow, and its ``reason`` names the violated condition.
     """
     if not formula.problem.group.abelian:
         return None

@@ -43,11 +43,9 @@ class Stated(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a :class:`Part` with the name ``formula.name``.
+    """Return a :class:`Part` with a flow that is computed by formulas of the scene.
 
-    The flow of this part is a :class:`Stated` flow with the formulas of the scene.
-
-    If the scene gives no formulas for this flow, return None.
+    The name of the part is ``formula.name``. If the scene gives no formulas for this flow, return None.
     """
     formulas = formula.problem.stated.get(formula.name)
     return None if formulas is None else formula.whole(Stated(formulas))

@@ -85,7 +85,7 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
         number = str(k + 1) if len(turns) > 1 else ""
         flows.append([(f"{formula.name}.turn{number}" if several else formula.name, turn)])
     if mean:
-        # The flow of ``Isotropic`` commutes with the flows in ``turns``.
+        # The flow of ``Isotropic`` commutes with all turns, so its place in the composition is free.
         flow = (f"{formula.name}.mean" if several else formula.name, Isotropic(mean))
         flows = [[flow, *(flows[0] if flows else [])], *flows[1:]]
     return [Summand(tuple(f)) for f in flows]

@@ -55,8 +55,8 @@ def _exponentials(
     """Return the coefficients of t and t^2 in a series.
 
     The series is the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``. The rule t^3 = -z t removes
-    all powers above t^2. Negative powers of t and the constant term of the series have no effect on the two
-    coefficients, because the rule changes only powers above t^2. If z can be negative, ``signed`` is true.
+    all powers above t^2. Negative powers of t and the constant term of the series are ignored. If z can be
+    negative, ``signed`` is true.
     """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"

@@ -36,7 +36,8 @@ class LieGroup(ABC):
     - ``dim`` is the dimension of the algebra.
     - ``size`` is the number of coordinates of an element.
     - If ``abelian`` is true, all brackets vanish.
-    - ``layout`` describes the order of the coordinates, with a comma or a colon at the beginning.
+    - ``layout`` describes the order of the coordinates. In emitted code, this text follows the name of the
+      group, so it begins with a comma or a colon.
     """
 
     name: str

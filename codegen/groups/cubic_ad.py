@@ -53,9 +53,9 @@ class CubicAd(ClosedFormSeries):
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
         In each triple, f is a number, and W is a product of functions. If ``dual`` is true, ad*_x replaces
-        ad_x. The optional function ``total`` maps a tuple of indices of ``terms`` to the sum of f v (without
-        W) over the triples with these indices. This method calls ``total`` once, with the indices of all
-        triples.
+        ad_x. If the function ``total`` is given, it computes the sums that do not contain W:
+        ``total(indices)`` is the sum of f v over the triples with these indices. This method calls ``total``
+        once, with the indices of all triples.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim

@@ -46,8 +46,8 @@ class _Events(MatrixColumns):
         """Return (dexp_w p + r psi(w) b, r), the translation of exp(x, u).
 
         Here x = (w, b) and u = (p, r) with vectors w, b, p and a number r. Let z = |w|^2, and let c_2 and c_3
-        be Stumpff functions. The matrix psi(w) is 1/2 + c_3(z) W + (c_2'(z) + c_3(z)/2) W^2, where
-        W a = w cross a for all vectors a.
+        be Stumpff functions. The matrix psi(w) is I/2 + c_3(z) W + (c_2'(z) + c_3(z)/2) W^2. Here I is the
+        identity matrix, and W a = w cross a for all vectors a.
         """
         w, b, position, time = x[:3], x[3:], u[:3], u[3]
         z, half = dot(w, w), d.rational(1, 2)

@@ -26,9 +26,9 @@ class LargeGroup(LieGroup):
 
     def _refuse(self) -> NoReturn:
         raise SceneError(
-            f"{self.name} is too large for formulas with the coordinates of its elements",
+            f"{self.name} has too many coordinates; this method needs a formula for each coordinate",
             expected=f"a method of the family {self.families}",
-            hint="for formulas with coordinates, use a scene with matrices of at most eight rows",
+            hint="for other methods, use a scene with matrices of at most eight rows",
         )
 
     def identity(self, d: Domain) -> Vector[S]:

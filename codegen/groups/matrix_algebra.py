@@ -132,7 +132,7 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
             for j, y in entries:
                 gram[i][j] = gram[i].get(j, Fraction(0)) + x * y
     dual: list[Sparse] = [()] * len(basis)
-    # Basis matrices in different components are orthogonal, so the Gram matrix is inverted block by block.
+    # After a permutation of the basis, the Gram matrix is block diagonal with one block for each component.
     for component in _components(gram):
         inverse = rational_inverse([[gram[i].get(j, Fraction(0)) for j in component] for i in component])
         if inverse is None or not all(basis[i] for i in component):

@@ -160,7 +160,7 @@ class AlgebraVectors(Representation):
         return group.require(LeftTranslation).Adinv(d, g, v)
 
     def dual(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return Ad*_g p."""
+        """Return the covector Ad*_g p with <Ad*_g p, x> = <p, Ad_g x> for all x."""
         return group.require(Coadjoint).Adt(d, g, p)
 
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
@@ -203,8 +203,7 @@ class AlgebraVectors(Representation):
 
         The method evaluates the group's formula for ``word`` with dual numbers, where e^2 = 0. The vector
         y + v e represents x = (y, v), where e multiplies the second part v. The vector q + m e represents
-        p = (m, q), where e multiplies the first part m. This choice has the following reason. The coefficient
-        of e in <q + m e, y + v e> is <m, y> + <q, v>, the value of p at x.
+        p = (m, q), where e multiplies the first part m.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
@@ -267,9 +266,9 @@ class MatrixColumns(Representation):
         return tuple(dot(p, self.velocity(d, group, e, v)) for e in basis)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return phi(x) u (see :meth:`Representation.translation`).
+        """Return phi(x) u. Here phi(x) is the sum of A^k/(k+1)! over k >= 0, and A is the matrix of x.
 
-        Let A be the matrix of x. The exponential of [[A, u], [0, 0]] is [[exp(A), phi(x) u], [0, 1]].
+        The exponential of [[A, u], [0, 0]] is [[exp(A), phi(x) u], [0, 1]].
         """
         n, bordered = self._bordered(d, group, x, u)
         exponential: Vector[S] = d.vector(f"expm{n}", bordered)

@@ -59,10 +59,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return tuple(b - half * c + factor * a for a, b, c in zip(x, y, self.ad(d, x, y), strict=True))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the element with the matrix X Y X, where X and Y are the 3 x 3 matrices of x and y.
-
-        The result is -w w' x for the angular velocities w of x and w' of y.
-        """
+        """Return the element with the matrix X Y X, where X and Y are the 3 x 3 matrices of x and y."""
         factor = -(x[0] * y[0])
         return tuple(factor * a for a in x)
 
@@ -147,7 +144,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one pair (text, residual) for the equation c^2 + s^2 = 1 of g = (c, s, a)."""
+        """Return a tuple with one pair (text, residual). For g = (c, s, a) the residual is c^2 + s^2 - 1."""
         return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:

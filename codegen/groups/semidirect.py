@@ -106,7 +106,7 @@ class Semidirect(
         """Return this product if it has the operations of the class ``capability``. Otherwise return None.
 
         Coadjoint, PointMotions, ClosedFormSeries and MatrixRepresentation have special rules. For every other
-        class, the result is None if the linear factor lacks the operations.
+        class, the result is None if the linear factor (see :class:`Semidirect`) lacks the operations.
         """
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
@@ -149,7 +149,8 @@ class Semidirect(
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return the exponential (exp y, phi(y) u) of x = (y, u).
 
-        Here phi(y) is the sum of Y^k/(k+1)! over k >= 0, and Y is the linear map v -> y.v.
+        Here phi(y) is the sum of Y^k/(k+1)! over k >= 0. The linear map Y maps v to y.v, the action of y on v
+        (see :class:`Semidirect`).
         """
         y, u = self._split(x)
         moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
@@ -392,7 +393,7 @@ class Semidirect(
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return the matrix [[R, A], [0, I]] for g = (q, a). R is the matrix of q, and I is a unit matrix.
 
-        Column k of A contains the components of a in copy k of the space (see :class:`Semidirect`).
+        The columns of A are the copies in the vector a (see :class:`Semidirect`).
         """
         q, a = self._element(g)
         return self._bordered(d, self._matrices().matrix(d, q), a, d.rational(1))
@@ -400,7 +401,7 @@ class Semidirect(
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return the matrix [[Y, U], [0, 0]] for x = (y, u), where Y is the matrix of y.
 
-        Column k of U contains the components of u in copy k of the space (see :class:`Semidirect`).
+        The columns of U are the copies in the vector u (see :class:`Semidirect`).
         """
         y, u = self._split(x)
         return self._bordered(d, self._matrices().hat(d, y), u, d.rational(0))

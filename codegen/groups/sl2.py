@@ -67,7 +67,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x, n) (q, mu) in T*G: the entries of exp(x) q, then those of :meth:`transport`."""
+        """Return the product of exp(x, n) and (q, mu) in T*G."""
         return Coadjoint.cotangent_expmul(self, d, x, n, q, mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:

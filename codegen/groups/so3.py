@@ -180,8 +180,8 @@ class SO3(
         Here f is a scalar, W is a product of functions of ad_x, and v is a vector. If ``dual`` is true,
         ad*_x = -ad_x replaces ad_x.
 
-        The optional function ``total`` returns the sum of f v over some of the terms. The argument of
-        ``total`` contains the indices of the summed terms.
+        If the function ``total`` is given, it computes the sums that do not contain W: ``total(indices)`` is
+        the sum of f v over the triples with these indices.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -190,7 +190,7 @@ class SO3(
             owns = [tuple(f * a for a in v) for f, _, v in (terms[k] for k in numbers)]
             return tuple(sum(parts[1:], start=parts[0]) for parts in zip(*owns, strict=True))
 
-        # The sum is A + x cross (B + x cross C) with linear combinations A, B and C of the vectors v.
+        # Vectors with equal coefficients are added first, which saves multiplications.
         z = dot(x, x)
         groups: tuple[dict[S, tuple[int, ...]], dict[S, tuple[int, ...]]] = ({}, {})
         for k, (_, word, _) in enumerate(terms):

@@ -32,7 +32,7 @@ def chain(kernel: Kernel) -> int:
     """
     if kernel.loops or kernel.deferred is not None:
         return 1
-    # ``depths`` maps each assigned name to the depth of its value.
+    # The depth of a value is the largest number of nested Stumpff functions in its formula.
     depths: dict[str, int] = {}
     for statement in kernel.body:
         if isinstance(statement, Let):

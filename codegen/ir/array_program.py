@@ -70,8 +70,7 @@ Entry = Expr | tuple[Number, ...]
 class Diagonal:
     """A diagonal of a matrix a: the entries a_{i, i + offset}.
 
-    If the entries are given as numbers, the first number belongs to the first row that has an entry on this
-    diagonal.
+    If ``entry`` is a tuple, it contains the entries of the diagonal from top to bottom.
     """
 
     offset: int

@@ -51,8 +51,8 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """A statement that computes the new point exp(B S B^T) X for a point X. The statement
-    assigns the displacement D of the new point X_0 + B D to ``target``.
+    """A statement that computes the new point exp(B S B^T) X for a point X. The new point is X_0 + B D, where
+    D is called its displacement. The statement assigns D to ``target``.
 
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).

@@ -193,7 +193,7 @@ class BallDomain:
         while abs(term.mid()) > limit:
             total += term
             j += 1
-            # Term j of c_k' contains the factor j, hence the ratio j/(j - 1).
+            # Term j of c_k'(z) is (-1)^j j z^(j - 1)/(2 j + k)!.
             term = -term * z * j / ((j - 1) * (2 * j + k) * (2 * j + k - 1))
         return total
 
@@ -225,7 +225,7 @@ class BallDomain:
 
         - The change is at most 2^12 eps max(1, m). Here m is the largest absolute value in ``old``, and eps
           is about 10^-``digits``.
-        - Only rounding errors remain: the change is at least ``previous``.
+        - The change no longer decreases: it is at least ``previous``.
         """
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
         # Without this test, a NaN would cause iterations up to the largest permitted number.

@@ -67,10 +67,8 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Find the powers of y = 1/sqrt x that are rewritten as quotients.
 
-
-    For example, y^3 is rewritten as 1/(x sqrt x). The result maps the node number of each power y^n to the
-    pair (node number of y, n). A power may have a numeric factor c. The node number of the product c y^n is
-    mapped to the pair (node number of y, n).
+    For example, y^3 is rewritten as 1/(x sqrt x). The result maps the node number of each product c y^n to
+    the pair (node number of y, n). The factor c is a number.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
@@ -87,11 +85,9 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # ``ranks`` maps the node number of each node c y^n to the pair (node number of y, n). The set ``read``
-    # contains this pair in two cases. In the first case, c y^n is an element of ``roots``. In the second
-    # case, c y^n is an argument of an expression that is not in ``ranks``.
+    # The set ``read`` contains the pairs of the powers that are used outside of other powers.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # If y or an even power of y is in ``read``, no power of y is rewritten.
+    # The powers of y are rewritten only if all exponents in ``read`` are 3, 5, 7 and so on.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -188,9 +184,9 @@ class _Gathering:
         return {atom.id: (one, atom)}
 
     def _power(self, node: Expr) -> Sum:
-        """Return the node c y^n, with a number c and y = 1/sqrt x, as a linear combination with one term.
+        """Return the product c y^n as a linear combination with one term.
 
-        Here y^(2 m) = 1/x^m and y^(2 m + 1) = 1/(x^m sqrt x).
+        Here c is a number, and y is 1/sqrt x. In general, y^(2 m) = 1/x^m and y^(2 m + 1) = 1/(x^m sqrt x).
         """
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()

@@ -136,7 +136,7 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
 def sign(x: Expr) -> Expr:
     """Return an expression for the sign of x: 1, 0 or -1."""
     space = x.space
-    # ``choose`` selects its last argument at x = 0, so the sign of zero is 0.
+    # At x = 0, both calls of ``choose`` select their last argument.
     return space.call(CHOOSE, x, space.one, space.call(CHOOSE, -x, -space.one, space.zero))
 
 

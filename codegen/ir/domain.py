@@ -113,7 +113,7 @@ def stumpff(k: int, z: float) -> float:
 
 
 def slope(k: int, z: float) -> float:
-    """Return the derivative c_k'(z) of the Stumpff function c_k for k = 1, 2, 3, and positive or negative z.
+    """Return the derivative c_k'(z) of the Stumpff function c_k for k = 1, 2, 3 and real z.
 
     For z != 0, c_k' is (c_{k-1} - k c_k)/(2 z).
 
@@ -191,9 +191,7 @@ class FloatDomain:
         # ``scale`` is the largest absolute value of an unknown.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # ``before`` is the previous change. The next change is about ``change``^2/``before``. The iteration
-        # ends if this estimate is at most the rounding error of the largest unknown. As this estimate is
-        # inaccurate, ``change`` itself must also be small.
+        # If the changes form a geometric sequence, the next change is below the rounding error.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Small changes that no longer decrease are rounding errors.
@@ -212,8 +210,7 @@ LARGEST_BITS = 16384
 class PreciseDomain:
     """The arithmetic of mpmath numbers with ``digits`` decimal digits.
 
-    If an argument of a function has an absolute value of 2^n or more with n = :data:`LARGEST_BITS`,
-    OverflowError is raised.
+    If an argument of a function has an absolute value of at least 2^LARGEST_BITS, OverflowError is raised.
     """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
@@ -304,9 +301,9 @@ class PreciseDomain:
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return the pair (converged, change) after a sweep, which replaces the values ``old`` by ``new``.
-        ``change`` is the largest absolute entry of ``new`` - ``old``. ``converged`` is true in two cases.
-        In the first case, ``change`` is zero. In the second case, ``change`` is small (at most 2^12 rounding
-        units) but not smaller than ``previous``. Here ``previous`` is the change in the preceding sweep.
+        ``change`` is the largest absolute entry of ``new`` - ``old``. ``converged`` is true in two cases. In
+        the first case, ``change`` is zero. In the second case, ``change`` has the size of rounding errors and
+        is at least ``previous``, the change in the preceding sweep.
         """
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
@@ -341,9 +338,9 @@ class SeriesDomain:
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the series of ``function`` at the series ``args``. ArithmeticError is raised if the result
-        cannot be computed exactly. If the divisor of ``quotient`` begins with the power h^v, the last v
-        coefficients of the quotient are unknown and set to zero.
+        """Apply ``function`` to the power series ``args``. ArithmeticError is raised if the result cannot be
+        computed exactly. If the divisor of ``quotient`` begins with the power h^v, the last v coefficients of
+        the quotient are unknown and set to zero.
         """
         z = args[0]
         if function == "quotient":
@@ -415,7 +412,7 @@ class SeriesDomain:
 
         Term j is z^(2j+1)/(2j+1), multiplied by (-1)^j for atan and by binom(2j, j)/4^j for asin."""
         total, power = self.ring.zero, z
-        # The constant term of z is zero, so term j begins at h^(2 j + 1) or later.
+        # Term j contains no power of h below h^(2 j + 1), because z has no constant term.
         for j in range(self.order // 2 + 1):
             factor = Fraction((-1) ** j) if function == "atan" else Fraction(math.comb(2 * j, j), 4**j)
             factor /= 2 * j + 1
@@ -424,10 +421,10 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return the series a/b, with a/0 = 0. If a/b has a pole at h = 0, ArithmeticError is raised."""
+        """Return the series a/b, or 0 if b = 0. If a/b has a pole at h = 0, ArithmeticError is raised."""
         # ``power`` is the exponent of the lowest power of h in b.
         power = self.ring.valuation(b)
-        # A valuation above ``order`` means that all known coefficients of b are zero.
+        # In this case, all known coefficients of b are zero.
         if power > self.order:
             return self.ring.zero
         if self.ring.valuation(a) < power:

@@ -206,7 +206,7 @@ def test_methods_whose_names_differ_in_signs_do_not_overwrite_each_other(tmp_pat
     dot, dash = (module("top_rk_a_b", name, scene="top", method=f"rk:{name}") for name in ("a.b", "a-b"))
     dot.write(tmp_path)
     with pytest.raises(
-        InputError, match=r"rk:a\.b on top and rk:a-b on top have the same module name.*--prefix NAME"
+        InputError, match=r"method rk:a\.b and the scene top, but .* method rk:a-b .*--prefix NAME"
     ):
         dash.write(tmp_path)
     dot.write(tmp_path)

@@ -242,10 +242,10 @@ def test_wrong_times_have_a_message() -> None:
         rigid("python").trajectory(START, 0.1, t_eval=[0, 1, 0.5])
     with pytest.raises(TypeError, match="exactly one of the arguments steps and t_eval"):
         rigid("python").trajectory(START, 0.1)
-    with pytest.raises(TypeError, match="expected the argument end"):
+    with pytest.raises(TypeError, match="the argument 'end' is missing"):
         rigid("python", True).adaptive(START)
     module = codegen.load(codegen.emit("free_rigid_body", "cf:cf4", target="python", integrate=True))
-    with pytest.raises(TypeError, match="expected the argument end"):
+    with pytest.raises(TypeError, match="the argument 'end' is missing"):
         module.integrate(START, 0, h=0.1)
 
 

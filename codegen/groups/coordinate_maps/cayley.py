@@ -28,7 +28,8 @@ class Cayley(CoordinateMap):
                 where=where,
                 expected="a group whose algebra contains x^3 for each of its elements x, such as SO(3), S^3, "
                 "SL(2) or SE(3)",
-                hint='write coordinates="exp", or inherit CayleyMap in the group class and write its methods',
+                hint='write coordinates="exp", or define the methods cay and dcayinv in a group class that '
+                "inherits CayleyMap",
             )
 
     def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:

@@ -32,7 +32,8 @@ class SecondKind(CoordinateMap):
                 f"{group.name} has no adjoint map, but coordinates of the second kind need an adjoint map",
                 where=where,
                 expected="a group with an adjoint map",
-                hint='write coordinates="exp", or inherit Coadjoint in the group class and write its methods',
+                hint='write coordinates="exp", or define the methods of Coadjoint in a group class that '
+                "inherits Coadjoint",
             )
 
     def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:
@@ -46,8 +47,7 @@ class SecondKind(CoordinateMap):
         """Return the solution v of the linear system dtau_x v = y."""
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # Let E_k = exp(x_k e_k). The columns of Ad_{E_1}^-1 dtau_x are e_1, e_2, Ad_{E_2} e_3,
-        # Ad_{E_2} Ad_{E_3} e_4, and so on.
+        # Both sides of the system are multiplied by Ad_g^-1 for g = exp(x_1 e_1) to simplify the columns.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]
