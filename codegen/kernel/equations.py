@@ -23,8 +23,7 @@ from codegen.passes.rewrite import uses
 MANY = 12
 """The largest number of unknowns for which all products of sums in Newton's matrix are expanded.
 
-If products were not expanded, the values of some sums would be computed before the iteration. Each of these
-values would occupy a register during the iteration. For vcf:cf4 on dipole (12 unknowns), the expansion
+Without the expansion, the iteration needs more registers. For vcf:cf4 on dipole (12 unknowns), the expansion
 increases the number of assignments from 439 to 472.
 """
 
@@ -32,7 +31,7 @@ LONGEST_MATRIX = 1500
 """The largest number of operations for the exact matrix of Newton's method. A matrix with more operations is
 replaced by its expansion to first order in h.
 
-A limit of 6000 in place of 1500 would give the same emitted kernels.
+The value is not critical: the limits 1500 and 6000 give the same emitted kernels.
 """
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
@@ -47,7 +46,7 @@ class Block:
     - ``images`` are the values g(u), or the residuals r(u) if the equations are r(u) = 0.
     - ``matrix`` is Newton's matrix, or its inverse if ``inverted`` is true.
     - ``leading`` is true for the simplified Newton method, which computes the matrix before the first sweep.
-    - ``changes`` are the names of the changes of the unknowns in the last sweep.
+    - ``changes`` contains names, or is empty. Each sweep assigns the changes of the unknowns to these names.
     - ``kept`` contains pairs (name, expression). Each sweep assigns the expression to the name. Statements
       after the loop read the name.
     """
@@ -175,7 +174,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
-    """Count the operations in the matrix ``rows``, except the operations in ``images``."""
+    """Count the operations that occur in the matrix ``rows``, but not in ``images``."""
     # Each sweep computes the images g(u) anyway, so their operations are not counted.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)

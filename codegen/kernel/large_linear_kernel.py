@@ -169,7 +169,7 @@ class _Builder:
                 what = f"the operation {assign.operation.name} is not available for large matrices"
                 raise refused(self.scene, what, "a method that composes exponentials of Lie algebra elements")
             x, end = assign.args
-            # The loop visits the exponentials in reverse order.
+            # The loop finds the last exponential first, so each new exponent is inserted at the front.
             result.insert(0, x)
         return result
 
@@ -181,7 +181,7 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # A :class:`_Value` represents x/h^p. The matrix A(t) is stored with x = h A(t) and p = 1.
+            # The matrix A(t) is stored as the quotient of h A(t) and h^1 (:class:`_Value`).
             case Field():
                 # An autonomous matrix A is constant, so any time gives the same value.
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
@@ -198,7 +198,11 @@ class _Builder:
                 self.moments[target] = self.moments[args[0]] + c.evaluate(self.domain)
             case _:
                 what = f"the operation {operation.name} is not available for large matrices"
-                raise refused(self.scene, what, "exponents that are sums and brackets of values of A")
+                raise refused(
+                    self.scene,
+                    what,
+                    "only linear combinations and commutators of matrices A(t)",
+                )
 
     def node(self, time: Expr) -> int:
         """Return the index of the node ``time``, a time at which A is evaluated.
@@ -232,12 +236,9 @@ class _Builder:
         return total
 
     def bracket(self, x: _Value, y: _Value) -> _Value:
-        """Return [x, y].
-
-        If x and y contain no commutators, the result is computed as [x - c y, y] with c from
-        :func:`_difference`. For small step sizes, the matrix x - c y usually has a smaller norm than x.
-        """
+        """Return [x, y]."""
         if not x.commutators and not y.commutators:
+            # For small step sizes, the new matrix ``x`` usually has a smaller norm than the old one.
             x, y = _difference(x, y)
         # For matrices a and b, the bracket of a/h^p and b/h^q is [a, b]/h^(p + q). The attribute ``power`` is
         # the exponent of 1/h.
@@ -322,7 +323,7 @@ def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
     # If a sum in ``totals`` is almost zero, x and y are returned unchanged.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
-    # The bracket [y, y] is zero, so multiples of y do not change [x, y].
+    # Because [y, y] = 0, the brackets [x - c y, y] and [x, y] are equal.
     ratio = totals[0] / totals[1]
     nodes = dict(x.nodes)
     for node, c in y.nodes.items():

@@ -10,8 +10,7 @@ b is a linear combination of values of N. The coefficients of b are functions of
 - Let a be nonzero, x = h (a, b) and beta = a z/(exp(a z) - 1). Then dexp^{-1}_x (c, d) is the pair
   (c, beta d + (1 - beta) c b/a).
 
-Let ad be the linear map y -> [x, y]. Then ad^2 = a z ad. Hence f(ad) = f(0) + r ad with
-r = (f(a z) - f(0))/(a z) for a power series f. The third formula is the case f(w) = w/(exp(w) - 1).
+The third formula follows from [x, [x, y]] = a z [x, y], which holds for all pairs y.
 """
 
 from __future__ import annotations
@@ -182,7 +181,7 @@ class _Execution:
                 # Times are in units of h, and the step begins at time 0.
                 self.times[var] = ZERO
             else:
-                # The initial point of the step is 1 times the old state.
+                # As a linear combination, the initial point is the old state with the coefficient 1.
                 self.points[var] = {STATE: _constant(ONE)}
         for assign in program.assigns():
             self._execute(assign)
@@ -221,7 +220,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
-                # A zero element can have any power of h.
+                # For the zero vector field, the exponent of h is arbitrary.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)
@@ -253,7 +252,7 @@ class _Execution:
 
     def _combination(self, assign: Assign) -> _Element:
         parts = [(c, self.elements[v]) for c, v in assign.terms]
-        # A zero element can have any power of h, so zero elements are removed.
+        # Zero terms have an arbitrary exponent of h, so they are not compared with the other terms.
         parts = [(c, x) for c, x in parts if not x.is_zero]
         powers = {c.power + x.power for c, x in parts}
         if not powers:
@@ -283,8 +282,7 @@ class _Execution:
         return _Map(g.a + k.a, _sum([(_constant(ONE), g.b), (Multiplier.of(EXP, g.a), k.b)]))
 
     def _moved(self, g: _Map, point: Sum) -> Sum:
-        # The map g is u -> exp(g.a z) u + h g.b, where z is h times an eigenvalue of L. The sum below omits
-        # the factor h of g.b. The method ``_terms`` inserts this factor later.
+        # The factor h of the vector ``g.b`` is inserted later, by ``_terms``.
         return _sum([(Multiplier.of(EXP, g.a), point), (_constant(ONE), g.b)])
 
     def _bracket(self, x: _Element, y: _Element) -> _Element:

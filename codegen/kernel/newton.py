@@ -78,7 +78,7 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
 
 
 class _AtZero(ExprDomain):
-    """An expression domain that replaces a function call f(0) by its value."""
+    """An expression domain for h = 0. A call f(0) becomes a number if f is in :data:`AT_ZERO`."""
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return the value in :data:`AT_ZERO` if the first argument is zero, otherwise a call node."""
@@ -119,11 +119,10 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     n, space = len(rows), rows[0][0].space
     if n == 1:
         return space.one
-    # For n = 3, the rows i, a, b and the columns j, c, d are in cyclic order, so the cofactor needs no sign
-    # factor.
+    # With cyclic indices, a cofactor of a 3 x 3 matrix needs no sign factor.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
-    # For n = 2, the cofactor is the entry ``rows[a][c]`` times the sign (-1)^(i + j).
+    # A cofactor of a 2 x 2 matrix is an entry of the matrix, with or without a change of sign.
     if n == 2:
         return rows[a][c] if (i + j) % 2 == 0 else -rows[a][c]
     return rows[a][c] * rows[b][d] - rows[a][d] * rows[b][c]

@@ -66,7 +66,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
-        # The step repeats these operations in each substep.
+        # Each substep repeats the operations outside loops and the operations of the initial guess.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
@@ -158,12 +158,7 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # The kernel ``outward`` computes the space momentum from a group element and a body momentum
-        # (:class:`codegen.ir.kernel.Carried`). Let q be the group element, m the body momentum, and mu the
-        # space momentum at the beginning of a run. Let q', m' and mu' be the values of q, m and mu at the end
-        # of the run. The formula for mu' is mu + outward(q', m') - outward(q, m). In the difference of the
-        # two values of ``outward``, rounding errors nearly cancel. Each component of mu' needs one addition
-        # and one subtraction.
+        # The space momentum at the end of a run needs one addition and one subtraction for each component.
         added = {"add": 2 * len(turned[1].outputs)}
         # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]

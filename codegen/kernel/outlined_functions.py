@@ -1,7 +1,7 @@
 """Outlined functions: if a step contains a tree of operations repeatedly, the tree becomes a function.
 
-The last operation of a tree computes the results of the tree. The arguments of the function are the inputs of
-the tree and the coefficients of its linear combinations.
+The function returns results of the last operation in the tree. The arguments of the function are the inputs
+of the tree and the coefficients of its linear combinations.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Outlining: if a step repeats a computation, the computation becomes a function.
 
-Outlining shortens the code. But if two calls contain a common subexpression, each call computes the
-subexpression again. Therefore only long steps are outlined.
+Outlining shortens the code but can add operations, so only long steps are outlined.
 """
 
 from __future__ import annotations
@@ -31,15 +30,18 @@ To choose new limits, run ``orderconds bench dipole`` with the old limits and wi
 """
 
 WORTH = 0.85
-"""Let n and m be the numbers of assignments of a step without and with outlining. The step is outlined only
-if m < WORTH n.
+"""Let n be the number of assignments of a step, and m the number of assignments after outlining. The step is
+outlined only if m < WORTH n.
 
 The ratio m/n is between 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole, and
 for ``vcg:gauss4`` on heavy_top.
 """
 
 AGREE = 1e-9
-"""The largest relative difference of two values that is attributed to rounding errors."""
+"""The tolerance in the comparison of the values of a step with and without outlining.
+
+The tolerance is relative to the largest absolute value, or absolute if all values are below 1.
+"""
 
 ATTEMPTS, DIGITS = 8, 60
 """The verification tries ATTEMPTS test points in double precision.
@@ -48,7 +50,7 @@ If no point gives finite values, the verification tries ATTEMPTS further points 
 """
 
 Shape = tuple[Key, tuple[int, ...]]
-"""The key of the outlined trees, and the indices of the results that the outlined function returns."""
+"""The key of a tree, and the indices of those results of the tree that are read outside the tree."""
 
 
 @dataclass
@@ -129,7 +131,7 @@ class Outline:
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
-            # If a value does not depend on the unknowns of a block, its level is -1.
+            # The level -1 means that a value depends on no unknowns.
             own = owners.get(node.payload, -1) if node.op == "sym" else -1
             self._level[node.id] = max([own, *(self._level[a.id] for a in node.args)])
 
@@ -184,7 +186,10 @@ class Outline:
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Return True if one call can compute all results of ``tree`` whose indices are in ``read``."""
+        """Return True if a single function call can replace ``tree``.
+
+        ``read`` contains the indices of the results of ``tree`` that the call must return.
+        """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
         # The loop of block ``deepest`` contains the function call. Results that do not depend on the unknowns
         # of this block stay outside the loop.
@@ -221,7 +226,8 @@ class Outline:
             # The comparison is false for infinities and for NaN.
             if not all(abs(x) < math.inf for x in old):
                 continue
-            # A small value may be a difference of large values, with a large relative rounding error.
+            # The largest value is the scale, because cancellation makes the relative errors of small values
+            # large.
             scale = max(1.0, *map(abs, old))
             if not all(abs(a - b) <= AGREE * scale for a, b in zip(old, new, strict=True)):
                 raise IllFormed(f"outlining changed the results of {self.program.name}")

@@ -21,9 +21,10 @@ NEVER = (Advance, Zero, Identity, *FLOWS)
 """The operations that are never outlined."""
 
 NODES = 3
-"""The average number of operations in one line of emitted code, for the methods of the gallery.
+"""To estimate the length of emitted code, NODES operations are counted as one line.
 
-NODES = 2 and NODES = 5 give the same files in ``generated/`` as NODES = 3.
+NODES is the average for the methods of the gallery. NODES = 2 and NODES = 5 give the same files in
+``generated/`` as NODES = 3.
 """
 
 Values = tuple[Expr, ...]
@@ -173,13 +174,13 @@ class Trees:
                     owner[member] = j
 
     def _gain(self, key: PairKey, places: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
-        """Estimate how many lines of code are saved if all pairs of trees in ``places`` are joined."""
+        """Estimate how many lines of code are saved if each pair of trees in ``places`` becomes one tree."""
         first, second, _ = key
         k = len(places)
         if k < 2:
             return 0
         i, j = places[0]
-        # If the first or second tree also occurs elsewhere, its own function remains in the code.
+        # A tree that also occurs outside the pairs still needs a separate function.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # Each joined pair saves a call, which is about three lines.
         return k * 3 - copies

@@ -51,7 +51,7 @@ class SharedCall:
 
 @dataclass(frozen=True)
 class Invocation:
-    """The statement ``name = function(arguments)``, where one call returns all results of a function.
+    """The statement ``name = function(arguments)``. The call returns ``results`` numbers.
 
     The function is an outlined function or a vector function. The arguments of a vector function are passed
     as arrays.
@@ -323,7 +323,7 @@ class _Scope:
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        If ``kept`` is false and the value is a result of a call, the assignment itself is omitted.
+        If ``kept`` is false, later statements may use another name in place of ``let.name``.
         """
         value = self.rewrite(let.value)
         before = self.take()
@@ -339,9 +339,9 @@ class _Scope:
         return pending
 
     def rewrite(self, root: Expr) -> Expr:
-        """Return ``root`` in printable form.
+        """Return an expression that is equal to ``root``, and that may contain results of new statements.
 
-        New statements are added to ``pending``.
+        The new statements are added to ``pending``.
         """
         space = root.space
         for node in walk([root], lambda n: n.id in self.known):
@@ -378,7 +378,10 @@ class _Scope:
             self.known[call.id] = node.space.sym(name)
 
     def _results(self, node: Expr) -> int | None:
-        """Return the number of results if a node calls an outlined or vector function, otherwise None."""
+        """Return the number of results of the function that ``node`` calls.
+
+        The result is None for all functions except outlined functions and vector functions.
+        """
         vector = component(node.payload)
         return self.outlined.get(node.payload.partition(".")[0]) if vector is None else vector[0].size
 
@@ -390,7 +393,7 @@ class _Scope:
         self.pending.append(call)
         for k, name in enumerate(call.names):
             self.results[name] = k
-            # ``_make`` returns the existing node of a call, so equal calls have equal ids.
+            # ``_make`` returns the same node for equal calls, so all equal calls are replaced.
             whole = node.space._make("call", node.args, f"{function}.{k}")
             self.known[whole.id] = node.space.sym(name)
 

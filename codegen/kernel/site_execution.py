@@ -40,8 +40,8 @@ class Content:
     - ``stored`` contains pairs (rows, variable). The sweep stores the variable in these rows.
     - ``unknowns`` are the unknowns u of equations u = g(u). In fixed-point iteration, the sweep replaces u by
       g(u).
-    - ``measured`` is empty or contains two rows. For the unknowns at each site, the rows contain the largest
-      change and the largest absolute value.
+    - ``measured`` is empty or contains two rows. For each site, the first row contains the largest change of
+      the unknowns of this site. The second row contains the largest absolute value of these unknowns.
     """
 
     about: str
@@ -61,7 +61,8 @@ class Execution:
 
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
     - ``given`` contains the variables of the state at the beginning of the step.
-    - ``coupled`` contains the indices of the blocks of ``problem.state`` that the field reads at neighbours.
+    - ``coupled`` contains indices of blocks of ``problem.state``. The field reads these blocks also at
+      neighbouring sites.
     - ``totals`` maps variables to names. Each of these variables is a sum over all sites.
     """
 
@@ -99,8 +100,7 @@ class Execution:
             self.env[var] = values[0] if var.kind is Kind.REAL else values
 
     def _names(self, var: Var) -> tuple[str, ...]:
-        # If ``var`` is in ``self.given``, the result contains the symbols of the coordinates of ``var`` in
-        # the scene.
+        # The coordinates of the old state keep the names that they have in the scene.
         if var in self.given:
             return next(block.symbols for block in self.problem.state if block.name == var.name)
         if var not in self.named:
@@ -179,9 +179,10 @@ class Execution:
         return values
 
     def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
-        """Return symbols for a variable at a neighbour, and record a load for each symbol.
+        """Return names for the components of ``var`` at the neighbour with the index ``offset``.
 
-        ``ghosts`` contains the values to be used if the neighbour is outside the lattice.
+        The names are added to the dictionary ``self.loads``. ``ghosts`` contains the values to be used if the
+        neighbour is outside the lattice.
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)

@@ -79,7 +79,7 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     domain, dim, size = SharedArguments(), scene.group.dim, len(scene.symbols)
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     symbols = {s: domain.space.sym(s) for own in names for s in own}
-    # The field does not depend on time, so ``scalars`` needs no time.
+    # No time is passed to ``scalars``, because the vector field is autonomous.
     roots = evaluate(list(part.roots), domain, {**symbols, **scene.scalars(domain)})
     duration = domain.space.sym("h")
     ends: list[Expr] = []

@@ -63,7 +63,7 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     derivatives of the energy. Otherwise MethodError is raised.
     """
     lowering = lowering_of(method.family)
-    # A splitting method evaluates only flows, and no compiler pass rewrites flows.
+    # No compiler pass rewrites flows, so the passes are skipped for splitting methods.
     if isinstance(lowering, FlowLowering):
         program, kernel = flow_program(scene, method, lowering)
         return SiteMethod(scene, program, program, (), kernel)
@@ -82,7 +82,7 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
         raise refused(
             scene,
             what,
-            "a method that evaluates only the field, or H and its derivatives",
+            "a method that evaluates only the field, the energy, and the derivatives of the energy",
         )
     return SiteMethod(
         problem, lowered, program, trace, site_kernel(with_sums(program, problem), problem, newton)

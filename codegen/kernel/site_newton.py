@@ -186,7 +186,7 @@ class Linearisation:
                     # The result is the value x of the neighbour (``exists`` is 1) or the ghost g (``exists``
                     # is 0).
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
-                # In the formulas, the symbols of neighbour k get the values in the tuple ``there``.
+                # The tuple ``there`` contains the values of neighbour k.
                 values |= dict(zip(column[place], there, strict=True))
         f, dim = tuple(evaluate(list(self.problem.roots), domain, values)), self.problem.group.dim
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)

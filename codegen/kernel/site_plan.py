@@ -30,7 +30,8 @@ from codegen.scene.sites import Sites
 MEASURED = 2
 """The stopping rule uses this number of rows of the workspace.
 
-The rows contain the largest change and the largest absolute value of an unknown at each site.
+For each site, one row contains the largest change of the unknowns of this site. The other row contains the
+largest absolute value of these unknowns.
 """
 
 
@@ -56,10 +57,9 @@ class _Block:
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
         """Return pairs (unknown, new value) for the sweep with the index ``number``.
 
-        The attributes ``first`` and ``last`` are the indices of the first and the last sweep of an iteration.
-        The sweep with the index ``first - 1`` precedes the first iteration. The new values for this sweep are
-        the starting values ``solve.starts``. The new values for the sweep with the index ``last`` are the
-        values ``solve.images``, which each iteration computes. For all other sweeps, the result is empty.
+        For the sweep before the first iteration, the new values are the starting values ``solve.starts``. For
+        the last sweep of an iteration, the new values are the values ``solve.images``. For all other sweeps,
+        the result is empty.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -121,8 +121,8 @@ class Planner:
     def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
         """Return the step with a Newton matrix for each system of implicit equations.
 
-        The first ``count`` rows of the workspace contain variables. MethodError is raised if the equations
-        contain sums over all sites.
+        ``count`` is the number of rows of the workspace in which ``step`` stores variables. MethodError is
+        raised if the equations contain sums over all sites.
         """
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
@@ -199,12 +199,7 @@ class Planner:
             least = last + 1
 
     def _without_renamed(self, solve: Solve) -> Solve:
-        """Return a copy of ``solve`` that reads the unknowns of earlier systems in place of their images.
-
-        ``solve`` is a system of equations u = g(u). The variables u are the unknowns of the system. The
-        variables with the values g(u) are the images of the system. After an earlier system is solved, its
-        unknowns and its images are equal, so the copy can read the unknowns.
-        """
+        """Return ``solve`` with the solutions u of earlier systems u = g(u) in place of the values g(u)."""
         starts = tuple(self.renamed.get(v, v) for v in solve.starts)
         return replace(solve, starts=starts, body=tuple(map(self._rename, solve.body)))
 
@@ -268,7 +263,7 @@ class Planner:
             if var in need.computed:
                 continue
             maker = self.makers.get(var)
-            # Each sweep repeats the operations in RECOMPUTED, unless their results are in ``sums``.
+            # Each sweep computes the results of cheap operations again, except the results in ``sums``.
             again = maker is not None and isinstance(maker.operation, RECOMPUTED) and var not in self.sums
             if maker is None or (self.sweep_of[var] < number and not again):
                 need.loaded.add(var)

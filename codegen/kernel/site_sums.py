@@ -5,8 +5,8 @@ covector g approximates the differential of the energy, and eta is the displacem
 before and after the step are H0 and H1. To reduce the rounding error, e is computed at each site and then
 summed over the sites.
 
-For Hamilton's equations, the canonical bivector is applied to D. For all other equations, the bivector (gamma
-wedge f)/|gamma|^2 is applied to D. Here f is the field, and gamma is the differential of the energy
+For Hamilton's equations, the canonical bivector is applied to D. For all other equations, let f be the field,
+and let gamma be the differential of the energy. Then the bivector (gamma wedge f)/|gamma|^2 is applied to D
 (:mod:`codegen.scene.energy`).
 """
 
@@ -57,7 +57,7 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
         # The excess is computed at each site, and the results of all sites are added. The difference of two
         # total energies would have a large rounding error.
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
-        # ``excess`` is the number e in the docstring of this module.
+        # ``excess`` is the energy difference minus the inner product of g and x, summed over all sites.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):

@@ -28,9 +28,9 @@ from codegen.scene.sites import Sites, offset_text
 SHORT = 3
 """An expression with at most SHORT operations is not stored. Each sweep computes it again.
 
-With the limit 1 or 3, a step of taylor(8) on 4000 pendulums takes 24 ns for each pendulum. With the limit
-10, the time is 117 ns. On a chain of spins, the times with the limits 1, 3 and 10 differ by at most 3 per
-cent.
+The limit 10 can be much slower than the limits 1 and 3. With the limit 1 or 3, a step of taylor(8) on 4000
+pendulums takes 24 ns for each pendulum. With the limit 10, the time is 117 ns. On a chain of spins, the times
+with the limits 1, 3 and 10 differ by at most 3 per cent.
 """
 
 CALL = 10
@@ -114,7 +114,7 @@ class TaylorSweeps:
 
         Formulas for neighbours outside the lattice are added to ``ghosts``.
         """
-        # An empty name denotes a zero coefficient, so its row is never loaded.
+        # Coefficients with an empty name are zero, and are not loaded.
         self.loads |= {s: Load(s, row) for s, row in zip(own, rows, strict=True) if s}
         for number, column in enumerate(around):
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
@@ -127,10 +127,9 @@ class TaylorSweeps:
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
         """Return ``terms``, possibly with zeros in place of None.
 
-        None represents a coefficient that is zero at all sites. Sweeps do not load this coefficient. At a
-        neighbour outside the lattice, however, a given formula defines the coefficient. If the value of the
-        formula may be nonzero, sweeps must load the coefficient. In this case, zeros replace None, because
-        sweeps load every coefficient except None.
+        None represents a coefficient that is zero at all sites. At a neighbour outside the lattice, however,
+        a given formula defines the coefficient. If the value of the formula may be nonzero, zeros replace
+        None.
         """
         if degree == self.degree:
             return terms
@@ -139,7 +138,7 @@ class TaylorSweeps:
         return [self.domain.space.zero if x is None else x for x in terms]
 
     def _follows(self, ghost: Expr, k: int) -> bool:
-        """Return True if ``ghost`` is a constant or is equal to coordinate k of the site itself.
+        """Return True if ``ghost`` is a constant or the symbol ``self.symbols[k]``.
 
         ``ghost`` is the formula for coordinate k of a neighbour outside the lattice.
         """
@@ -163,7 +162,7 @@ class TaylorSweeps:
         ]
         names = [*own, *(s for column in around for s in column)]
         sym = self.domain.space.sym
-        # Later sweeps read this coefficient from memory, under the names in ``names``.
+        # In later sweeps, the symbols in ``names`` denote this coefficient.
         self.recurrence.append([sym(s) if s else None for s in names])
         self.coefficients.append([sym(s) if s else None for s in own])
         self._load(every, own, around, degree)
@@ -239,7 +238,7 @@ class TaylorSweeps:
             total = 0
             for x in walk([node]):
                 total += 0 if not x.args else CALL if x.op == "call" else 1
-                # The caller only tests whether the total exceeds SHORT.
+                # The count can stop here, because the caller only compares the result with SHORT.
                 if total > SHORT:
                     break
             known[node.id] = total
@@ -250,7 +249,7 @@ class TaylorSweeps:
     ) -> list[Sweep]:
         """Return the sweeps.
 
-        Sweep n outputs ``ends[n]``, and also ``stored.nodes[i]`` for each i with ``stored.writer[i] == n``.
+        Sweep n outputs the expressions ``ends[n]``, and the expressions that ``stored`` assigns to sweep n.
         """
         rows: dict[int, Row] = {}
         names: dict[int, str] = {}

@@ -74,8 +74,9 @@ def to_kernel(
       SIMPLIFIED_NEWTON. All other blocks are solved by fixed-point iteration.
     - If ``variations`` is given, the kernel computes the variation of the new state, and not the new state
       itself.
-    - ``chains`` is AS_WRITTEN, COMBINED, ORDERED or SHORTENED. If the program has implicit equations,
-      ``chains`` must be AS_WRITTEN.
+    - ``chains`` selects a treatment of the critical path: AS_WRITTEN (no change), COMBINED, ORDERED or
+      SHORTENED. The docstring of these constants describes the treatments. If the program has implicit
+      equations, ``chains`` must be AS_WRITTEN.
     - If ``whole`` is true, each step converts the momentum between the space frame and the body frame. If
       ``whole`` is false, a run converts the momentum once at its beginning and once at its end
       (:mod:`codegen.kernel.carried_momentum`). ``whole`` matters only if the program uses the body frame
@@ -121,13 +122,13 @@ class _Translation:
         # ``inside`` is true while the equations of a block are translated.
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
-        # With ``variations``, ``whole`` is treated as true.
+        # In a kernel for variations, each step converts the momentum if the frames differ.
         self.frames = Frames(scene, program, whole or variations is not None)
 
     def name(self, base: str) -> str:
         """Return a new name, and add it to ``taken``. The name is ``base`` if possible."""
         candidate = base if base not in self.taken else base + "_"
-        # No number is appended, because xi1_2 means component 2 of xi1.
+        # An underscore is appended, because a number would look like the index of a component.
         while candidate in self.taken:
             candidate += "_"
         self.taken.add(candidate)
@@ -157,7 +158,7 @@ class _Translation:
                 "without closed forms no code can be emitted",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # ``gathered`` combines numeric factors, but does not rewrite the expressions ``known``.
+            # The constants in the results are combined, because this can save operations.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
         # An operation with a time argument may read run-time inputs, but an outlined function cannot read
@@ -279,7 +280,7 @@ class _Translation:
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
         # The error estimate is the difference between the new state and the embedded solution.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
-        # With one call of ``ordered``, outputs and error estimates can share assignments.
+        # ``ordered`` is called only once, so outputs and error estimates can share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
         # LEAD is the duration of the last flow of a splitting step, and ELAPSED is the duration of a run.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
@@ -391,9 +392,10 @@ def _outlined(
 
 
 def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[str], str]) -> Block:
-    """Return the linear equations for the variations of a block's unknowns.
+    """Return the linearised equations of ``block``.
 
-    This function adds the symbols of the variations to ``seeds``.
+    The unknowns of these equations are the variations du of the unknowns u of ``block``. This function adds
+    the symbols of the variations to ``seeds``.
     """
     # Differentiating u = g(u) gives a linear equation for the variation du.
     own = [name(f"d_{u}") for u in block.unknowns]
