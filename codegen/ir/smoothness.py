@@ -34,10 +34,11 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
 
 
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
-    """Replace each selection in ``roots`` by one of its formulas.
+    """Replace the calls ``nodes`` in ``roots`` by the formulas with the indices ``sides``.
 
-    ``sides[k]`` is the index of the formula that replaces the selection ``nodes[k]``. The result is a pair of
-    lists: the new expressions, and expressions called margins. If all margins are positive, the new
+    Each call in ``nodes`` is a call of ``choose``, ``fabs`` or a piecewise polynomial, and chooses one of
+    several formulas. ``sides[k]`` is the index of the formula that replaces ``nodes[k]``. The result is a
+    pair of lists: the new expressions, and expressions called margins. If all margins are positive, the new
     expressions have the same values as ``roots``.
     """
     (space,) = {node.space for node in roots}
@@ -65,7 +66,8 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
     """Return one formula of the selection ``function(*args)``, and a list of expressions called margins.
 
-    ``side`` is the index of the formula. If all margins are positive, the selection selects this formula.
+    ``side`` is the index of the formula. If all margins are positive, the formula and ``function(*args)``
+    have the same value.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
@@ -80,7 +82,7 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         return function.on_interval(domain, x, side), margins
     # Each tuple contains the formulas for x <= 0 and for x > 0, in this order.
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
-    # For x > 0, formula 1 is selected. For -x > 0, formula 0 is selected.
+    # The formula ``value`` is valid if the margin is positive.
     return value, [x if side else -x]
 
 

@@ -51,7 +51,8 @@ class OrderLoop:
     - ``names`` are the names of the symbols that represent the values of ``first`` in the loop.
     - ``coordinates`` are the names of the symbols for coefficient n of each coordinate.
     - ``sums`` are the names of the symbols for the inner sums, the sums of a_j b_{n-j} over 0 < j < n.
-    - ``left[k]`` and ``right[k]`` are the expressions for coefficient n of the series a and b in inner sum k.
+    - ``left[k]`` and ``right[k]`` are the expressions for a_n and b_n, where a and b are the two series in
+      the inner sum with the name ``sums[k]``.
     - ``start`` are the expressions for coefficient 1 of each coordinate.
     - ``following`` are the expressions for coefficient n + 1 of each coordinate.
     """
@@ -71,9 +72,8 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
     The scalars of ``recurrence`` must be expressions of ``space``, and ``recurrence.scale`` must be 1.
     """
-    # The list ``start`` contains only the coefficient with index 1 of each coordinate. The call of ``extend``
-    # below computes the coefficients with the indices 0, ..., ``PROBED``. The method ``_Loop.constant`` uses
-    # the coefficients with the indices 1, ..., ``PROBED`` - 1 to find the series that are constant in time.
+    # ``_Loop.constant`` needs the coefficients 1, ..., ``PROBED`` - 1, although ``start`` contains only
+    # coefficient 1.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
     # Coefficient n + 1 of a coordinate is 1/(n + 1) times coefficient n of the derivative of the coordinate.
@@ -107,7 +107,7 @@ def coordinate_names(count: int) -> tuple[str, ...]:
 
 
 def _known(x: Expr | None) -> Expr:
-    assert x is not None, "the series is constant in time: its coefficient n is zero"
+    assert x is not None, "a coefficient of a constant series was requested"
     return x
 
 
@@ -176,7 +176,7 @@ class _Loop:
 
     def inner(self, a: Series, b: Series) -> Expr:
         """Return the symbol for the inner sum of a and b, the sum of a_j b_{n-j} over 0 < j < n."""
-        # The pairs (a, b) and (b, a) have the same inner sum.
+        # The sum does not change if a and b are exchanged.
         key = min(id(a), id(b)), max(id(a), id(b))
         if key not in self.places:
             self.places[key] = len(self.pairs)
@@ -232,12 +232,15 @@ class _Loop:
                 return self.function(series)
 
     def function(self, series: Series) -> Expr:
-        """Return coefficient n of ``series`` (a root, a power, a sine or another function)."""
+        """Return the expression for coefficient n of ``series``, which is a function of other series.
+
+        The symbol n denotes the loop variable of the emitted code. Examples of functions are the square root,
+        the powers and the sine.
+        """
         space = self.space
         match series:
             case Root(a=a):
-                # For the root s of a, s_n = (a_n - z)/(2 s_0), where z is the sum of s_j s_{n-j} over
-                # 0 < j < n.
+                # This is the recurrence for the Taylor coefficients of a square root.
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
                 # This is the recurrence for the Taylor coefficients of a power.
@@ -248,7 +251,7 @@ class _Loop:
                 # The exponential satisfies e' = a' e, so n e_n is the sum of j a_j e_{n-j} over 0 < j <= n.
                 return space.sym(INVERSE) * self.beyond(slope, series)
             case Circular(slope=slope, other=other, minus=minus):
-                # The derivative of sin(a) is a' cos(a), and the derivative of cos(a) is -a' sin(a).
+                # ``minus`` is true for the cosine, because the derivative of the cosine is minus the sine.
                 mean = space.sym(INVERSE) * self.beyond(slope, other)
                 return -mean if minus else mean
             case Chosen(test=test, a=a, b=b):
@@ -257,20 +260,15 @@ class _Loop:
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
                 pairs = zip(slopes, rates, strict=True)
-                # The angle of the point (x, y) has the derivative p y' - q x'. The ``rates`` are p and q.
+                # The derivative of a constant coordinate is zero, so the coordinate contributes no term.
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
-                # The angle of the point (x, y) has the derivative p y' - q x', where p and q are functions of
-                # x and y. If x is constant, the term q x' is zero. If y is constant, the term p y' is zero.
-                # In this branch, either x or y is constant, but not both. Hence one of the two terms is zero,
-                # and ``mean`` is computed from the remaining term. If the remaining term is q x', the result
-                # has a minus sign. The series ``slopes[0]`` belongs to y'. If y is constant,
-                # ``self.known[id(slopes[0])]`` is None.
+                # The term of ``slopes[0]`` is added, and the term of ``slopes[1]`` is subtracted.
                 (mean,) = means
                 return space.sym(INVERSE) * (mean if self.known[id(slopes[0])] is not None else -mean)
             case Antiderivative(slope=slope, rate=rate):
-                # The derivative of f(a) is the product of ``rate`` and a'.
+                # The series is f(a), and ``rate`` is f'(a), so the chain rule gives the recurrence.
                 return space.sym(INVERSE) * self.beyond(slope, rate)
             case Logarithm(a=a, slope=slope):
                 # For the logarithm l of a, l_n = (a_n - z/n)/a_0, where z is the sum of j l_j a_{n-j} over

@@ -130,7 +130,7 @@ class _Builder:
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # If the exponent is zero or an integer > 1, the node is not rewritten as c x^e.
+        # The node is left unchanged if the resulting exponent is 0, 2, 3 or a larger integer.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:
@@ -279,8 +279,8 @@ class Recurrence:
     Coefficient n belongs to s^n in the power series of y(t + s * ``scale``).
 
     - ``symbols`` are the names of the coordinates y, and ``state`` contains their values at the time t.
-    - ``roots`` are the expressions of the derivatives of the coordinates. The derivatives of the last
-      coordinates may be omitted. The caller must then use :meth:`append` in place of :meth:`extend`.
+    - ``roots`` are the expressions of the derivatives of the first ``len(roots)`` coordinates. If ``roots``
+      is shorter than ``symbols``, the caller must use :meth:`append` in place of :meth:`extend`.
     - ``values`` are the values of all other symbols, including the time ``t``.
     """
 

@@ -133,7 +133,7 @@ class Root(Series):
         """Return coefficient n of s = sqrt(a). For n > 0 it is (a_n - sum_{0<j<n} s_j s_{n-j})/(2 s_0)."""
         if n == 0:
             root = self.domain.call("sqrt", self.a.term(0))
-            # The unknown s_n occurs in s_0 s_n and s_n s_0, so the divisor is 2 s_0.
+            # For n > 0, a product with ``inverse`` replaces the division by 2 s_0.
             self.inverse = self.domain.rational(1, 2) / root
             return root
         # The sum ``rest`` does not contain the unknown coefficient s_n.
@@ -161,7 +161,7 @@ class Power(Series):
         # The power p = a^e satisfies the differential equation a p' = e a' p.
         terms = []
         for j in _late_last(n, range(1, n + 1)):
-            # The factor can be zero, for example for e = 1/2, n = 3 and j = 2.
+            # If the factor is zero, the term is omitted.
             factor = (self.exponent * j - (n - j)) / n
             if factor and self.a.term(j) is not None:
                 a = _scaled(self.domain, Number.rational(*factor.as_integer_ratio()), self.a.term(j))
@@ -241,7 +241,7 @@ class Logarithm(Series):
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self.domain.call("log", self.a.term(0))
-        # The equation a l' = a' contains the unknown l_n only in n a_0 l_n.
+        # The sum ``rest`` does not contain the unknown coefficient l_n.
         rest = _total(multiplied(self.slope.term(j), self.a.term(n - j)) for j in _late_last(n, range(1, n)))
         rest = _scaled(self.domain, Number.rational(1, n), rest)
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)
@@ -261,9 +261,9 @@ class Antiderivative(Series):
         self.name, self.a, self.slope = name, a, slope
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of f(a).
+        """Return coefficient n of f(a), where f is the function ``name``, and a is a series.
 
-        Let r be the series ``rate``. For n > 0, the result is the sum of j a_j r_{n-j}/n over 0 < j <= n.
+        For n > 0, the result is the sum of j a_j r_{n-j}/n over 0 < j <= n, where r is the series f'(a).
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
@@ -330,10 +330,7 @@ class Chosen(Series):
         self.test, self.a, self.b = test, a, b
 
     def following(self, n: int) -> Coefficient:
-        """Return a_n if ``test`` is positive at the beginning of the step, otherwise b_n.
-
-        The result is None only if a_n and b_n are both None.
-        """
+        """Return a_n if ``test`` is positive at the beginning of the step, otherwise b_n."""
         a, b = self.a.term(n), self.b.term(n)
         if a is None and b is None:
             return None

@@ -35,7 +35,10 @@ class TimeMomentum(Operation):
     noun = "evaluation{s} of the momentum conjugate to the time"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the point (Y, u) with the new value of the momentum u."""
+        """Return the coordinates after the step.
+
+        The last coordinate is the updated momentum conjugate to the time.
+        """
         start, end, t = args
         # ``_increment`` differentiates symbolically, so it accepts only expressions.
         if isinstance(domain, ExprDomain):
@@ -53,7 +56,7 @@ class TimeMomentum(Operation):
         the step size h is fixed. The positions and the momenta before the step are fixed, too. The change of
         u during the step is (Q.P' - P.Q')/2.
         """
-        # The point after the step is differentiated with respect to t. Hence y and t are symbols.
+        # The step is evaluated with symbols, because the result is differentiated symbolically.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")

@@ -45,10 +45,10 @@ GENERAL = MatrixExponential(2 * ROWS)
 
 
 def most_squarings(bits: int) -> int:
-    """Return the largest allowed number s of squarings of the matrix exp(X/2^s).
+    """Return the largest allowed number of squarings in the scaling and squaring method.
 
-    Let 2^-``bits`` be the unit roundoff. The bound 2^(s - ``bits`` + 6) of the relative error must not exceed
-    2^-10, about three correct decimal digits.
+    Let 2^-``bits`` be the unit roundoff. For s squarings, the bound 2^(s - ``bits`` + 6) of the relative
+    error must not exceed 2^-10, about three correct decimal digits.
 
     >>> most_squarings(53)
     37
@@ -90,8 +90,8 @@ class SpecialUnitaryExponential(VectorFunction):
         ``args`` are the coordinates of X, and ``rates`` are their derivatives.
         """
         zero = args[0].space.zero
-        # The function ``embedded`` is linear, so ``embedded(rates, zero)`` is the derivative of
-        # ``embedded(args, zero)``.
+        # Since ``embedded`` is linear, ``embedded(rates, zero)`` contains the derivatives of the matrix
+        # entries.
         both = (*embedded(args, zero), *embedded(rates, zero))
         # ``MatrixExponential(n, 1)`` returns the entries of the exponential, then the entries of its first
         # derivative.
@@ -125,7 +125,6 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
     A and B are real matrices, and A + i B is the matrix X with the coordinates ``x``.
     """
     width = 2 * ROWS
-    # The block matrices multiply like the complex matrices A + i B.
     result = [zero] * width**2
 
     def put(i: int, j: int, real: T, imaginary: T) -> None:
@@ -243,7 +242,7 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         imaginary[(ROWS + 1) * j] = (v[2] * square[j] + v[1] * h) + v[0]
     for m, (j, k) in enumerate(PLACES):
         a, b, re, im = x[2 * m], x[2 * m + 1], square[ROWS + 2 * m], square[ROWS + 2 * m + 1]
-        # The entry (j, k) of u_0 I + u_1 H + u_2 H^2 is p + i q. For v in place of u, the entry is r + i s.
+        # The entry (j, k) of H is b - i a, and the entry (j, k) of H^2 is re + i im.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
         # Let U = u_0 I + u_1 H + u_2 H^2 and V = v_0 I + v_1 H + v_2 H^2. The entry (j, k) of U is p + i q,

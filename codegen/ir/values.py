@@ -43,7 +43,7 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # If it is unknown whether ``value`` is 0, ``is_zero`` is False. The same holds for 1 and ``is_one``.
+    # Both properties are False if the comparison of ``value`` with 0 or 1 is undecided.
     @property
     def is_zero(self) -> bool:
         """True if the coefficient is provably zero."""

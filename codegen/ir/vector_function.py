@@ -79,4 +79,7 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exact results. The arguments are truncated power series in ``ring``."""
+        """Return the results as truncated power series in ``ring``.
+
+        The arguments are truncated power series in ``ring``, too.
+        """

@@ -284,8 +284,8 @@ class _Builder:
         beginning of the step. The argument ``displacement`` is the matrix D, or None if D is zero.
 
         Let k = ``self.k`` be the number of columns of X. Let W be a block of k columns of B. The first column
-        of this block is the column of B with the index ``first``. The value of the vector field at X is an
-        element of the Lie algebra. The formulas B S B^T and W X^T - X W^T both give this value.
+        of this block is the column of B with the index ``first``. The matrix S satisfies
+        B S B^T = W X^T - X W^T.
 
         The matrices J and E select columns of B: X_0 = B J and W = B E. Let C = J + D. Then X is B C.
         Therefore W X^T - X W^T is B (E C^T - C E^T) B^T, and S is the matrix E C^T - C E^T.
@@ -293,7 +293,7 @@ class _Builder:
         k = self.k
         # ``self.sum`` without terms sets all entries of the matrix ``core`` to zero.
         core = self.sum(Matrix(name, first + k, first + k))
-        # For D = 0, S has two nonzero blocks: a unit matrix in ``below``, and its negative in ``right``.
+        # Without ``displacement``, all other blocks of ``core`` are zero.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows

@@ -41,7 +41,7 @@ class Assignments:
 
     - ``roots`` are the expressions of the outputs.
     - ``hints`` maps the ids of expressions to preferred names, and ``name`` makes a name unique.
-    - ``remembers`` is true if a step can start its loops from the solutions of earlier steps.
+    - ``remembers`` is true if a step can use the solutions of earlier steps as initial guesses.
     """
 
     blocks: Sequence[Block]
@@ -75,7 +75,7 @@ class Assignments:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # If ``block.leading`` is false, Newton's matrix is computed after the values of the loop body.
+            # Only the simplified Newton method computes the matrix before the values of the loop body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
             # A sweep computes the values of the loop body from the old unknowns, and changes the unknowns
             # afterwards. If ``recomputed`` is true, the values of the body are computed again after the loop.
@@ -129,7 +129,7 @@ class Assignments:
         values = [x for block in self.blocks for x in block.starts]
         # This statement precedes all loops, so ``values`` must not depend on unknowns.
         if any(self.level[x.id] >= 0 for x in values):
-            raise AssertionError("a first value depends on the unknowns of a loop")
+            raise AssertionError("the initial guess of an iteration depends on unknowns")
         for node in walk(values):
             # A step with a warm start skips the statement that is built here, but it needs the subexpressions
             # in ``later``. So they are assigned before this statement.
@@ -143,7 +143,8 @@ class Assignments:
 
     def _newton(self, block: Block) -> Newton:
         """Return the matrix of Newton's method for ``block``, and the assignments that compute it."""
-        # Other statements must not use the names in ``own``, so ``done`` is restored below.
+        # ``_place`` adds the variables assigned in ``own`` to ``done``, and other statements must not read
+        # these variables.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
@@ -154,17 +155,15 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if a second computation of certain values of loop k is cheap.
+        """Return True if the values of loop k that are read after the loop are cheap to compute.
 
-        These are the values of loop k that later loops or the outputs use. The second computation is cheap if
-        it costs less than half as much as one iteration of loop k.
+        Cheap means less than half the cost of one iteration of loop k.
         """
         rest = [*self._later(k), *self.roots]
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
         """Return the cost of the level-k operations in ``roots`` (:meth:`_prepare` defines the level)."""
-        # Operations with a higher level depend on later loops and are not counted.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
@@ -192,7 +191,7 @@ class Assignments:
             args = tuple(self.done[a.id] for a in node.args)
             # ``_make`` does not simplify, because a simplified formula could have different rounding errors.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
-            # A named argument counts as zero operations, because its name replaces its expression.
+            # An argument that is only a name adds no operations to ``size``.
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
             # A value that is computed before the loop and read inside gets a name.
             crosses = loop >= 0 and target is outer

@@ -55,7 +55,7 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # Two lists of flows share one sweep if their names and their ratios of durations are equal.
+        # One sweep is reused if the flows are the same and all durations are multiplied by one factor.
         first, moment = run[0][2:]
         ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
@@ -71,7 +71,7 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
 def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteFlow]) -> Kernel:
     """Return the kernel of a step that executes ``flows`` in the given order.
 
-    If necessary, a copy of the state is added before or after the flows (:data:`COPY`).
+    If necessary, a sweep that copies the state is added before or after the flows (:data:`COPY`).
     """
     assert scene.sites is not None
     ends = [k for k in (0, -1) if not flows or not _over_sites(sweeps[flows[k].sweep])]
@@ -106,7 +106,7 @@ def _copy(scene: Problem, label: str) -> Sweep:
 def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
     """Return the sweep for flows that act on each site separately.
 
-    In the kernel of the sweep, h denotes the duration of the first flow in ``run``.
+    In the formulas of the sweep, h is the duration of the first flow, and not the step size.
     """
     ends = _moved(scene, SharedArguments(), run)
     loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))

@@ -1,6 +1,7 @@
 """Conversion of the momentum between the space frame and the body frame.
 
-Emitted code is compiled from a program. The momentum is converted in the following cases:
+The emitted code may use a different frame than the program from which the code is compiled. The momentum is
+converted in the following cases:
 
 - The program uses the space frame, and the emitted code uses the body frame. In this case, each step converts
   the momentum to the space frame and back.
@@ -32,7 +33,7 @@ class Frames:
 
     Suppose that the program uses the body frame, and the emitted code uses the space frame. If ``whole`` is
     true, each step converts the momentum to the body frame and back. If ``whole`` is false, the steps do not
-    convert the momentum. For all other combinations of frames, ``whole`` has no effect.
+    convert the momentum.
     """
 
     scene: Problem
@@ -63,14 +64,12 @@ class Frames:
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Convert the momentum in ``new`` from the frame of the program to the frame of ``state``.
+        """Return ``new`` with the momentum converted to the frame of ``state``.
 
-        The result is the converted state. ``new`` is a state after the step.
-
-        ``state`` is the old state in the frame of the emitted code. ``start`` is the old state in the frame
-        of the program.
+        ``state`` and ``start`` are the same state before the step, and ``new`` is a state after the step.
+        The momenta in ``start`` and ``new`` are in the frame of the program.
         """
-        # ``new`` is the new state or the embedded solution, and is () if no embedded solution exists.
+        # An empty ``new`` represents a missing embedded solution.
         if self._alike or not new:
             return new
         # The group element q does not depend on the frame, so only the momentum is converted.
@@ -100,9 +99,7 @@ class Frames:
 
         If the two kernels are not needed, the result is None.
         """
-        # If ``_alike`` is true, the momentum is never converted. If ``_alike`` is false, and ``whole`` is
-        # true or ``body_group`` is not None, each step converts the momentum. In both cases, the two kernels
-        # are not needed.
+        # The kernels are needed only if the frames differ and the steps do not convert the momentum.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

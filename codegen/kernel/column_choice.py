@@ -53,7 +53,7 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     parted = None if scene.inputs else part(program, scene)
     # Deferred flows are applied once in a run of many steps, so their cost is neglected.
     core = program if parted is None else parted.core
-    # The group and the scene can share subexpressions, so the costs of whole steps are compared.
+    # The costs of complete steps are compared, because different operations can share subexpressions.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice, with and without shortening of the critical path.
     for group in scene.group.variants():
@@ -69,7 +69,7 @@ def fastest(program: Program, scene: Problem) -> Kernel:
 def _shortest(kernels: Sequence[Kernel]) -> Kernel:
     """Return the kernel whose step has the shortest estimated time.
 
-    Kernels with outlined functions are preferred to kernels without outlined functions.
+    If some of the kernels have outlined functions, only these kernels are considered.
     """
     # The instruction cache limits the speed of a long step, so the shorter code with outlined functions is
     # preferred.

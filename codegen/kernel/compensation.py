@@ -1,4 +1,4 @@
-"""Compensated steps: the state together with the rounding error of each coordinate (Kahan summation).
+"""Extend the steps of a method by compensated summation (Kahan summation).
 
 The carry is the rounding error in the addition of the previous step. A step from y0 with the increment d
 computes s = d + carry, y1 = y0 + s and the new carry s - (y1 - y0).
@@ -70,7 +70,7 @@ def with_carries(kernel: Kernel) -> Kernel:
             Let(f"added_{name}", added + space.sym(CARRY + name)),
             Let(f"sum_{name}", old + space.sym(f"added_{name}")),
         ]
-        # ``total`` is a symbol, because the formula (old + d) - old would be simplified to d.
+        # A symbol is used in place of the sum, because ``total - old`` would otherwise be simplified.
         total = space.sym(f"sum_{name}")
         sums.append(total)
         # The carry is the part of the increment lost by rounding in ``total``.
@@ -100,7 +100,7 @@ def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement
     for statement in reversed(body):
         if isinstance(statement, Let) and statement.name not in needed:
             continue
-        # ``expressions`` is a method of kernels, so a kernel with this single statement is formed.
+        # A kernel with only this statement is formed, because only kernels have the method ``expressions``.
         roots = replace(_EMPTY, body=(statement,)).expressions()
         needed |= {n.payload for n in walk(roots) if n.op == "sym"}
         kept.append(statement)
@@ -111,9 +111,9 @@ _EMPTY = Kernel("", (), (), (), ())
 
 
 class Increments:
-    """Computes d for expressions x + d and 1 + d, without cancellation of leading digits.
+    """Finds the increment d in expressions of the form x + d or 1 + d, where x is a symbol.
 
-    Here x is a symbol, and d is an increment.
+    Neither x nor 1 is subtracted, so no leading digits are lost by cancellation.
     """
 
     def __init__(self, kernel: Kernel) -> None:
@@ -137,16 +137,16 @@ class Increments:
             return self.of(self.values[e.payload], name) if e.payload in self.values else None
         if e.op in ("add", "sub"):
             a, b = e.args
-            # If a = x + d, then (a + b) - x = d + b.
+            # Here ``rest`` is the expression ``a`` minus the symbol ``name``.
             if (rest := self.of(a, name)) is not None:
                 return rest + b if e.op == "add" else rest - b
-            # For b = x + d, the result is a + d.
+            # Here ``rest`` is the expression ``b`` minus the symbol ``name``.
             if e.op == "add" and (rest := self.of(b, name)) is not None:
                 return a + rest
         if e.op == "mul":
             # A product is commutative, so either argument can contain the old coordinate.
             for factor, base in (e.args, e.args[::-1]):
-                # For a factor f and a base b: f b - x = (f - 1) b + (b - x).
+                # For a factor f, a base b and the symbol x: f b - x = (f - 1) b + (b - x).
                 rest, more = self.of(base, name), self.less_one(factor)
                 if rest is not None and more is not None:
                     return more * base + rest

@@ -34,15 +34,15 @@ SLACK = 1
 """A chain of operations is rewritten if its length is at least the maximal length minus ``SLACK``.
 
 The unit is the latency of an addition. The values 0, 2 and 4 of ``SLACK`` would give the same emitted files
-as the value 1. If chains of all lengths were rewritten, the code of the splitting methods on fast_heavy_top
-would change.
+as the value 1. An infinite value would change the code of the splitting methods on fast_heavy_top.
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
 """A sum of products, each with at most one late factor (a factor that depends on a slow operation).
 
-The key of a product is its late factor, or None if it has no late factor. A value contains a sign, the
-product of the factors that are constant in a run, and the product of the other factors.
+The key of a product is its late factor, or None if it has no late factor. A value describes the product
+without its late factor. The value contains a sign, the product of the factors that are constant in a run, and
+the product of the other factors.
 """
 
 
@@ -149,7 +149,7 @@ class _Chains:
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return the ids of the nodes that are expanded to sums of products."""
+        """Return the ids of nodes on long chains that :meth:`rewritten` may expand to sums of products."""
         ends = set()
         for node in self.nodes:
             for arg in node.args:
@@ -159,20 +159,18 @@ class _Chains:
                 # For a square ``arg * arg``, ``others`` is empty.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # A product counts as linear in ``arg`` if the other factor has a lower level.
+                # If ``linear`` is false, the expansion of ``arg`` cannot continue in ``node``.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # ``ends`` contains the ids of the nodes that are expanded to sums of products. The level of
-                # ``arg`` is ``late``. If the level of ``arg`` is 0, ``arg`` is not expanded. If ``linear`` is
-                # true and ``node`` and ``arg`` have equal levels, ``arg`` is expanded together with ``node``.
-                # In both cases, the id of ``arg`` is not added here.
+                # ``arg`` is added if it depends on a slow operation and its expansion does not continue in
+                # ``node``.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return ``node`` as a :data:`Sum`. Its keys are nodes of the given ``level``, or None."""
+        """Return ``node`` as a :data:`Sum`. The factors with the level ``level`` count as late."""
         # The expression ``self.new[node.id]`` replaces ``node``. A sum stored in ``self.sums`` may contain
         # this expression. Later, a different expression may be assigned to ``self.new[node.id]``. After this
         # assignment, the stored sum must not be used. Therefore the key contains the id of
@@ -184,12 +182,7 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # The result is a sum of products. A factor of such a product is called late if the level of the
-        # factor equals ``level``. The sum is returned as a dictionary with one entry for each product. The
-        # key of an entry is the late factor of the product, or None if no factor of the product is late. Each
-        # subexpression of ``node`` has at most the level of ``node``. Suppose that the level of ``node`` is
-        # below ``level``. Then ``node`` contains no late factor. In this case, the dictionary has one entry.
-        # The key is None, and the product is the expression ``self.new[node.id]``, which replaces ``node``.
+        # If the level of ``node`` is below ``level``, ``node`` contains no late factor.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
@@ -217,10 +210,9 @@ class _Chains:
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Add two products that have the same key in two dictionaries of the type :data:`Sum`.
+        """Return the sum of ``a`` and ``b``, the values for one key in two dictionaries (:data:`Sum`).
 
-        ``a`` and ``b`` are the values for this key. The result is the value for this key in the dictionary of
-        the total sum.
+        The result is the value for this key in the sum of both dictionaries.
         """
         x, y = self._product(*a[1:]), self._product(*b[1:])
         # The factors 1 or -1 in ``a[0]`` and ``b[0]`` are the signs of the two products.

@@ -64,9 +64,9 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # All entries of ``joined`` have the same two durations.
+    # The durations are the same for all entries of ``joined``, so the first entry is used.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
-    # ``heads`` are the indices of the leading flows, and ``tails`` are those of the final flows.
+    # ``heads`` and ``tails`` are the indices of joined flows at the beginning and at the end of a step.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     # The previous step has already applied the flows in ``heads``, so the core omits them.
@@ -101,7 +101,7 @@ def _is_h(letter: Letter) -> bool:
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow, and the variable that replaces its duration. None keeps the duration."""
+"""A flow, and the variable that replaces its duration, or None if the flow keeps its duration."""
 
 JoinedFlows = tuple[int, int, Number, Number]
 """A leading flow of a step and a final flow of the previous step, which are joined into one.

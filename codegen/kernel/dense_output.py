@@ -57,6 +57,6 @@ def _moved(kernel: Kernel, problem: Problem) -> Kernel:
 
     schedule = Assignments((), ends, {}, name)
     body = tuple(s for s in schedule.run() if isinstance(s, Let))
-    # The coordinates of x are inputs, too.
+    # The kernel has the coordinates in the Lie algebra as additional inputs.
     fields = (*kernel.state, Field(COORDINATES, names, "coordinates in the Lie algebra"))
     return Kernel(kernel.name, fields, kernel.scalars, body, schedule.outputs)
