@@ -113,7 +113,8 @@ def _trivialised(scene: Problem, group: LieGroup | None) -> RightTrivialisation 
     trivialised = group.offers(RightTrivialisation)
     if trivialised is None:
         raise SceneError(
-            f"the derivative of a step is not available on {group.name}, which has no right trivialisation",
+            "the derivative of a step requires a right trivialisation, "
+            f"which is not implemented for {group.name}",
             where=scene.name,
             expected="a group with right-trivialised tangent vectors",
         )

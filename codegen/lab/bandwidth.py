@@ -5,8 +5,7 @@ writes main memory. The bandwidth of the step is compared with that of the triad
 the STREAM benchmark (McCalpin 1995).
 
 Each number that a loop reads or writes is counted once. The additional read of a cache line before a write is
-not counted. Therefore the count omits a quarter of the memory traffic of the triad. For a step, the omitted
-fraction can be smaller. The counted bandwidth of the step can then exceed that of the triad.
+not counted. Therefore the counted bandwidth of a step can exceed that of the triad.
 """
 
 from __future__ import annotations
@@ -121,7 +120,7 @@ class Bandwidth:
         """Return the measurement as lines of text."""
         sites = " x ".join(map(str, self.shape))
         arrays, cache = self.array_bytes / 1e6, self.cache_bytes / 1e6
-        first = f"{self.ns:.1f} ns for each site and step, by one thread on {sites} sites"
+        first = f"the lattice has {sites} sites, and one thread takes {self.ns:.1f} ns for each site and step"
         lines = [first, f"the arrays take {arrays:.1f} MB, the last-level cache has {cache:.1f} MB"]
         if self.sweeps:
             lines.append("mean number of iterations in a step: " + ", ".join(f"{n:.1f}" for n in self.sweeps))

@@ -249,7 +249,7 @@ def test_without_a_request_there_is_none():
 
 
 def test_a_group_whose_elements_have_no_rates_is_refused():
-    with pytest.raises(SceneError, match=r"not available on SE\(2\), which has no right trivialisation"):
+    with pytest.raises(SceneError, match=r"right trivialisation, which is not implemented for SE\(2\)"):
         Variations.of(hamiltonian_scene("SE(2)"))
 
 

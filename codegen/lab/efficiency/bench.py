@@ -140,8 +140,8 @@ def bench(
     - ``forms``: names of forms of the equations, for example ``quaternion`` (default: all forms). Methods
       that use the Lie group ignore ``forms``.
 
-    InputError is raised for wrong names and options. If a method cannot be emitted for the scene, its
-    candidate contains the reason.
+    InputError is raised for wrong names and options. If a method cannot be emitted for the scene, the result
+    contains the reason.
     """
     for target in targets:
         if target not in names():
@@ -177,7 +177,8 @@ def emitted_forms(
 ) -> list[Candidate]:
     """Return the candidates for a method: one for each element of ``equations``.
 
-    Exception: a method that uses the group of the scene has only one candidate.
+    If the method uses the group of the scene, the only candidate integrates the original equations of the
+    scene.
     """
     suited = equations if lowering(method.family).in_coordinates else [Equations(scene)]
     return [emitted(scene, method, exact, target, budget, adaptive=adaptive, equations=e) for e in suited]

@@ -28,7 +28,7 @@ For larger orders, the search takes seconds.
 
 
 DEGREES = (4, 6, 8, 10, 12, 14, 16, 18, 20, 24)
-"""The degrees of the methods without tableaux, such as 8 for ``taylor(8)``."""
+"""The numbers n for which the methods ``taylor(n)`` are considered."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Recipe:
     - ``form``: the form of the equations, for example ``quaternion``, as in the option ``--form``.
     - ``explicit``: True if the tableau is explicit (:func:`is_explicit`).
 
-    For a family without tableaux, such as ``taylor``, ``order`` and ``stages`` are equal to the degree.
+    For the method ``taylor(n)``, both ``order`` and ``stages`` are n.
     """
 
     method: str
@@ -81,7 +81,7 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
     """Yield the recipes for a scene.
 
     If ``tableaux`` is empty, all tableaux of the library are used. A method that treats the state as a vector
-    in R^n has one recipe for each form of the equations.
+    in R^n has one recipe for each of :func:`classical_forms`.
     """
     forms = [form.key for form in classical_forms(problem)]
     for recipe in in_printed_form(problem, tableaux):
@@ -90,7 +90,7 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 
 
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
-    """Yield the recipes for the equations that the scene states.
+    """Yield the recipes in which the equations use the coordinates of the scene.
 
     On an abelian group, several families can give the same method. Only the first family is then used. The
     function does not check whether a recipe can be compiled for the scene.
@@ -132,9 +132,9 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     """Yield the recipes of one tableau in one family, with equal steps and with step-size control.
 
     The cut-off of a method is its number of commutators, such as the 2 in ``rkmk(2)``. For each order, only
-    the smallest cut-off that gives this order is used. Orders below half the classical order of the tableau
-    have no recipe. A tableau can have an additional recipe that has no cut-off. For this recipe, the compiler
-    searches for the smallest number of commutators (:data:`SEARCHED`).
+    the smallest cut-off that gives this order is used. A method is omitted if its order is below half the
+    classical order of the tableau. A tableau can have an additional recipe that has no cut-off. For this
+    recipe, the compiler searches for the smallest number of commutators (:data:`SEARCHED`).
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()

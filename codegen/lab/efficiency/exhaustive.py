@@ -44,8 +44,8 @@ SAMPLE = 12
 class Exhausted:
     """The result of an exhaustive search.
 
-    - ``known``: maps each required error to the least CPU time in seconds that the usual search measured, or
-      to infinity if the usual search found no recipe.
+    - ``known``: maps each required error to the least CPU time in seconds that ``orderconds recommend``
+      measured. The time is infinite if no recipe was found.
     - ``recipes``: the number of recipes of the library.
     - ``results``: maps each required error to the measured runs.
     - ``raced``: the number of recipes that were emitted and timed.
@@ -87,8 +87,8 @@ class Exhausted:
         )
         if math.isfinite(self.nearest):
             counts += (
-                "; the fastest recipe in a sample of the excluded recipes takes "
-                f"{self.nearest:.1f} times the best CPU time"
+                "; some excluded recipes were also measured, and their CPU times are at least "
+                f"{self.nearest:.1f} times the best CPU time of the other recipes"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
 
@@ -161,8 +161,8 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
     - The runs in the interpreter failed.
     - The runs in the interpreter had large errors, and the recipe is implicit or has step-size control.
 
-    In both cases, the result is the predicted time of a single step divided by the longest time limit. If
-    this quotient is at most 1, the result is 0.
+    For an unreliable prediction, let q be the predicted time of a single step, divided by the longest time
+    limit. The result is q if q > 1, and otherwise 0.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)
@@ -202,8 +202,8 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
     """Measure the CPU time of a recipe for each required error, and add the results to ``done``.
 
-    Return the minimum of (measured CPU time)/(best earlier CPU time) over all reached errors. The result is
-    infinity if no error is reached.
+    Return the minimum of (measured CPU time)/(best earlier CPU time) over all required errors that the recipe
+    reaches. The result is infinity if the recipe reaches no required error.
     """
     done.codes.add(candidate.code)
     done.raced += 1

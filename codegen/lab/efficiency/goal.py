@@ -35,7 +35,7 @@ NEEDS = (
     Need("manifold", "the state stays on the manifold up to rounding"),
     Need(
         "symplectic",
-        "steps are symplectic maps, and a long run preserves conserved quantities",
+        "steps are symplectic maps, and invariants change by less than their size in a long run",
         long=True,
     ),
     Need("explicit", "no equations are solved; each step takes the same time"),
@@ -96,7 +96,7 @@ class Goal:
 def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
     """Return False if a recipe violates one of the requirements ``needs``.
 
-    Some violations are found only in the compiled method (:meth:`Goal.met`).
+    If the result is True, the compiled method must still be checked with :meth:`Goal.met`.
     """
     if ("adaptive" in needs and not recipe.adaptive) or ("fixed" in needs and recipe.adaptive):
         return False

@@ -59,11 +59,11 @@ class NewtonDomain(CountingDomain):
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Make ``steps`` equal steps over the time span. Return the final state and a mean number of sweeps.
+    """Make ``steps`` equal steps over the time span. Return the pair (final state, sweeps).
 
-    A sweep is one iteration for a system of implicit equations. The mean number predicts how many sweeps
-    emitted code needs for one system in one step. ArithmeticError is raised if a state is not finite, or if
-    the process has used more than ``end`` seconds of CPU time.
+    A sweep is one iteration for a system of implicit equations. The result ``sweeps`` is a prediction of the
+    mean number of sweeps that emitted code needs for one system in one step. ArithmeticError is raised if a
+    state is not finite, or if the process has used more than ``end`` seconds of CPU time.
     """
     first, last = problem.span
     domain = CountingDomain(float((last - first) / steps))
@@ -79,10 +79,7 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # Each sweep adds about the same number of digits. The iterations of an interpreted run end when the
-    # relative change of the unknowns is at most SETTLED. Emitted code solves implicit equations to about
-    # twice as many digits as an interpreted run. Therefore the mean number of sweeps in the interpreted run
-    # is multiplied by 2.
+    # Emitted code computes about twice as many digits, and therefore needs about twice as many sweeps.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 

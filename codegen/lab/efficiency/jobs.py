@@ -22,17 +22,15 @@ FRESH = 8
 """A constant that determines how often the limits in a :class:`Bar` are updated.
 
 A bar contains limits on the error and the CPU time of a recipe. The limits are computed from the predictions
-for earlier recipes. Let n be the number of predictions at the last computation of the limits. The limits are
-updated only after at least 1 + n // FRESH further predictions.
+for earlier recipes. Limits from n predictions are updated after 1 + n // FRESH further predictions.
 """
 
 
 EVEN = 4.0
-"""A constant in the formula (n + d)/EVEN + s for the delay of a queue of recipes.
+"""A constant that determines from which queue the next recipe is taken.
 
-The numbers n, d and s are defined below. A larger value of EVEN reduces the influence of n and d on the
-delay. The next recipe comes from the queue with the smallest delay. All recipes in a queue have the same kind
-(:data:`Kind`) and the same order.
+All recipes in a queue have the same kind (:data:`Kind`) and the same order. Three numbers are computed for
+each queue:
 
 - n is the number of recipes that were taken from the queue.
 - d is the least value of abs(p - usual_order(e)) over all required errors e (:func:`usual_order`). Here p is
@@ -40,6 +38,8 @@ delay. The next recipe comes from the queue with the smallest delay. All recipes
 - s = log2(T1/T2) is the slowness of the queue. Let K be the kind of the recipes in the queue. T1 is the least
   predicted CPU time of all recipes of the kind K, whatever their order. T2 is the least predicted CPU time of
   all recipes.
+
+The next recipe comes from the queue with the smallest value of (n + d)/EVEN + s.
 """
 
 FAILED = 4.0
@@ -148,9 +148,8 @@ class Jobs(Sequence[Job]):
     def _behind(self, queue: Queue) -> float:
         """Return the slowness s (:data:`EVEN`) of a queue, or 0 if there are no predictions.
 
-        A goal contains the required error of the solution. The predicted CPU times depend on the goal.
-        Therefore the slowness, which is computed from predicted CPU times, depends on the goal. The result is
-        the least value over all goals.
+        The slowness is computed for each goal of the first recipe in the queue, and the least value is
+        returned.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]

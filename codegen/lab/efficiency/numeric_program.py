@@ -23,7 +23,10 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
 
 Shape = tuple[tuple[str, int], ...]
-"""For each argument or each result of an operation: the kind, and the width (number of components)."""
+"""Pairs (kind, width) that describe the arguments of an operation, or the results of an operation.
+
+The width is the number of components.
+"""
 
 
 @dataclass(frozen=True)
@@ -91,7 +94,7 @@ class Numeric(Operation):
         return self.label
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
-        """Return the results of the attribute ``function``. Its inputs are ``args`` and the step size."""
+        """Return the results of the attribute ``function`` for the inputs ``args`` and the step size."""
         flat: list[Scalar] = []
         for x in args:
             if isinstance(x, tuple):

@@ -101,8 +101,7 @@ class Prediction:
       an interpreter, and is infinite if these runs fail.
     - ``rough``: True if no run with equal steps over the whole time span has a small error (:data:`SMALL`).
     - ``controlled``: the prediction with step-size control, or None.
-    - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS. Then the
-      predicted times may be too short.
+    - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS.
     - ``failure``: the reason if the method cannot be used for the scene, and otherwise ''.
     """
 
@@ -155,17 +154,12 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e) that serve to exclude inaccurate recipes. The entries
-      ``family`` and ``explicit`` of a triple define a set of methods. If ``family`` is not '', the set
-      contains only methods of this family. If ``family`` is '', the set contains methods of all families. If
-      ``explicit`` is True, the set contains only explicit methods, and otherwise only implicit methods. Let p
-      be the order of the recipe. The set contains only methods of order p + 1 or p + 2. For each method in
-      the set, the error in a run with the CPU time ``seconds`` is predicted. The number e is the least of
-      these errors. The method :meth:`too_high` excludes the recipe if e exceeds :data:`FAR` times ``error``.
+    - ``least``: triples (family, explicit, e) for :meth:`too_high`. The number e is defined at :data:`FAR`
+      for the CPU time ``seconds``. Only the explicit methods or only the implicit methods of the family are
+      considered. The name '' represents all families.
     - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
       this run.
-    - ``explicit``: True if a recipe with an implicit method is not accepted. This attribute of the bar is not
-      the entry ``explicit`` of a triple.
+    - ``explicit``: True if a recipe with an implicit method is not accepted.
     """
 
     error: float
@@ -203,7 +197,7 @@ class Bar:
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
     def hopeless(self, family: str) -> bool:
-        """Return True if the limits exclude all methods of a family, explicit and implicit."""
+        """Return True if :meth:`too_high` excludes both the explicit and the implicit methods of a family."""
         return self.too_high(family, True) and self.too_high(family, False)
 
 
@@ -217,8 +211,8 @@ class Predictor:
       time span is divided into :data:`PARTS` equal intervals.
     - ``failures``: for each kind of method, a count of the methods that failed in runs with a constant step
       size. If a method of a kind succeeds, the count for this kind is set to zero.
-    - ``uncontrolled``: for each kind of method, the number of consecutive methods that failed with step-size
-      control (:data:`TRIES`).
+    - ``uncontrolled``: for each kind of method, a count of the methods that failed in runs with step-size
+      control. If a method of a kind succeeds, the count for this kind is set to zero.
     - ``costs``: for each operation, a pair. The first entry is the predicted time of the operation in
       nanoseconds. The second entry contains the number of components of each result of the operation.
     """
@@ -324,8 +318,8 @@ class Predictor:
 
         ``outside`` is the time that one step needs for all operations outside the implicit equations.
         ``sweep`` is the time of one sweep. A sweep is one iteration over all implicit equations. ``widths``
-        maps each input of the program to its number of components. For every variable that the program
-        computes, the function adds the number of components to ``widths``.
+        maps each input of the program to its number of components. The number of components of each computed
+        variable is stored in ``widths``.
         """
         outside = sweep = 0.0
         for statement in program.body:

@@ -29,7 +29,7 @@ from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED
 
 HALVINGS = 6
-"""The largest number of bisections in the search for the fewest steps or the largest tolerance."""
+"""The maximum number of bisections for the number of equal steps, or for the exponent of the tolerance."""
 
 FINEST = 15.0
 """The exponent k of the smallest tolerance 10^-k."""
@@ -90,7 +90,7 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
 class Result:
     """The fastest run whose error is at most the required error.
 
-    If no run reaches the required error, the attributes describe the most accurate run.
+    If no run reaches the required error, ``control``, ``steps`` and ``error`` describe the most accurate run.
 
     - ``control``: the number of equal steps, or the exponent k of the tolerance 10^-k.
     - ``steps``: the number of accepted steps.
@@ -118,7 +118,7 @@ class Result:
 class Racer:
     """Runs one entry of the race.
 
-    The control of a run is the number of equal steps, or the exponent k of the tolerance 10^-k.
+    A run is specified by its control: the number of equal steps, or the exponent k of the tolerance 10^-k.
 
     - ``equations``: the equations in the form that the entry integrates.
     - ``exact``: the reference solution at the end of the time span.
@@ -183,9 +183,9 @@ class Racer:
         """Return the result for the fastest run that reaches an error.
 
         A recipe is a method on one form of the equations, with equal steps or with step-size control.
-        ``best`` is a CPU time in seconds in which another recipe reaches ``error``. The search ends after a
-        run that takes much longer than ``best`` (:data:`PATIENT`). If the error is not reached, the attribute
-        ``reached`` of the result is False.
+        ``best`` is a CPU time in seconds in which another recipe reaches ``error``. After a run that takes
+        much longer than ``best``, no run with higher accuracy is made (:data:`PATIENT`). If the error is not
+        reached, the attribute ``reached`` of the result is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)

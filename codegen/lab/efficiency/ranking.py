@@ -98,11 +98,11 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful runs of one integrator on the fastest forms of the equations.
+    """Return the successful runs of one integrator, without slow runs.
 
-    A run is omitted if the same error needs less CPU time with another form of the equations. For several
-    forms, the runs in the result are sorted by error, from large to small. For a single form, the runs have
-    the same order as in ``rows``.
+    A run is slow if the integrator reaches the same error in less CPU time with another form of the
+    equations. For several forms, the runs in the result are sorted by error, from large to small. For a
+    single form, the runs have the same order as in ``rows``.
     """
     forms = by_form(rows)
     good = [r for r in rows if r.error and r.seconds]

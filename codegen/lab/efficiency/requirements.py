@@ -1,4 +1,4 @@
-"""Requirements on methods, and required errors, for the table of recommended methods.
+"""The requirements and the errors in the table of recommended methods.
 
 The table has one column for each requirement and one row for each error. The report contains the table.
 """

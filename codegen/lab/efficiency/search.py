@@ -1,7 +1,7 @@
 """The search for the fastest recipes of the library for several goals.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. A goal is a bound on
-the error and a list of requirements. The search has three stages:
+A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
+A goal is a bound on the error and a list of requirements. The search has three stages:
 
 - The CPU time of each recipe is predicted from short runs (:mod:`codegen.lab.efficiency.prediction`).
 - Recipes with short predicted times are emitted as C and measured.
@@ -37,13 +37,16 @@ Before the comparison, the predicted time is multiplied by a correction factor.
 """
 
 UNSEEN = 4.0
-"""The safety factor (:data:`SAFETY`) for a kind of recipe that has not been measured yet."""
+"""The safety factor for a :class:`Recipe` if no recipe of the same kind (:data:`Kind`) has been measured."""
 
 LEADERS, CLOSE = 4, 1.4
-"""Each of the LEADERS fastest recipes is timed again if its CPU time is at most CLOSE times the best."""
+"""Limits for the recipes that are timed again.
+
+LEADERS limits the number of these recipes. CLOSE limits the ratio of their CPU times to the least CPU time.
+"""
 
 CONTROLLED = 100.0
-"""The divisor for unreliable predictions of the CPU time with step-size control (:meth:`Search.hoped`).
+"""Unreliable estimates of CPU times are divided by CONTROLLED (:meth:`Search.hoped`).
 
 On stiff scenes, a time that is predicted from equal steps can be a hundred times the true time.
 """
@@ -66,12 +69,8 @@ The remaining budget is the time that is left after the computation of the refer
 UNREACHED = 1e-3
 """A default value for the gain of a recipe, used if the gain cannot be computed.
 
-Recipes with larger gains are measured earlier. Let a be the CPU time of the fastest measured recipe, and let
-b be the estimated CPU time of the recipe. If b < a, the gain is log(a/b) (:meth:`Search._next`). If b >= a
-and the estimate b is reliable, the recipe has no gain. In two cases, the gain cannot be computed. Either the
-estimated CPU times of all recipes are infinite, or the estimate for the recipe is unreliable and exceeds the
-time of the fastest measured recipe. If the search has several goals, the gains of the recipe for all goals
-are added.
+Recipes with larger gains are measured earlier (:meth:`Search._next`). For example, the gain cannot be
+computed if the estimated CPU times of all recipes are infinite.
 """
 
 LONG_STEPS = 20_000
@@ -81,7 +80,10 @@ SHORTER = 5
 """If a long run loses a conserved quantity, the step size is halved, at most SHORTER times."""
 
 Kind = tuple[str, bool, bool]
-"""A kind of recipe: (name of the method family, explicit, with step-size control).
+"""A kind of recipe: the triple (family, explicit, adaptive).
+
+``family`` is the name of the method family. ``explicit`` is True if the method is explicit. ``adaptive`` is
+True if the recipe has step-size control.
 
 All recipes of a kind have similar ratios of measured to predicted times.
 """
@@ -195,7 +197,7 @@ class Search:
         return known.controlled or known if known is not None and recipe.adaptive else known
 
     def _correct(self) -> None:
-        """Compute correction factors for predicted times from the attribute ``ratios``."""
+        """Use the attribute ``ratios`` to compute correction factors for the predicted times."""
         self._corrections = {key: geometric_mean(x) for key, x in self.ratios.items() if x}
         joined: dict[Kind, list[float]] = defaultdict(list)
         for (kind, _), ratios in self.ratios.items():

@@ -22,7 +22,7 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 
 AGAIN = 3
-"""The largest number of repetitions of a measurement with an implausible result.
+"""The maximum number of repetitions of a measurement.
 
 Two consecutive runs are measured again if the run with fewer steps took longer.
 """
@@ -95,7 +95,7 @@ class Candidate(Protocol):
         """
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no run with more steps or a smaller tolerance is needed.
+        """Return True if no further run is needed.
 
         ``rows`` contains the results of all runs up to now.
         """
@@ -181,7 +181,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield the single number 0."""
+        """Yield one arbitrary number, so that :func:`measure_rows` returns a row with the reason."""
         yield 0.0
 
     def prepare(self) -> None:
@@ -217,9 +217,8 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
     """Return True if rounding errors probably prevent further convergence.
 
-    Let e1, e2 and e3 be the last three errors in ``rows``, where e3 is the last. The result is True under two
-    conditions: e1 is at most :data:`NEAR_ROUNDING` times the size of the state, and both e2 and e3 are larger
-    than e1/3.
+    Let e1, e2 and e3 be the last three errors in ``rows``, where e3 is the last. The result is True if e1 is
+    at most :data:`NEAR_ROUNDING` times the size of the state, and if both e2 and e3 are larger than e1/3.
     """
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))

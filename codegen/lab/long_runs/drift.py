@@ -58,10 +58,11 @@ LATE applies.
 """
 
 LEVEL, STAYS = 0.9, 0.5
-"""A deviation saturates at a time t in the first half of the record under two conditions.
+"""Constants that define the saturation of a deviation.
 
-At t, the deviation first reaches LEVEL times its largest value. After t, the deviation is always at least
-STAYS times its largest value.
+Let t be the time at which the deviation first reaches LEVEL times its largest value. The deviation saturates
+at t if t is in the first half of the record, and if all later deviations are at least STAYS times the largest
+value.
 """
 
 WALKING = (0.5, 1.6)
@@ -103,7 +104,7 @@ the largest deviation in the record.
 FINE, NEAR, FAR = 100, 5, 20
 """Constants for the tests with :data:`WALKING`, :data:`CONFINED` and :data:`STRAIGHT`.
 
-These tests cut a record of deviations into blocks. FINE is the largest number of these blocks.
+These tests cut a record of deviations into at most FINE blocks.
 
 The variance ratio V_k/(k V_1) is defined at :data:`WALKING`. The variance ratio is computed for k = NEAR and
 for k = FAR. If a record has too few blocks for k = FAR, a smaller k is used.
@@ -245,8 +246,8 @@ def fit(
 def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | numpy.ndarray) -> int | None:
     """Return the index of the sample at which a deviation saturates (see :data:`LEVEL`), or None.
 
-    For each sample, ``peaks`` contains the largest absolute deviation since the previous sample, and ``lows``
-    the smallest.
+    For each sample, ``peaks`` contains the largest absolute deviation since the previous sample. For each
+    sample, ``lows`` contains the smallest absolute deviation since the previous sample.
 
     >>> saturation([0.1 * min(k, 10) for k in range(40)], [0.1 * min(k, 10) for k in range(40)])
     9
@@ -284,11 +285,11 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the scatter V/(n D), defined at :data:`CONFINED` (degree 0) or :data:`STRAIGHT` (degree 1)."""
+    """Return the scatter as defined at :data:`CONFINED` (degree 0) or at :data:`STRAIGHT` (degree 1)."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
-    # If all increments are equal up to rounding errors, the result is 0.
+    # A variance of at most TINY is attributed to rounding errors.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 
@@ -300,7 +301,7 @@ def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
 
 
 def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
-    """Return the variance ratios V_k/(k V_1) of :data:`WALKING` for k = NEAR and k = FAR."""
+    """Return the variance ratios for k = NEAR and k = FAR, as defined at :data:`WALKING`."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, 1), x)
 

@@ -32,10 +32,10 @@ ROUNDING_STEPS = 20_000
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""Defines the largest deviation of a quantity that is attributed to rounding errors.
+"""A factor in the bound for deviations that rounding errors can cause.
 
-After n steps of a method that conserves the quantity exactly, this deviation is UNSTABLE * n * EPSILON times
-the magnitude of the quantity. EPSILON is the machine epsilon of doubles.
+After n steps of a method that conserves a quantity exactly, this bound is UNSTABLE * n * EPSILON times the
+magnitude of the quantity. EPSILON is the machine epsilon of doubles.
 """
 
 

@@ -50,7 +50,7 @@ The change in a single step may be zero by chance.
 """
 
 NEARLY = 1e-14
-"""For a step from a state with rounding errors, this bound replaces :data:`EXACT`.
+"""A bound that replaces :data:`EXACT` if the state before the step contains rounding errors.
 
 A state with rounding errors is not exactly on the manifold.
 """

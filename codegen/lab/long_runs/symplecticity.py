@@ -43,9 +43,9 @@ LEFT = 0.5
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of three steps of size ``h``.
 
-    The steps start at the first sample, the middle sample, and the sample with the fastest motion. If the
-    relative deviation of a conserved quantity exceeds :data:`LEFT`, the later samples are not used. Raises
-    ArithmeticError or ValueError if a step cannot be computed with 40 digits.
+    The steps start at the first sample, the middle sample, and the sample with the fastest motion. Only the
+    samples of ``trajectory`` before the first large deviation of a conserved quantity are used
+    (:data:`LEFT`). Raises ArithmeticError or ValueError if a step cannot be computed with 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -116,7 +116,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # _step() refines ``solution`` to 40 digits. Then Newton's method in step() starts from ``solution``.
+        # This call refines ``solution``, from which Newton's method starts in the later calls of step().
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

@@ -42,8 +42,8 @@ FUNCTIONS = of_arrays(numpy)
 class Series:
     """The deviations of one conserved quantity in each interval between consecutive samples of a run.
 
-    The deviation of an invariant is its value minus its initial value ``start``. For the equations of the
-    manifold, the deviation is the largest absolute residual.
+    The deviation of an invariant is its value minus its initial value ``start``. The deviation from the
+    manifold is the largest absolute residual of the equations that define the manifold.
 
     - ``deviations``: the mean deviation.
     - ``peaks``: the largest absolute deviation.
@@ -133,8 +133,8 @@ def scale(start: float, magnitude: float) -> float:
     """Return the size of a conserved quantity, by which its deviation is divided.
 
     ``start`` is the initial value of the quantity, and ``magnitude`` is the sum of the absolute values of its
-    terms. The size is ``abs(start)``. If the terms cancel (:data:`CANCELLED`), the size is ``magnitude``. If
-    ``start`` and ``magnitude`` are zero, the size is 1.
+    terms. If ``start`` and ``magnitude`` are zero, the size is 1. Otherwise the size is ``magnitude`` if the
+    terms cancel (:data:`CANCELLED`), and ``abs(start)`` if the terms do not cancel.
 
     >>> scale(-2.0, 3.0), scale(1e-12, 3.0), scale(0.0, 0.0)
     (2.0, 3.0, 1.0)
@@ -163,7 +163,7 @@ def array_functions(
 
     ``kept`` contains the expressions of each quantity, by default those of the conserved quantities of the
     scene. The functions return infinity in place of values that are not finite. The symbols in ``swept`` are
-    parameters. Each parameter adds one row of values to the array of states.
+    parameters. For each parameter, the first argument of the functions has an additional row at the end.
     """
     symbols = (*scene.symbols, *swept)
 

@@ -126,12 +126,12 @@ class Advice(Measurement[Recommendations]):
     def as_json(self, result: Recommendations) -> object:
         """Return a JSON value: the fastest method for each requirement and each error bound.
 
-        The data of a method contain its CPU time, its step size or tolerance, and the command that emits it.
+        The data of a method are the attributes of :class:`Advised`.
         """
         return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
 
     def verdict(self, result: Recommendations, subject: Subject) -> str:
-        """Name the fastest methods for the largest and the smallest error bound in one sentence."""
+        """Return a sentence with the fastest methods for the largest and for the smallest error bound."""
         own = result.advice[0].best if result.advice else ()
         choices = [
             f"{best.method.partition(' (')[0]} ({duration(best.seconds)}) at an error of {decade(k)}"
@@ -140,7 +140,10 @@ class Advice(Measurement[Recommendations]):
         ]
         if not choices:
             return ""
-        return f"The fastest emitted method is {enumeration(choices[:: max(1, len(choices) - 1)])}."
+        return (
+            "Of the emitted methods, the least CPU time is needed by "
+            f"{enumeration(choices[:: max(1, len(choices) - 1)])}."
+        )
 
     def section(self, result: Recommendations, subject: Subject) -> Section:
         """Return the section with two tables: the fastest methods, and the properties of methods."""
@@ -187,11 +190,13 @@ def completed(
     """Return a copy of ``lines`` in which faster methods from ``known`` replace slower methods.
 
     ``lines`` is the result of an unfinished search. ``known`` contains the properties of methods. ``entries``
-    maps the label of a method to the measured runs of this method. The entry of a line for the error 10^-k is
-    a method, or None if the search found no method. Let M be the fastest method in ``known`` that satisfies
-    the requirement of the line and reaches the error 10^-k. If the entry is None, M becomes the entry. If the
-    method in the entry needs more CPU time than M, M replaces this method. If the requirement of a line
-    concerns long times, the entries of the line are not changed.
+    maps the label of a method to the measured runs of this method. A line is not changed if its requirement
+    must be tested in a long run.
+
+    The entry of a line for the error 10^-k is a method, or None if the search found no method. Let M be the
+    fastest method in ``known`` that satisfies the requirement of the line and reaches the error 10^-k. If the
+    entry is None, M becomes the entry. If the method in the entry needs more CPU time than M, M replaces this
+    method.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -211,7 +216,7 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return a copy of ``line`` in which the CPU time does not decrease if the error becomes smaller.
+    """Return a copy of ``line`` in which faster methods for smaller errors replace slower methods.
 
     For each error 10^-k, ``line.best`` contains a method or None. A method that reaches a smaller error also
     reaches the error 10^-k. The function changes the entries one after the other, from the smallest error to
@@ -267,7 +272,7 @@ def table(result: Recommendations, subject: Subject) -> dict[str, object]:
 def cell(best: Advised | None) -> dict[str, str] | None:
     """Return the texts of a cell of the table, or None for an empty cell.
 
-    The entry with the key ``control`` contains the number of steps, and the step size or tolerance.
+    The text for the key ``control`` contains the step size or the tolerance, followed by the number of steps.
     """
     if best is None:
         return None

@@ -114,7 +114,8 @@ class Conditions(Measurement[ConditionTables]):
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     """Return pairs (family, n). The report shows the conditions of the family for the orders 1 to n.
 
-    The number n is the highest order of convergence of the methods in the family, but at most DEEPEST.
+    The number n is the highest order that the order conditions prove for a method of the family, but at most
+    DEEPEST.
     """
     highest: dict[str, int] = {}
     for each in study:

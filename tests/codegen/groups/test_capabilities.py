@@ -188,7 +188,7 @@ class TestACallerRefuses:
             FieldScene(group=group, action=Linear(), y=group.dual("y"), f=[1, 2], y0=[0, 0], span=(0, 1))
 
     def test_a_jacobian_on_a_group_without_right_trivialisation(self):
-        with pytest.raises(SceneError, match=r"not available on SE\(2\), which has no right trivialisation"):
+        with pytest.raises(SceneError, match=r"right trivialisation, which is not implemented for SE\(2\)"):
             Variations.of(hamiltonian_scene("SE(2)"))
 
 
