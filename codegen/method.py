@@ -148,8 +148,8 @@ class Method:
     def embedded(self) -> Method | None:
         """Return the embedded method, or None if the method needs no embedded method.
 
-        No embedded method is needed if ``adaptive`` is False. Families such as ``taylor`` control the step
-        size without an embedded method. An embedded method has the stages of the method, but other weights.
+        The result is None if ``adaptive`` is False, or if the family controls the step size in another way,
+        as ``taylor`` does. An embedded method has the stages of the method, but other weights.
         :class:`MethodError` is raised if a needed embedded method does not exist.
         """
         if not self.adaptive or self.kind.controls_steps:
@@ -165,9 +165,8 @@ class Method:
             )
         if self.kind.minimal_brackets and self.cutoff is None:
             raise MethodError(
-                f"no error estimate for {self.label}: the brackets in the stages depend on the weights, so "
-                "an embedded method would need other stages",
-                expected="a cut-off, which fixes the number of brackets",
+                f"no error estimate for {self.label}: without a cut-off, the stages depend on the weights",
+                expected="a method with a cut-off",
                 hint=f"write rkmk(3):{self.tableau.name}",
             )
         if lower is None:
@@ -267,7 +266,7 @@ def _unclaimed(
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order in these families: {family or ', '.join(families)}",
         where=text,
-        expected="a number of Lie brackets, as in rkmk(2)" if family else "a family in the method's name",
+        expected="a cut-off in the name, as in rkmk(2)" if family else "a family in the method's name",
         hint=f"write {label}",
     )
     error.claimed = _claimed(tableau)
@@ -389,12 +388,12 @@ def parse(text: str, families: Sequence[str]) -> Method:
     If the family needs a cut-off and the text contains none, the cut-off with the highest claimed order is
     chosen. Among cut-offs of equal order, the smallest is chosen.
 
-    For the family ``rkmk``, no cut-off is chosen if the tableau is explicit with exact coefficients and the
-    claimed order is at most 6. The compiler then searches for the fewest brackets that preserve the order.
+    A method of the family ``rkmk`` may have no cut-off if the tableau is explicit. The compiler then searches
+    for the fewest brackets that preserve the order.
 
     :class:`MethodError` is raised if the text cannot be read, or if the scene or the tableau does not fit the
-    family. MethodError is also raised if a family or a cut-off must be chosen without a claimed order.
-    :class:`orderconds.errors.UnknownName` is raised for an unknown tableau.
+    family. MethodError is also raised if a family or a cut-off must be chosen, but the tableau claims no
+    order in a suitable family. :class:`orderconds.errors.UnknownName` is raised for an unknown tableau.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -431,11 +430,9 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
         raise MethodError(
             f"the family {family} has no cut-off",
             where=text,
-            expected=f"no cut-off, or a family with a cut-off: {' or '.join(cutting)}",
+            expected=f"no cut-off, or one of the families with a cut-off ({' or '.join(cutting)})",
         )
-    # The file of a commutator-free tableau can state an order for the family rk (Runge-Kutta methods on R^n).
-    # This order belongs to the method on R^n, which is a Runge-Kutta method. A coefficient a_ij of this
-    # Runge-Kutta method is the sum of the coefficients of k_j in all exponentials of stage i.
+    # If a commutator-free tableau states an order for the family rk, this family must not be chosen.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

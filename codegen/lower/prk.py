@@ -44,7 +44,7 @@ class PartitionedLowering(Lowering):
         For all other scenes return None.
         """
         if not scene.is_hamiltonian:
-            return Objection("", "a Hamiltonian scene, whose state consists of positions and momenta")
+            return Objection(", whose state contains no momentum", "a Hamiltonian scene")
         if scene.group.abelian:
             return None
         hint = "use a variational method for Lie groups: vcg, vcf or vrkmk"
@@ -103,11 +103,11 @@ class PartitionedLowering(Lowering):
                 # If the velocity does not depend on positions, its values at ``q`` and ``Q`` are equal, so
                 # ``q`` can replace ``Q``.
                 if not by_position:
-                    # With ``q`` in place of ``Q``, the velocity no longer depends on unknown velocities.
+                    # ``q`` is known at the start of the step, but ``Q`` depends on unknowns.
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
                 # If the force does not depend on momenta, its values at ``mu`` and ``P`` are equal.
                 if not by_momentum:
-                    # P depends on the unknown forces n_j, but ``mu`` is known.
+                    # ``mu`` is known at the start of the step, but ``P`` depends on unknowns.
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
                 velocities.append(v)
                 forces.append(f)

@@ -61,8 +61,8 @@ def _built_in() -> tuple[type[Lowering], ...]:
 def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
     """Register a lowering for all commands, and return its class.
 
-    If the class ``family`` with the order conditions is given, the function also registers this class
-    (:func:`orderconds.families.register`).
+    The argument ``family`` is a class with order conditions. If ``family`` is given, it is registered by
+    :func:`orderconds.families.register`.
 
     :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`. The error is
     also raised if another class is registered for the family.
@@ -77,7 +77,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
     # A second call with the same class is harmless, so only another class is an error.
     if known is not None and type(known) is not lowering:
         raise MethodError(
-            f"the family {lowering.family} already has a lowering of another class",
+            f"the family {lowering.family} already has a lowering",
             where=lowering.__name__,
             expected="the name of a family that has no lowering",
         )

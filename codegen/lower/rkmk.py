@@ -47,7 +47,7 @@ class MuntheKaas(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step."""
-        # A coordinate map other than exp has an exact inverse differential, so the cut-off is ignored.
+        # The cut-off truncates the series of dexp^{-1}, so it has no effect on other coordinate maps.
         if problem.coordinates is not None:
             return in_coordinates(problem, method)
         # Without a cut-off, a search finds the brackets that are needed for the order of the tableau.
@@ -81,7 +81,7 @@ class MuntheKaas(FieldLowering):
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The emitted code computes the brackets of the same bracket program.
+        # The order conditions must contain the brackets that the emitted code computes.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
@@ -100,7 +100,7 @@ def _order(lowering: MuntheKaas, method: Method) -> FamilyOrder:
 
 
 def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
-    """Return the program of an RKMK method whose series of dexp^{-1} has at most ``cutoff`` brackets."""
+    """Return the program of a step. No term of the series of dexp^{-1} has more than ``cutoff`` brackets."""
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
         # The series is dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... With the cut-off 0, only the term
@@ -173,7 +173,7 @@ def _program(
 
     def powers() -> dict[str, Var]:
         assert extension is not None
-        # Each row contains the coefficients of one power theta^p in the weights b_i(theta) of the extension.
+        # The weights are polynomials in theta, and row p contains the coefficients of theta^p.
         rows = {f"{POWERS}{p}": extension.power(p) for p in range(1, extension.degree + 1)}
         return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
 

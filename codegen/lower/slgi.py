@@ -1,9 +1,10 @@
 """Symplectic Lie group integrators on T*G, section 2.5 of Marthinsen's thesis.
 
 A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau are a_ij and b_i. Let
-(xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. The unknowns are the xi_i and n_i. The
-point of stage i is Q_i. The force n_j of stage j acts at the point Q_j, and nu_j is this force after the
-transport from Q_j to q0. The exponents X_i and Y, the points Q_i and the transported forces nu_j are
+(xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. In the thesis, f contains the factor h.
+The unknowns are the xi_i and n_i. The point of stage i is Q_i. The force n_j of stage j acts at the point
+Q_j, and nu_j is this force after the transport from Q_j to q0. The exponents X_i and Y, the points Q_i and
+the transported forces nu_j are
 
     X_i = h sum_j a_ij xi_j,   Y = h sum_j b_j xi_j,   Q_i = exp(X_i) q0,   nu_j = Ad*_{exp X_j} n_j.
 
@@ -12,9 +13,9 @@ The stage momenta M_i and the result of the step are
     M_i = dexp*_{-Y}(mu0 + h sum_j b_j nu_j) - h sum_j (b_j a_ji/b_i) dexp*_{X_j} n_j,
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j nu_j).
 
-The order of every symplectic Lie group integrator of this form is at most two. The thesis includes the factor
-h in f. The theta-method has one stage, a_11 = theta and b_1 = 1. For the theta-method, let xi, n and M be the
-velocity xi_1, the force n_1 and the momentum M_1 of this stage. The momenta M and mu1 of the theta-method are
+The order of every symplectic Lie group integrator of this form is at most two. The theta-method has one
+stage, a_11 = theta and b_1 = 1. For the theta-method, let xi, n and M be the velocity xi_1, the force n_1 and
+the momentum M_1 of this stage. The momenta M and mu1 of the theta-method are
 
     M = dexp*_{-h xi} mu0 + h (1 - theta) dexp*_{-(1 - theta) h xi} n,
     mu1 = Ad*_{exp(-h xi)} mu0 + h Ad*_{exp(-(1 - theta) h xi)} n.
@@ -42,10 +43,7 @@ class SymplecticIntegrator(VariationalLowering):
         return _program(problem, method)
 
 
-# The operation dexp*_{-Y} replaces the two operations dexp*_Y Ad*_{exp(-Y)}.
-#
-# Let a = a_11, b = b_1 and x = h xi. With one stage, two terms of the momentum M contain the force n. The
-# following identity merges these terms:
+# For one stage, this identity with numbers a, b and a vector x simplifies the formula for the momentum:
 #
 #     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x}.
 def _program(scene: Problem, method: Method) -> Program:
@@ -81,7 +79,7 @@ def _program(scene: Problem, method: Method) -> Program:
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # With X = a x and Y = b x, ``after`` is X - Y, and Ad*_{exp(after)} = Ad*_{exp(-Y)} Ad*_{exp X}.
+        # The function ``update`` also needs the exponent ``after``.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

@@ -47,7 +47,7 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # If some part has several summands, each summand counts as a separate part.
+        # The exact flow of a part with several summands is unknown, so the summands are used as parts.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
@@ -60,8 +60,8 @@ class SplittingLowering(FlowLowering):
         raise MethodError(
             f"the tableau is for {len(tableau.parts)} parts, but the scene has {len(chosen)}",
             where=parts.where,
-            expected=f"a tableau for {len(chosen)} parts, or a tableau for two parts",
-            hint=f"each summand of {', '.join(inexact)} counts as a separate part" if inexact else "",
+            expected="a tableau with as many parts as the scene, or with two parts if the scene has more",
+            hint=f"every term of {', '.join(inexact)} is counted as one part of the scene" if inexact else "",
         )
 
 
@@ -105,7 +105,6 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
     (T,) = [scene.parts[p.name] for p in parts if p.summands[0] is not summand]
     qs, mus = (block.symbols for block in scene.state)
     nested = T
-    # If V depends only on q, and T is quadratic in mu, each bracket with V lowers the degree in mu by one.
     for _ in range(3):
         # The sign convention of the bracket does not matter, because the result is only compared with zero.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)

@@ -9,7 +9,8 @@ Let gamma_k be the sum of the b_j of group k. Then the method is a composition, 
 length gamma_k h (Lemma 3.5.4 of Bogfjellmo and Marthinsen). The coefficients of group k, divided by gamma_k,
 are the tableau of the substep. If all substeps have the same tableau, one program computes all substeps.
 
-Explicit methods are not split into substeps. Their substeps have common subexpressions.
+Explicit methods are not split into substeps. Without the split, expressions that occur in several substeps
+are computed only once.
 """
 
 from __future__ import annotations
@@ -80,7 +81,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
     The result is None if the step cannot be divided, or if the common tableau is explicit.
     """
-    # A comparison of two Number objects is always decided, even for balls (enclosing intervals).
+    # Objects of the class Number can be compared by ==, even if their values are intervals.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
     # A cut is an index k: the step can be divided between stage k - 1 and stage k. The first cut is 0, and
@@ -89,7 +90,6 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # The loop begins with the smallest groups of stages. Smaller groups give more substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # The number of cuts minus one is a multiple of ``wide``, so the last group is complete.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # A step with weights b_j advances the time by h sum_j b_j.
@@ -103,7 +103,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
         ]
         # ``scaled`` contains the tableau of each group of stages.
         first = scaled[0]
-        # Explicit substeps are excluded, because a loop would hide common subexpressions.
+        # Explicit methods are not split, as the module docstring explains.
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]
             return RungeKutta(tuple(elements[:-1]), elements[-1]), tuple(sums)

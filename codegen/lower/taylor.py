@@ -40,8 +40,8 @@ class Taylor(Lowering):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if the computed states are on the manifold of the scene.
 
-        The result is True if the manifold is an open subset of R^n, or if the projection maps points near the
-        initial state onto the manifold.
+        The result is False if :meth:`Action.to_orbit` does not map points near the initial state onto the
+        manifold.
         """
         return reaches_orbit(scene)
 

@@ -129,15 +129,15 @@ class ExpandedStep(ABC):
         self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
 
     def end(self, velocities: Sequence[Var], forces: Mapping[int, Var] | Sequence[Var]) -> None:
-        """Append the operations that compute Y, -Y, the nu_j and mubar.
+        """Set ``Y``, ``minus``, ``nu`` and ``mubar``, and append the operations that compute these variables.
 
-        The attributes ``Y``, ``minus``, ``nu`` and ``mubar`` become the variables of these results.
+        ``velocities`` contains the vectors v_j, and ``forces`` contains the forces n_j of the stages.
         """
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
         # The operation dexp*_{-Y} needs the variable -Y.
         self.minus = build.lin("y", Kind.ALG, [(MINUS_ONE, self.Y)])
-        # Ad*_{exp X_j} transports the force n_j from Q_j to q0, where the forces of all stages can be added.
+        # Only forces at the same point can be added, so all forces are transported to q0.
         self.nu = [build.adjoint(f"nu{j + 1}", self.g[j], forces[j]) for j in range(self.s)]
         terms = [(ONE, self.mu)] + [(self.stages.times_h(self.b[j]), self.nu[j]) for j in range(self.s)]
         self.mubar = build.lin("mubar", Kind.DUAL, terms)

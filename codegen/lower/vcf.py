@@ -1,8 +1,8 @@
 """Variational commutator-free methods on T*G.
 
 Each exponent is a linear combination of the velocities xi_j of the stages. In exponent J of stage i, xi_j has
-the coefficient alpha_iJ^j (j is an index). In exponent J of the update, xi_j has the coefficient beta_J^j.
-The products of exponentials are
+the coefficient alpha_iJ^j. The superscript j is an index, not a power. In exponent J of the update, xi_j has
+the coefficient beta_J^j. The products of exponentials are
 
     X_iJ = h sum_j alpha_iJ^j xi_j,   E_i^J = exp(X_iJ) E_i^{J-1},   Q_i = E_i q0,
     Y_J = h sum_j beta_J^j xi_j,      e^J = exp(Y_J) e^{J-1}.
@@ -58,7 +58,7 @@ class _Product:
             scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
             return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
 
-        # For each J, ``carried`` needs the product of the first J factors.
+        # All partial products are stored, because the momenta of the stages depend on them.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
             g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
@@ -69,10 +69,10 @@ class _Product:
         return cls(rows, tuple(minus), tuple(partial))
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
-        """Append the covector dexp*_{-x} Ad*_{p^-1} m to the program, and return its variable.
+        """Append a covector to the program, and return the variable of the covector.
 
-        Here x is the exponent of factor J, counted from 0. The group element p is the product of all factors
-        before factor J.
+        Let x be the exponent of factor J, counted from 0, and let p be the product of all factors before
+        factor J. The covector is dexp*_{-x} Ad*_{p^-1} m. The index i is used only in names of variables.
         """
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
@@ -111,7 +111,7 @@ def _program(scene: Problem, method: Method) -> Program:
                 # In the module docstring, row[i] is denoted by beta_J^i.
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
-                # All terms of mubar are listed, because some may cancel terms of the next loop.
+                # These terms are not summed up here, because some of them may cancel terms of the next loop.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
         # This loop appends the sum over j and J in the equation for M_i (see the module docstring).
         for j, stage in enumerate(E):
@@ -153,7 +153,7 @@ def _program(scene: Problem, method: Method) -> Program:
 def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
     """Return the rows of coefficients for each stage, and the rows for the update."""
     tableau = method.commutator_free()
-    # The loop treats the update as the last stage.
+    # The update has the same format as a stage.
     *stages, update = (
         tuple(tuple(method.number(x) for x in row) for row in tableau.from_start(stage))
         for stage in (*tableau.stages, tableau.update)

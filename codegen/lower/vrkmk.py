@@ -62,7 +62,7 @@ class _Step(ExpandedStep):
         return [*velocities, *(self._multiplier(i) for i in range(self.s)), image]
 
     def _evaluated(self) -> list[Var]:
-        """Append the velocities and forces of all stages, and return the new values of the v_i.
+        """Append the velocities and forces of all stages, and return new values of the unknowns ``self.v``.
 
         The stages are computed from the last to the first.
         """
@@ -83,7 +83,7 @@ class _Step(ExpandedStep):
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
             # The step is symplectic only if v_i and M_i have the same cut-off ``r``.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # The vector ``slope`` is P*_(r)(X_i, xi_i) m_i (see the module docstring). It is zero for r = 0.
+            # The vector ``slope`` depends on the derivative of dexp^{-1}_x with respect to x.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
             # A small change d of X_i moves Q_i = exp(X_i) q0 by dexp_{X_i} d. The work of the force n_i is

@@ -52,8 +52,7 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # In the notation of the module docstring, forces[i] is n_i, and slopes[i] is R*_(r)(X_i, v_i) M_i.
-        # The sum of the terms in corrections[i] is M_i - dexp*_{(r),X_i} M_i.
+        # These lists contain terms of the equations for the momenta, with one entry for each stage.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
@@ -111,10 +110,7 @@ class _Step(ExpandedStep):
         # contains the moved terms with the changed signs.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The equation for M_i is divided by b_i. In the divided equation, two vectors of stage j have the
-            # coefficient -h b_j a_ji/b_i. This coefficient is the variable ``factor``. One vector is
-            # dexp*_{X_j} n_j, where n_j is the force forces[j] of stage j. The second vector is the variable
-            # slopes[j], which is R*_(r)(X_j, v_j) M_j.
+            # Two terms of stage j have the coefficient ``factor``.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))

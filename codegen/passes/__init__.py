@@ -71,7 +71,7 @@ class Optimiser:
         if composed is not None:
             whole: Program = composed
             self._run(Pass("substeps", "the step is a sequence of substeps", lambda _: whole))
-            # The passes rewrite the statements of one substep, so the reference computes one substep.
+            # The following passes rewrite one substep, so the results are compared after one substep.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
             self._run(each)
@@ -86,11 +86,10 @@ class Optimiser:
         If the scene has no body frame, the program stays in the space frame.
         """
         plain, reports = self.program, list(self.reports)
-        # For the comparison in ``_run``, momenta in the body frame are transformed to the space frame.
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # Later calls of :meth:`plain` must return the program in the space frame.
+        # The passes above must not change the results of :meth:`plain`.
         self.program, self.reports = plain, reports
         return outcome
 
@@ -139,7 +138,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("unused values", UNUSED, dead.run),
         # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y).
         Pass("factored maps", FACTORED, factor_linear.run),
-        Pass("factored maps in several sums", FACTORED, shared_sums.run),
+        Pass("maps of shared sums", FACTORED, shared_sums.run),
         # Factoring produces sums of a single term x. This pass replaces such a sum by x.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
@@ -164,21 +163,20 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
         # The Legendre transform introduces inverses of maps.
         Pass("inverse maps", inverse, opposites.run),
-        # The Legendre transform computes the force of a stage from the velocity.
+        # After the Legendre transform, some unknowns can be computed from other unknowns.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
         # The previous pass can produce products of a map and its inverse. This pass removes these products.
         Pass("inverse maps", inverse, opposites.run),
         Pass("unused values", UNUSED, dead.run),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
-        Pass("factored maps in several sums", FACTORED, shared_sums.run),
+        Pass("maps of shared sums", FACTORED, shared_sums.run),
         # The pass "functions of ad" may leave an operation Ad_{exp x} unchanged if another operation reads
         # exp(x). The pass "rows of products" removes operations that read exp(x). For this reason, the pass
         # "rows of products" comes before the pass "functions of ad".
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # The pass "residuals" adds equations of the form m = n to the implicit equations. Here m and n are
-        # momenta. The choice of m depends on the result of the pass "functions of ad".
+        # This pass uses operations that the pass "functions of ad" creates.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain inverses of maps. This pass removes products of a map and its inverse.
         Pass("inverse maps", inverse, opposites.run),

@@ -1,4 +1,4 @@
-"""If Lie brackets vanish, replace operations by their argument or by zero.
+"""Simplify operations if all Lie brackets vanish, or if a series is truncated at order 0.
 
 The pass is exact. On an abelian group, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad
 is zero. On every group, dexp^{-1} truncated at order 0 is the identity. If dexp^{-1}_x is the identity, its

@@ -54,7 +54,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     condensed = networkx.condensation(graph)
     # Inside a component, the assignments have the same order as in the block.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
-    # If several components may come next, the first in the block is chosen.
+    # Ties in the topological order are decided by the position in the block.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
     result: list[Statement] = []
     for component in order:

@@ -56,7 +56,7 @@ EQUIVARIANT = (
     Multiply,
     Identity,
 )
-"""For these operations, the pass replaces only the arguments (see the docstring of this module)."""
+"""Operations that commute with the transformation to the body frame."""
 
 
 class NotFramed(Exception):

@@ -59,6 +59,6 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     if not pairs:
         return body
     unknowns, starts, images = zip(*pairs, strict=True)
-    # The block reads the start values of its unknowns, so the program must compute these start values.
+    # The returned block reads these start values.
     live.update(starts)
     return (replace(block, unknowns=unknowns, starts=starts, images=images, body=body, residuals=kept),)

@@ -116,7 +116,7 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """Steps of the reference program. All start at one state, and their step sizes decrease."""
+    """A state, with steps of the reference program that begin at this state. The step sizes decrease."""
 
     def __init__(self, more: Iterator[_Step]) -> None:
         self._more = more
@@ -157,7 +157,7 @@ class Reference:
         # If the field is not finite at this state, no step can begin here.
         if not math.isfinite(speed):
             return
-        # The exponent satisfies speed * STEPS[0] <= REACH * 2**excess.
+        # If ``excess`` is positive, all step sizes are divided by 2**excess.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
         last = math.inf
         for moderate in STEPS:
@@ -237,8 +237,8 @@ class Reference:
         at one state. These steps are tried in order of decreasing length. The comparison uses the first step
         in which ``program`` does not fail. ``program`` fails in a step if a result is NaN, or if an exception
         is raised. For example, an exception is raised if an iteration does not converge. If ``program`` fails
-        in all steps, the result describes the failure of ``program`` in the shortest step that the reference
-        program can compute. If the reference program can compute none of the steps, the result is None.
+        in all steps, the result describes a failure. If the reference program can compute none of the steps,
+        the result is None.
         """
         failure = None
         for step in point.results():
@@ -313,7 +313,7 @@ class Reference:
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
-                # ``scale`` is at least the change of the state, and larger than rounding errors.
+                # After a tiny step, the difference is compared with the change of the state.
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
@@ -348,7 +348,7 @@ def _no_step(scene: Problem) -> SceneError:
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     """Return the initial state, or a nearby state if ``moved`` is True."""
     start = scene.initial(domain)
-    # Sines of integers are reproducible numbers without symmetry.
+    # Unlike random numbers, these sines are the same in every run.
     directions = [_exactly(domain, math.sin(7.0 * k + 1.0) / 8) for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     state: dict[str, Value] = {"t": _exactly(domain, float(scene.span[0]) + moved / 8)}

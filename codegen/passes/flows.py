@@ -60,7 +60,7 @@ def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str]
         # Two flows of one part have different vector fields if their stage times differ.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
-        # The flow ``letter`` cannot be moved past a flow with which it does not commute.
+        # All flows between the two joined flows must commute with them.
         if not commute(kept[at].part, letter.part):
             return None
     return None

@@ -43,7 +43,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     # The time t + 0 h of a stage at the start of the step is replaced by t.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
-    # Only a result of Zero counts as zero, and only a result of Identity counts as the identity.
+    # Zeros and identities are recognised by the operations that compute them.
     sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
     zero = [isinstance(source, Zero) for source in sources]
     identity = [isinstance(source, Identity) for source in sources]

@@ -43,7 +43,7 @@ def rows(program: Program, scene: Problem) -> Program:
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
     # For a matrix group, ``names`` are the symbols of the matrix entries, row by row.
     side = round(len(names) ** 0.5)
-    # The formulas must contain entries of at most one row.
+    # The formulas of velocity and force must not contain entries of two rows of the position matrix.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
         return program
     fields = {a.args[0] for a in program.assigns() if isinstance(a.operation, BodyVelocity | BodyForce)}

@@ -15,7 +15,7 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The coefficients of a value v in several sums, divided by the coefficient of v in the first of these sums.
+"""A description of the sums that contain a value v, and of the coefficients of v in these sums.
 
 The sum with index k contains the term c_k v. Let m be the index of the first of these sums. The pattern
 consists of the pairs (k, c_k / c_m).
@@ -44,7 +44,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
-    # L(c x) becomes c L(x).
+    # For a linear map L, L(c x) is replaced by c L(x).
     mapped = rewriter.builder.fresh(target.name, target.kind)
     rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
     return rewriter.emit(Assign((target,), source.operation, (mapped,)))
@@ -72,7 +72,7 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """If several sums of an implicit block contain multiples of one linear combination, compute it once."""
+    """In each implicit block, compute the common parts of sums only once."""
     builder = Builder({v.name for v in defined(program)})
     # Only implicit blocks are changed: iterations evaluate them several times in a step.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]

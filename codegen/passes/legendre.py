@@ -1,4 +1,4 @@
-"""The Legendre transform: compute momenta and forces of a stage from its velocity.
+"""The Legendre transform: compute the momentum of a stage from the velocity.
 
 The pass is exact. Let P be the momentum of a stage. The velocity must be w = W P with a constant invertible
 matrix W. A block of implicit equations computes an unknown v of the stage in three steps:
@@ -6,8 +6,7 @@ matrix W. A block of implicit equations computes an unknown v of the stage in th
 2. The velocity is w = W P.
 3. Further invertible linear maps compute v from w.
 
-The pass adds the reversed steps: they compute w from v, then P = W^{-1} w, then M. One equation remains for
-each unknown v: the M of step 1 must equal the M of the reversed steps.
+The pass adds assignments that compute w, P and M from v by the inverse maps.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ class Path:
 
     @property
     def base(self) -> Var:
-        """The last argument of the first map in ``inward``, or the momentum P if ``inward`` is empty."""
+        """The momentum from which the assignments compute the unknown."""
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 
@@ -154,8 +153,8 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     The maps of ``route`` compute ``route.unknown`` from ``route.base``. The new assignments apply the
     inverses of these maps, in reverse order.
 
-    The first result is a dictionary. A key is a variable of ``route``, and the value is the variable that can
-    replace the key. The second result is the variable that can replace ``route.base``.
+    The first result maps each variable of ``route`` to a variable that has the same value at the solution.
+    The second result is the new variable for ``route.base``.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -179,11 +178,9 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     :func:`_values` computes n from the unknown.
     """
     replaced, computed = _values(build, route)
-    # Let P be the momentum of the stage, ``route.velocity.args[1]``. By default, ``given`` is ``route.base``.
-    # Each of the two branches below replaces this default by another momentum. The block computes the
-    # momentum ``given``. The residual is ``given`` minus a momentum that is computed from ``route.unknown``.
+    # The residual is the momentum ``given`` minus the same momentum, computed from the unknown.
     given = route.base
-    # If P = Ad*_{exp x} m, and m is a sum of terms f(ad*_x) v, then P is also a sum of such terms.
+    # In this case, the inverses of the maps in ``route.inward`` are not needed.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -192,9 +189,10 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if the momentum of the stage is Ad*_{exp x} m for a sum m of terms f(ad*_y) v.
+    """Return True if ``route.inward`` is a single map that can be combined with each term of its argument.
 
-    The terms can have different f, y and v, but every y must be a rational multiple of x.
+    The map must be Ad*_{exp x}, and the argument must be a sum. Each term must be the value of a function of
+    ad*_y, where y is a rational multiple of x.
     """
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
@@ -211,7 +209,7 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return ``block`` with new assignments. They compute all variables of ``route`` from ``route.unknown``.
+    """Return ``block`` with the assignments that :func:`_values` appends.
 
     Assignments outside ``route`` read the new variables in place of the old variables.
     """
