@@ -24,7 +24,7 @@ class Place:
     @property
     def term(self) -> Term:
         """The entries of the block, as a slice of the array."""
-        # The stopping rule computes the largest entry of this slice.
+        # The stopping rule needs the largest absolute value of the entries.
         return real(self.array, self.whole).part(self.start, self.size)
 
 

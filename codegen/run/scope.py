@@ -36,7 +36,8 @@ from codegen.run.terms import Term, names
 class Declarations:
     """The declarations of a function, in two dictionaries with the keys ``id(statement)``.
 
-    - ``before`` contains the variables that are declared before a statement, as pairs (identifier, term).
+    - ``before[id(statement)]`` is a list of the variables that are declared before the statement. Each
+      variable is a pair (identifier, term).
     - ``by[id(statement)]`` is a dictionary of the variables that the statement itself declares. Each key of
       ``by[id(statement)]`` is the identifier of a variable. The value is True if this variable is constant,
       and False if this variable is assigned more than once.
@@ -54,7 +55,10 @@ def declarations(function: Function, identifiers: Identifiers) -> Declarations:
 
 
 def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
-    """Return the scalars that a function assigns, except parameters, in the order of first assignment."""
+    """Return the scalars that a function assigns, in the order of first assignment.
+
+    Parameters are omitted.
+    """
     result: dict[str, Term] = {}
 
     def collect(body: Body) -> None:

@@ -12,8 +12,8 @@ Part number K has several functions:
   variants are valid only near zero.
 - ``pair_K`` computes the pair of the last and the first site of a periodic row.
 
-A kick is a flow that reads neighbours and changes only momenta, in place. A kick has other
-functions: ``sweep_K``, ``site_K`` and ``pass_K`` (:mod:`codegen.run.sites`).
+A kick is a flow that reads neighbours and changes only momenta. A kick has other functions: ``sweep_K``,
+``site_K`` and ``pass_K`` (:mod:`codegen.run.sites`).
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
-    # A kick changes single sites (the axis is OWN) and reads neighbours.
+    # A kick changes single sites, but reads their neighbours.
     if sweep.axis == OWN and sweep.neighbours:
         # The last flow of a step tests the whole new state, so a kick needs no test for infinities and NaNs.
         return _Kick(Loop(plan, step, sweep, index, tested=False))
@@ -89,7 +89,7 @@ class _Kick:
         return [self.loop.sweep(), self.loop.site(), self.loop.all_sites()]
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
-        """Return the call that applies the kick ``flow`` to all sites for the time ``duration``."""
+        """Return the call that applies ``flow`` to all sites. The flow has the duration ``duration``."""
         shape = shape_of(self.loop.step)
         domain = ExprDomain()
         space = domain.space
@@ -109,7 +109,7 @@ class _Kick:
 
 @dataclass(frozen=True)
 class _Part:
-    """Builds the functions of one flow other than a kick."""
+    """Builds the emitted functions of one flow. The flow is not a kick."""
 
     plan: Plan
     step: SiteStep
@@ -123,11 +123,7 @@ class _Part:
 
     @property
     def special(self) -> bool:
-        """True if the flow has the function ``whole_K`` in addition to ``flow_K``.
-
-        ``whole_K`` exists if the flow calls sines, cosines or Stumpff functions, and no other function with
-        branches.
-        """
+        """True if the flow has the function ``whole_K`` in addition to ``flow_K``."""
         _, inside, _ = split(self.own.kernel, set())
         # The functions ``sqrt``, ``fabs`` and ``choose`` never have branches, so they need no fast variant.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
@@ -185,7 +181,7 @@ class _Part:
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
         if self.paired:
-            # If the second index is PLACE + 1, compilers can load both sites of a pair with one instruction.
+            # Adjacent indices allow compilers to load both sites of a pair with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
         # Only flows of single sites test for infinities and NaNs, because the last flow of each step is one
@@ -229,12 +225,12 @@ class _Part:
         flows change the new state in place.
         """
         old, new = ARRAYS[STATE], ARRAYS[RESULT]
-        # The parameter ``h`` of ``part_K`` receives the duration of the flow, not the step size.
+        # In the kernel of a flow, the symbol h denotes the duration of the flow.
         scalars = tuple(duration if x is STEP else x for x in self.scalars)
         if self.paired:
             given = (WHOLE, shape_of(self.step), whole(flow.colour), SITES, new, *scalars)
             return Call(f"part_{flow.sweep}", given)
-        # Each flow overwrites BAD. Only the value after the last flow of a step is needed.
+        # Each flow may overwrite BAD, because the last flow of a step tests the whole new state.
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
@@ -264,10 +260,7 @@ class _Part:
         return [If(WHOLE, (Call(f"whole_{self.index}", given, results),), (call,))]
 
     def all_sites(self) -> Function:
-        """Return the function ``part_K``, which applies the flow to each site.
-
-        K is the number of the flow.
-        """
+        """Return the function ``part_K``, which applies the flow to each site. K is ``index``."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
         # Several processors add to the counter BAD, so the loop declares BAD as a sum (a reduction).
@@ -284,9 +277,7 @@ class _Part:
         last, periodic = self.step.dimension - 1, self.step.periodic
         outer = [count(f"i{e}") for e in range(last)]
         length = shape[self.own.axis]
-        # In an open lattice, the first site has no partner if the colour is 1, and the last site may have no
-        # partner. In a periodic lattice, the number of sites along the axis is even, and every site has a
-        # partner.
+        # In an open lattice, the first site along the axis belongs to no pair of colour 1.
         number = length // 2 if periodic else (length - _COLOUR) // 2
         body: list[Statement]
         if self.strided:

@@ -9,9 +9,11 @@ Block elimination (the Thomas algorithm) visits the sites from left to right. Th
 D_i = B_i - A_i D_{i-1}^{-1} C_{i-1}. D_i^{-1} A_i overwrites A_i, D_i^{-1} overwrites B_i, and D_i^{-1} C_i
 overwrites C_i. Rows are exchanged only within a pivot block.
 
-In a periodic chain, the columns of the matrix for the unknowns of the last site are called the border. First,
-the equations of all other sites are solved. The right-hand sides are the residuals and the columns of the
-border. Then the equations of the last site give its unknowns, and the unknowns of all other sites follow.
+In a periodic chain, the border consists of the coefficients of the last site's unknowns in the equations of
+all other sites. The border has one column for each of these unknowns. First, the equations of all other sites
+are solved with each column of the border as right-hand side. Next, the same equations are solved with the
+residuals as right-hand side. Then the equations of the last site give its unknowns, and the unknowns of all
+other sites follow.
 """
 
 from __future__ import annotations
@@ -111,7 +113,7 @@ class ChainSolver:
     def border(self, site: Term, i: Term, j: Term) -> Term:
         """Return the entry of the border for equation ``i`` at ``site``, in column ``j``.
 
-        The border consists of the columns of the matrix that multiply the unknowns of the last site.
+        This entry is the coefficient of unknown ``j`` of the last site.
         """
         # The emitted function ``substitute`` accepts residuals or a column of the border, so both have the
         # same layout.
@@ -120,8 +122,8 @@ class ChainSolver:
     def opening(self) -> list[Statement]:
         """Return the statements that assign the variables ``_BASE`` and ``_INNER``.
 
-        ``_BASE`` is the index of the first matrix entry in the workspace. ``_INNER`` is SITES in an
-        open chain, and SITES - 1 in a periodic chain.
+        ``_BASE`` is the index of the first matrix entry in the workspace. ``_INNER`` is the number of sites
+        in the block elimination. In a periodic chain, the block elimination omits the last site.
         """
         # A periodic chain has at least two sites, so ``SITES - 1`` is positive.
         inner = SITES - 1 if self.step.periodic else SITES
@@ -189,7 +191,7 @@ class ChainSolver:
         )
         # Each new component needs all old components, so the new components are first stored in ``value``.
         taken = For(_I, whole(n), (Assign(x(_SITE, _I), value[_I]),))
-        # In back substitution, a new component depends only on its old value and on the next site.
+        # Back substitution needs no array ``value``, because it does not combine components of one site.
         right = self.cell(_SITE, RIGHT, _I, _K) * x(_SITE + 1, _K)
         backward = For(
             _I,
@@ -242,7 +244,7 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # The elimination overwrites the matrix, so the border is copied first.
+            # In a periodic chain, these columns are copied before the elimination overwrites them.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
@@ -257,13 +259,11 @@ class ChainSolver:
 
     def border_columns(self) -> list[Statement]:
         """Return the statements that copy the columns for the unknowns of the last site (:meth:`border`)."""
-        # Let z be the unknowns of the last site. In the rows of site 0, the block LEFT multiplies z. The
-        # variable ``_LAST`` is the index of the last but one site. In the rows of this site, the block RIGHT
-        # multiplies z.
+        # In a periodic chain, the last site is a neighbour of two sites: site 0 and the last but one.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # In a chain of two sites, ``_LAST`` is 0, so both blocks are added in the same place.
+            # In a chain of two sites, both blocks belong to site 0, so they are added.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -272,8 +272,8 @@ class ChainSolver:
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that compute and invert the pivot block of the last site.
 
-        First, ``substitute`` solves the equations of all other sites, with each column of the border
-        (:meth:`border`) as right-hand side. The solution overwrites the column.
+        The statements first call ``substitute`` for each column of the border (:meth:`border`). The column is
+        the right-hand side, and the solution overwrites the column.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)

@@ -131,7 +131,10 @@ def solvers(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def _measure(step: SiteStep) -> Function:
-    """Return the function MEASURE for fixed-point iteration."""
+    """Return the function MEASURE for fixed-point iteration.
+
+    The function MEASURE computes the three numbers that the stopping rule needs.
+    """
     work = ARRAYS[WORK]
     # All blocks of equations use the same two rows of the workspace: one for the changes and one for the
     # absolute values of the unknowns.

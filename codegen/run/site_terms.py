@@ -18,7 +18,8 @@ Count = TypeVar("Count", int, Term)
 SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
 """SITES is the number of all sites, and COLUMNS is the number of sites in one row of the lattice.
 
-COLUMN is the position of a site in its row. The first site of this row has the index ROW among all sites.
+All sites of the lattice have indices from 0 to SITES - 1. ROW is the index of the first site in a row. COLUMN
+is the position of a site in this row, so the index of this site is ROW + COLUMN.
 """
 
 STRIDE = count("stride")
@@ -39,8 +40,8 @@ CHUNK, MANY_SITES = 1024, 2048
 
 For fewer than MANY_SITES sites, one processor executes all loops, because threads save no time on small
 lattices. On 1024 spins, a step of the method ``cf4`` takes the same time with one and with two threads. On
-4096 spins, two threads need 0.55 times as long as one thread. These times were measured with
-``benchmarks/lattice.py --threads 2``, without the limit MANY_SITES.
+4096 spins, two threads need 0.55 times as long as one thread. The program ``benchmarks/lattice.py`` measures
+such times with the option ``--threads 2``. The limit MANY_SITES was removed for the measurements above.
 """
 
 _PASS, FIRST, SIZE = count("chunk"), count("first"), count("size")

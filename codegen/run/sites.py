@@ -192,7 +192,7 @@ class Loop:
 
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
         """Return the statements that store the results ``ends`` of a site and test for infinity and NaN."""
-        # For Newton's method, the residuals are stored in place of the new values of the unknowns.
+        # Newton's method needs the residuals instead of the new values of the unknowns.
         body, images = self._images(ends)
         tested = []
         replaced = images if self.own.measured else self._residuals(images)
@@ -209,7 +209,7 @@ class Loop:
         return body
 
     def _images(self, ends: Sequence[Term]) -> tuple[list[Statement], list[Term]]:
-        """Assign the new values of the unknowns to variables. Return the statements and the variables."""
+        """Return statements that assign the new values of the unknowns to variables, and these variables."""
         images = [own(f"next {u}") for u in self.own.unknowns]
         # ``ends`` begins with the new values of the unknowns. Other results may follow.
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
@@ -265,7 +265,7 @@ class Loop:
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
     def _read(self) -> list[Load]:
-        """Return the elements of ``own.loads`` whose symbol is an unknown or is read by the kernel."""
+        """Return the elements of ``own.loads`` whose values the sweep uses."""
         # The change of an unknown is its new value minus its old value, so the old value is always loaded.
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
@@ -314,8 +314,8 @@ class Loop:
         """Return the arguments that describe one row of the lattice.
 
         The arguments ROW and ``row_k`` are the indices at which this row and the row of neighbour k begin. In
-        an open lattice with several rows, the last arguments are flags for the existence of the neighbours'
-        rows.
+        an open lattice with several rows, the last arguments are flags. The flag ``inside_k`` is true if the
+        row of neighbour k exists.
         """
         starts = [count(f"row_{k}") for k in self.neighbours]
         flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours
@@ -360,7 +360,7 @@ class Loop:
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
         regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
-        # If ``sweep_K`` computes no sites, ``site_K`` computes all COLUMNS sites of the row.
+        # If ``_INNER`` is 0, the first loop below computes the whole row.
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
@@ -379,7 +379,7 @@ class Loop:
         return body
 
     def _peeled(self, number: Term, column: Term) -> For:
-        """Return a loop that calls ``site_K`` for ``number`` sites.
+        """Return a loop over several sites that calls ``site_K``. The number of these sites is ``number``.
 
         All these sites are in one row of the lattice. ``column`` is the position of a site in this row, as an
         expression that contains the loop index.
@@ -398,7 +398,11 @@ def _plus(x: Term, n: int) -> Term:
 
 
 def first_site(indices: Sequence[Term], shape: Term) -> Term:
-    """Return the index of the first site of a row. ``indices`` is the position of the row in the lattice."""
+    """Return the index of the first site of a row.
+
+    A row extends along the last dimension of the lattice. ``indices`` contains the indices of the row in all
+    other dimensions.
+    """
     if not indices:
         return whole(0)
     # For two indices i and j, Horner's rule gives ``i * shape[1] + j``.
@@ -450,8 +454,8 @@ def _too_small(step: SiteStep) -> Term:
 def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
     """Return the public function that makes several steps of equal size.
 
-    If the result of a step is not finite and ``twice`` is True, the step is repeated once with the functions
-    ``site_K``. The function ``site_K`` computes sweep number K at one site.
+    If ``twice`` is True, a step whose result is not finite is repeated once. The repetition does not use the
+    fast variants of sines, cosines and Stumpff functions.
     """
     later = exact_time(TIME, _DONE, STEP)
 

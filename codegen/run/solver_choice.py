@@ -55,7 +55,7 @@ The second trial makes one step. The step size is the usual size, multiplied by 
 """
 
 SWEEPS = 50
-"""A solver is robust only if it needs at most SWEEPS sweeps in the second trial.
+"""In a step of LONGER times the usual size, a robust solver needs at most SWEEPS sweeps.
 
 SWEEPS is half of ``Loop.limit``, the largest number of sweeps of an iteration.
 """
@@ -68,7 +68,7 @@ solver.
 LARGE = 64
 """With more than LARGE unknowns, the first trial makes only FEW_STEPS steps.
 
-With more than LARGE unknowns, continuation in h is not tried. It might take thousands of sweeps.
+With more than LARGE unknowns, continuation in h is not tried.
 """
 
 
@@ -233,7 +233,7 @@ class Candidate:
         return self.cost.step(self.usual.sweeps, self.usual.matrices)
 
     def text(self, k: int) -> str:
-        """Return a text on the first and the second trial, for block number ``k`` of the kernel."""
+        """Return a text with the results of the trial steps for block number ``k`` of the kernel."""
         # If the first trial failed, there was no second trial, and ``far`` is None.
         if self.far is None:
             return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
@@ -241,12 +241,12 @@ class Candidate:
         if self.robust:
             return text
         if not self.far.converged:
-            return f"{text}; does not converge in a step of {LONGER} h"
+            return f"{text}; the solver does not converge in a step of size {LONGER} h"
         return f"{text}; takes {self.far.most} sweeps in a step of {LONGER} h"
 
 
 def counted(trial: Trial, k: int) -> str:
-    """Return a text that contains two averages for block ``k``: the sweeps and the matrices in a step.
+    """Return a text with the average numbers of sweeps and matrices in a step, for block number ``k``.
 
     Only computed matrices are counted. If block ``k`` computed no matrix, the text contains only the sweeps.
     """
@@ -277,7 +277,7 @@ class _Selection:
 
     - ``candidates[s]`` contains the kernel of the solver s and the results of its trials.
     - ``left_out[s]`` is the reason why the solver s has no trials.
-    - ``refused`` maps each solver whose kernel cannot be built to the error message.
+    - ``refused[s]`` is the error message for a solver s whose kernel cannot be built.
     """
 
     def __init__(self, program: Program, scene: Problem, initial: tuple[float, ...], fixed: Kernel) -> None:
@@ -348,11 +348,11 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return a limit in ns. A solver s is tried only if ``self.least(s)`` is below this limit.
+        """Return a limit in nanoseconds for the time of a step with another solver.
 
-        The number ``self.least(s)`` is a lower bound of the time of a step with the solver s. ``solver`` is a
-        solver that was tried before s, and ``candidate`` contains the results of the trials of ``solver``.
-        The first of these trials must have converged. Newton's method is an exception: if the equations are
+        The other solver is tried only if the lower bound :meth:`least` of its step time is below this limit.
+        ``solver`` was tried before, and ``candidate`` contains the results of the trials of ``solver``. The
+        first of these trials must have converged. Newton's method is an exception: if the equations are
         linear and fixed-point iteration is not robust, Newton's method is tried without regard to the limit.
         """
         # A robust solver is preferred, even if it is slower by a factor of up to PRICE.
@@ -376,10 +376,7 @@ class _Selection:
             n = len(loop.unknowns)
             # The product of the inverse and a vector takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
-            # The number ``self.parts`` is the number of substeps in a step, or 1 if a step has no substeps.
-            # Simplified Newton computes ``self.parts`` inverses in each step. Newton's method may use an
-            # inverse for several steps. For Newton's method, the work for ``self.parts`` inverses is divided
-            # by the number of steps ``trial_steps(self.fixed)``.
+            # Newton's method may use the same inverse in all steps of the trial.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))

@@ -1,4 +1,4 @@
-"""Statistics of a run: numbers of sweeps and Newton matrices, and the last unsolved block of equations.
+"""Statistics of a run: numbers of sweeps and Newton matrices, and a block of equations that failed.
 
 The caller of a run may pass a record. The run then adds its counts to this record.
 """

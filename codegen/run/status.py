@@ -61,7 +61,9 @@ REASONS = {
 ``{block}`` is replaced by the label of the implicit block that failed, and ``{h}`` by the step size."""
 
 NOT_FINITE_BLOCK = "{block} computed a number that is not finite"
-"""Explains NOT_FINITE if an implicit block has failed. In other cases, the text in REASONS is used."""
+"""The error message for the status NOT_FINITE if an implicit block has failed.
+
+In other cases, the text in REASONS is used."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +101,7 @@ def reason(status: str, block: str, h: float) -> str:
     >>> reason("NOT_FINITE", "", 0.1)
     'the new state is not finite'
     """
-    # If a block of equations has failed, there is no new state.
+    # The text in REASONS mentions the new state, which does not exist if a block has failed.
     text = NOT_FINITE_BLOCK if status == NOT_FINITE and block else REASONS[status]
     return text.format(block=block, h=h)
 

@@ -121,7 +121,7 @@ def _aged(plan: Plan) -> list[Statement]:
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # After more than ``period`` steps, the old matrix would slow down the convergence.
+        # A matrix that is older than ``period`` steps would slow down the convergence.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence
@@ -157,7 +157,7 @@ def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
 def composed_step(plan: Plan) -> Function:
     """Return the emitted function that makes one step as a sequence of substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
-    # Each substep extrapolates its own solutions from earlier steps, so it has its own memory.
+    # The initial guess in a substep depends on earlier solutions of the same substep.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)

@@ -152,7 +152,7 @@ def test_a_scene_that_is_solved_by_continuation_says_so():
 def test_a_scene_near_the_limit_of_fixed_points_is_solved_by_newtons_method():
     (choice,) = compiled("heavy_top", "vcg:midpoint").solvers
     assert (choice.solver, choice.unknowns) == (NEWTON, 6)
-    assert "does not converge in a step of 8 h" in choice.compared[0]
+    assert "the solver does not converge in a step of size 8 h" in choice.compared[0]
 
 
 def test_many_unknowns_that_change_slowly_are_iterated():
