@@ -61,12 +61,13 @@ def command(
 ) -> int:
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
-    The column "law" describes the relative deviation of a quantity from its initial value. The word
-    "rounding" means that rounding errors explain the deviation. The word "lost" means that the deviation is
-    about as large as the quantity. If a method conserves a quantity in exact arithmetic, the rounding errors
-    are measured with and without compensated summation. The root mean square (rms) of the rounding errors
-    over several initial states grows like n^p, where n is the number of steps. The column "steps^p" contains
-    p. If a run ends early or a method fails, the exit status is 1.
+    The column "law" describes how a quantity deviates from its initial value: exact, bounded, random walk,
+    drift, rounding, lost or too short to tell. The word "rounding" means that rounding errors explain the
+    deviation. The word "lost" means that the deviation is about as large as the quantity. If a method
+    conserves a quantity in exact arithmetic, the rounding errors are measured with and without compensated
+    summation. The root mean square (rms) of the rounding errors over several initial states grows like n^p,
+    where n is the number of steps. The column "steps^p" contains p. If a run ends early or a method fails,
+    the exit status is 1.
 
     \b
     Examples:

@@ -215,7 +215,6 @@ class ChainSolver:
         invert = Call("invert", (whole(n), diagonal), (_REGULAR,))
         # The caller tests the number of singular pivot blocks.
         counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
-        # The pivot block is B_i - A_i D_{i-1}^{-1} C_{i-1}. At site i - 1, the block RIGHT already contains
         # At site i - 1, the block RIGHT was already multiplied by the inverse of the pivot block.
         left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
         pivot = (
@@ -301,7 +300,6 @@ class ChainSolver:
         inner: list[Statement] = []
         for k, symbol in enumerate(self.step.sweeps[self.block.last].unknowns):
             unknown = entry_of(self.step, rows[symbol], PLACE)
-            # The solution of the linear equations consists of the changes of the unknowns. The solution has
             # The changes of the unknowns have overwritten the residuals.
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
