@@ -65,7 +65,7 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
     known = [width for _, width in fields]
     if sum(widths) != size or (len(flat) > 1 and known and widths != known):
         parts_text = (
-            f", or a tuple of arrays (numbers per state in each array: {known})"
+            f", or a tuple with one array for each part of the states (sizes of the parts: {known})"
             if len(flat) > 1 and known
             else ""
         )

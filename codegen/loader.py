@@ -76,7 +76,7 @@ _PROBLEMS = {
     "load_lattice": "a chain or lattice",
     "load_spectral": "a semilinear equation",
 }
-"""The keys are the loading functions. The values are the kinds of problems for which they load modules."""
+"""Maps the name of a loading function to the kind of problem that the loaded modules solve."""
 
 
 def _opened(

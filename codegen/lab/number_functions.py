@@ -17,9 +17,9 @@ TABLES = "table"
 Functions = Mapping[str, Scalar]
 """A dictionary that maps names such as ``sin`` to functions of numbers or arrays.
 
-The value for the key :data:`TABLES` is a function with two arguments: a piecewise polynomial, and a function
-that converts an exact coefficient to a number of the required type. The result is a function that evaluates
-the polynomial.
+The value for the key :data:`TABLES` is a function ``table``. Let p be a piecewise polynomial, and let
+``convert`` be a function that converts an exact coefficient to a number of the required type. Then
+``table(p, convert)`` is a function that evaluates p.
 """
 
 
@@ -71,7 +71,7 @@ def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]
     """
     key = TABLES if isinstance(name, PiecewisePolynomial) else name
     if key not in functions:
-        message = f"the function {key} is not defined for these numbers"
+        message = f"the function {key} is not defined for this number type"
         raise ArithmeticError(message)
     function: Callable[..., Scalar] = functions[key](name, constant) if key == TABLES else functions[key]
     return function

@@ -32,10 +32,11 @@ AHEAD is much larger than the rounding error of t, and much smaller than the tim
 """
 
 NEAR = (1e-5, 1e-6)
-"""Two times after an event, used to find the number k of continuous derivatives of the field at the event.
+"""Lengths of time after an event, for a comparison of the fields before and after the event.
 
-Let f and g be the fields before and after the event. At the time s after the event, |f - g| is about
-c s^(k + 1) with a constant c.
+Let f and g be the fields before and after the event, and let k be the number of continuous derivatives of the
+field at the event. At the time s after the event, |f - g| is about c s^(k + 1) with a constant c. The values
+of |f - g| for the two lengths s in NEAR give k.
 """
 
 VANISHING = 1e-30
@@ -51,7 +52,7 @@ SUBSTEPS = 24
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest result of :meth:`PiecewiseField.beyond`, a number of continuous derivatives."""
+"""The largest number of continuous derivatives that :meth:`PiecewiseField.beyond` returns."""
 
 
 @dataclass(frozen=True)
@@ -112,10 +113,11 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the case of each selection after an event at (y, t), and the smoothness of the field there.
+        """Return the cases after an event at (y, t), and the smoothness of the field at (y, t).
 
-        A selection is an operation with several cases, and ``sides`` contains the cases before the event. The
-        smoothness is the number of continuous derivatives of the field, or -1 if the field is discontinuous.
+        ``sides`` contains the cases before the event: one case for each operation with several cases, such as
+        abs(x). The smoothness is the number of continuous derivatives of the field, or -1 if the field is
+        discontinuous.
         Raises :class:`SceneError` if the solution slides along a discontinuity of the field.
         """
         before, _ = self.on(sides)
@@ -175,9 +177,9 @@ class Sided:
         return self.fields.on(self.sides)[0](y, t)
 
     def margins(self, y: Vector, t: Scalar) -> Vector:
-        """Return the margins: numbers that are positive while the current case of each selection applies.
+        """Return the margins of the operations with several cases, such as abs(x).
 
-        A selection is an operation with several cases.
+        All margins are positive while the current case of each operation applies.
         """
         return self.fields.on(self.sides)[1](y, t)
 

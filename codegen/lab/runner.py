@@ -152,9 +152,9 @@ class Emitted:
 
     @cached_property
     def observed(self) -> Emitted:
-        """A runner of the same method whose module also returns the solutions of the implicit equations.
+        """A runner whose emitted module also returns the solutions of the implicit equations.
 
-        The new runner uses a target that can emit such a module.
+        The new runner executes the same method, and uses a target that can emit such a module.
         """
         return Emitted(self.compiled, printers.observable().name, self.order)
 

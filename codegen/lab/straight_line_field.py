@@ -112,7 +112,7 @@ def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) ->
 def _multiplied(text: str) -> str:
     """If ``text`` is a power (for example ``v1 ** 2``), return the power as a product.
 
-    In python-flint, the power of a ball that contains zero is NaN, and C has no operator for powers.
+    In contrast to the power, the product is valid in C and for balls (enclosing intervals) that contain zero.
     """
     base, power, exponent = text.partition(" ** ")
     return " * ".join([base] * int(exponent)) if power else text

@@ -136,7 +136,7 @@ class Subject:
     - ``methods``: the methods that run with equal steps.
     - ``adaptive``: the methods that run with step-size control.
     - ``peers``: the names of other integrators for comparison with the methods.
-    - ``results``: maps the name of each finished measurement to its result.
+    - ``results``: maps the name of each earlier measurement to its result, for use in later measurements.
     - ``named``: True if the user chose the methods, False if they are the default methods.
     """
 

@@ -22,10 +22,9 @@ FEWER = 3
 LONG = 0.2
 
 LEAST_STEPS, RESOLVED = 200, 1e-4
-"""A timed run should take at least RESOLVED seconds, or have more than LEAST_STEPS / 2 steps.
+"""Runs that take less than RESOLVED seconds are extended to several time spans (:func:`spans`).
 
-Shorter runs are extended to several time spans (:func:`spans`). RESOLVED is about a hundred times the
-overhead of a call.
+No run is extended to more than LEAST_STEPS steps. RESOLVED is about a hundred times the overhead of a call.
 """
 
 CONFIRMED, MOST = 0.03, 21
@@ -41,8 +40,7 @@ SHORT = 1e-3
 RESOLUTION = 0.1
 """The largest accepted uncertainty of a time, relative to the time without the overhead.
 
-Let a be the difference between the two least times of the run, and b the same difference for the overhead.
-The uncertainty is a + b.
+The uncertainty is estimated from the two least measured times of the run and of the overhead.
 """
 
 AGAIN = 3
@@ -51,8 +49,7 @@ AGAIN = 3
 LEAST_SHARE = 0.1
 """The overhead is subtracted from each measured time.
 
-If the difference is less than LEAST_SHARE times the measured time, LEAST_SHARE times the measured time is
-used instead of the difference.
+The result is never below LEAST_SHARE times the measured time.
 """
 
 
@@ -100,8 +97,8 @@ def spans(run: Callable[[int], object], steps: int) -> int:
 
     - ``run(n)`` takes less than :data:`RESOLVED` seconds.
     - ``run(2 * n)`` does not fail.
-    - The number of steps of ``run(2 * n)`` does not exceed :data:`LEAST_STEPS`. A longer run is not necessary
-      for an accurate measurement.
+    - ``run(2 * n)`` has at most :data:`LEAST_STEPS` steps. A longer run is not necessary for an accurate
+      measurement.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:

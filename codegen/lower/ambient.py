@@ -27,7 +27,7 @@ class Ambient(Lowering):
         return without_formulas(scene)
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Return True if the manifold is an open set in R^n. Small errors do not leave an open set."""
+        """Return True if the manifold is an open set in R^n."""
         return self.objection(scene) is None and orbit_is_open(scene)
 
     def problem(self, scene: Problem, method: Method) -> Problem:

@@ -72,8 +72,8 @@ class Lowering(ABC):
     preference: ClassVar[int] = 0
     """The preference for this family, used if the user names a tableau without a family.
 
-    The tableau file gives the orders of families. The family with the highest order is chosen. If several
-    families have this order, the largest preference decides.
+    The tableau file gives the order of the method in each family. The family with the highest order is
+    chosen. If several families have this order, the largest preference decides.
     """
     repeats_substeps: ClassVar[bool] = False
     """True if emitted code may compute a step of a composition by a loop over its substeps."""

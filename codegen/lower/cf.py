@@ -115,7 +115,7 @@ def two_registers(
         register.append(build.lin(f"K{i + 1}", Kind.ALG, terms))
         if estimate is not None:
             terms = [(Coefficient(stages.number(estimate[i])), k[i])]
-            # The slice ``sums[-1:]`` is empty at the first stage, because E starts at zero.
+            # The first stage has no earlier sum.
             sums.append(build.lin(f"E{i + 1}", Kind.ALG, [*((one, x) for x in sums[-1:]), *terms]))
         x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
         state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))
@@ -138,7 +138,7 @@ def two_registers(
         advance(scheme.s - 1)
         if not sums:
             return {"y": state[-1]}
-        # The sum E of the terms D_i k_i contains no factor h.
+        # The entries of ``sums`` do not contain the factor h.
         x = build.lin("x", Kind.ALG, [(stages.times_h(method.ring.one), sums[-1])])
         return {"y": state[-1], EMBEDDED: build.act("Y", build.exp("g", x), state[-1])}
 
@@ -179,7 +179,7 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
-        # In ``update``, the exponentials can act on the point of a stage instead of y.
+        # The function ``update`` needs the points of the stages.
         stage_points[:] = points
         return result
 

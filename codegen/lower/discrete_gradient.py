@@ -76,7 +76,7 @@ class DiscreteGradient(FieldLowering):
                 raise MethodError(
                     f"{method.label} cannot be used on {problem.name}: the force at the open "
                     "boundary is not the derivative of an energy",
-                    expected='states in the argument "outside" that are constant or exert no force',
+                    expected='constant states in the argument "outside", or an open boundary without force',
                 )
             raise MethodError(
                 f"{method.label} cannot be used on {problem.name}: the differential of the energy is zero at "
@@ -113,7 +113,7 @@ def _program(scene: Problem, method: Method) -> Program:
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # H(x1) depends on the unknown xi, so the energies are part of the equation for xi.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
-        # ``Secant`` needs the whole displacement eta = h xi, because <D, eta> is an energy difference.
+        # ``Secant`` needs the displacement eta = h xi of a full step.
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
         # If eta = 0, the formula for D in the module docstring contains 0/0. Secant then returns D = g.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)

@@ -12,8 +12,8 @@ from codegen.lower.magnus import MagnusLowering
 class FerLowering(MagnusLowering):
     """Fer methods.
 
-    The last exponent of a step contains no brackets. All other exponents are sums of brackets.
+    The exponential that acts last has an exponent without brackets. All other exponents are sums of brackets.
     """
 
-    # Fer tableaux and Magnus tableaux list exponents, so the lowering of Magnus methods is used.
+    # Fer tableaux have the same format as Magnus tableaux.
     family = "fer"

@@ -1,8 +1,8 @@
 """Lowerings of splitting methods: a step on T*G is a sequence of exact flows of parts of a Hamiltonian.
 
 The sequence is called a word. Each part is a sum. Each summand has an exact flow. If the Hamiltonian depends
-on time, one autonomous summand is chosen. The flow of this summand also advances the time. During all other
-flows the time is constant.
+on time, the flow of one autonomous summand also advances the time. During all other flows the time is
+constant.
 """
 
 from __future__ import annotations
@@ -73,8 +73,9 @@ class Parts:
 class Reading:
     """The flows in one step of a method on a scene.
 
-    ``word`` is the sequence of flows. ``carrier`` is the summand whose flow advances the time, or None if the
-    scene does not depend on time. ``conditions`` is the label of the family whose order conditions apply.
+    ``word`` is the sequence of flows. ``carrier`` is a summand of the Hamiltonian, and its flow advances the
+    time. If the scene does not depend on time, ``carrier`` is None. ``conditions`` is the label of the family
+    whose order conditions apply.
     """
 
     word: tuple[tuple[Summand, Number], ...]
@@ -128,13 +129,13 @@ class FlowLowering(Lowering):
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the :class:`Family` whose order conditions apply to the method on a scene.
 
-        If ``scene`` is None, return the family with the label of the method, for example ``splitting``.
+        If ``scene`` is None, return the family with the label ``method.family_label``.
         """
         from orderconds import families
 
         if scene is None:
             return super().conditions(method)
-        # The order conditions of one tableau can differ between scenes, for example ``rkn`` conditions.
+        # The order conditions that apply depend on the scene.
         return families.get(self.read(scene, method).conditions)
 
     @abstractmethod

@@ -99,7 +99,7 @@ class LieElements:
                 f"the product {spell(term)} is in general not an element of the Lie algebra",
                 where=self.method.label,
                 expected="an odd number of factors in symmetric order, as in 1*2*1",
-                hint="write x*z*y + y*z*x as s*z*s - x*z*x - y*z*y, where the tableau defines s = x+y",
+                hint="define s = x+y in the tableau, and write x*z*y + y*z*x as s*z*s - x*z*x - y*z*y",
             )
         middle = len(factors) // 2
         result = self._value(factors[middle])

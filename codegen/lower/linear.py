@@ -45,10 +45,8 @@ class LinearLowering(FieldLowering):
             return None
         if scene.sites is not None:
             return Objection(
-                ", because the field of a site depends on coordinates that change, so the lattice is not of "
-                "the form y' = A(t).y",
-                "a field that depends only on the time and on constant coordinates of a site and of its "
-                "neighbours",
+                ", a lattice whose field depends on coordinates that change in time",
+                "a field that depends only on the time and on constant coordinates",
             )
         return Objection(
             ", whose field depends on the state", "an equation y' = A(t).y, where A depends only on the time"
@@ -106,10 +104,9 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, step)
 
     def _stated(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a step that the scene ``problem`` defines.
+        """Return the program of the step with the name ``method.step``.
 
-        A scene can define several steps, and each step has a name. The attribute ``method.step`` is the name
-        of the step to compile.
+        The scene ``problem`` can define several steps, and each step has a name.
         """
         # The formula for the momentum u is valid only for a symplectic step matrix.
         if problem.carries_momentum and not problem.steps[method.step].canonical:

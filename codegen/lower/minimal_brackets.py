@@ -53,11 +53,8 @@ def bracket_program(method: Method) -> BracketProgram:
     if order > highest:
         raise MethodError(
             f"the search for the fewest brackets does not support the order {order} of {name}",
-            expected=f"an order of at most {highest}, or a label with a number of brackets",
-            # Let u be the exponent of a stage, and k the field at the stage. Then u = a h k + O(h^2) with a
-            # number a. Since [k, k] = 0, ad_u^j k = O(h^{j+1}) for j >= 1. In the exponent of the update, the
-            # series dexp^{-1}_u k has the factor h, so its term with ad_u^j k is O(h^{j+2}). Terms with
-            # j > order - 2 therefore do not change the order.
+            expected=f"an order of at most {highest}, or a cut-off for the series of dexp^(-1)",
+            # In the series, terms with more than ``order - 2`` brackets do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
     # The search takes a long time, so its result is stored.

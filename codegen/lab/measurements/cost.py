@@ -109,7 +109,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
             "Error against the CPU time of the whole run. Each point shows the shortest of several measured "
             "times. A broad line extends from the point to the upper quartile of the times. Dashed lines "
             "with open markers show peers (other integrators). Dash-dotted lines show methods with step-size "
-            "control. Dotted lines show the slope for a method of order p with equal steps.",
+            "control. Dotted lines show errors proportional to 1/T^p at the CPU time T, for several p.",
             subject.bench_command(),
         ),
         "places": [
@@ -147,7 +147,7 @@ def _decades(numbers: Sequence[int]) -> str:
 
 
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
-    """Return the rows of a table with one row for each method and peer (other integrator).
+    """Return one row of a table for each method and for each peer (other integrator).
 
     The values per step are averages over all steps of one run: the successful run with the smallest steps.
     """

@@ -1,7 +1,6 @@
 """The section about the emitted code of each method.
 
-The section shows the arithmetic operations of a step, and the emitted files. The section also lists
-operations and function arguments that the emitted code does not need.
+The section shows the arithmetic operations of a step, and the emitted files.
 """
 
 from __future__ import annotations

@@ -120,6 +120,7 @@ def _picture(studies: Iterable[OrderStudy], subject: Subject) -> Picture:
     title = f"Error against step size, {scene.title}"
     return Picture(
         convergence_figure(f"{scene.name} convergence", title, curves, f"error at t = {scene.span[1]}"),
-        "Error of the emitted code against the step size. Dashed lines have the slope of a computed order.",
+        "Error of the emitted code against the step size. The slopes of the dashed lines are the computed "
+        "orders of the methods.",
         subject.report_command("orders"),
     )

@@ -138,7 +138,7 @@ class Convergence:
         """Return a text that compares the order at very short steps with the order at the usual steps."""
         text = f"very short steps, computed with 100 digits, show order {self.refinement.short:.2f}"
         if not self.refinement.settled:
-            return f"the slopes do not settle before rounding errors dominate, but {text}"
+            return f"the slopes do not settle, but {text}"
         return f"{text}; at longer steps, the leading term does not dominate the error"
 
     def _unsettled(self) -> str:

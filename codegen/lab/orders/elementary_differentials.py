@@ -85,10 +85,10 @@ class FrozenFields:
     def tree(self, tree: Tree) -> Vector:
         """Return the elementary differential F(t) of a tree t.
 
-        F(t) is a derivative of the field f. Each branch b of t defines a vector field y -> x.y. Here x is the
-        value of F(b) at the initial point, and x.y is the action of x on the point y. For a function g, let
-        D_j g be the derivative of g along the vector field of the j-th branch. Let m be the number of
-        branches. F(t) is the value of D_1(D_2(...(D_m f)...)) at the initial point.
+        F(t) is a derivative of the field f. For a branch b of t, let x be the value of F(b) at the initial
+        point. The vector field of b is y -> x.y, the action of x on the point y. For a function g, let D_j g
+        be the derivative of g along the vector field of the j-th branch. Let m be the number of branches.
+        F(t) is the value of D_1(D_2(...(D_m f)...)) at the initial point.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
@@ -121,10 +121,11 @@ class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, for trees with directed edges.
 
     The elementary differential of a tree is a pair (xi, nu). Let (xi_b, nu_b) be the pair of a branch
-    b at the root. For each branch, the Hamiltonian H(q, mu) is differentiated once:
+    b at the root. Each branch has the kind 0 or 1 (:mod:`orderconds.trees.directed`). The Hamiltonian
+    H(q, mu) is differentiated once for each branch:
 
-    - If b has kind 0 (:mod:`orderconds.trees.directed`), with respect to q in the direction xi_b.
-    - If b has kind 1, with respect to mu in the direction nu_b.
+    - A branch b of kind 0 gives the derivative with respect to q in the direction xi_b.
+    - A branch b of kind 1 gives the derivative with respect to mu in the direction nu_b.
 
     Let K be the result. Then xi is the derivative of K with respect to mu, and -nu is the derivative of K
     with respect to q.

@@ -104,7 +104,7 @@ class NotExact:
     def as_json(self) -> dict[str, object]:
         """Return the JSON object that ``orderconds localerror`` prints.
 
-        The orders are unknown: the entries ``stated_order`` and ``order`` are None.
+        The entries ``stated_order`` and ``order`` are None.
         """
         return {
             "scene": self.scene,

@@ -55,7 +55,7 @@ class OrderStudy:
 
     @property
     def verdict(self) -> str:
-        """The worst verdict among the targets.
+        """The worst of the verdicts for the targets (programming languages).
 
         The verdicts, from worst to best, are ``fails``, ``undecided`` and ``holds``.
         """

@@ -6,10 +6,8 @@ excluded runs divide the list of all runs into shorter lists. Slopes are compute
 longest of these shorter lists.
 
 For a smooth problem, the difference between a slope and the order is approximately proportional to the step
-size. Let d be this difference for one slope. The preceding slope belongs to runs with step sizes that are r
-times as large. Therefore the preceding slope differs from the order by about r d. The two slopes differ by
-about r d - d = (r - 1) d. Dividing the difference of the two slopes by r - 1 gives an estimate of d. The
-slopes have *settled* if this estimate is at most :data:`SETTLED` for each of the last two slopes.
+size. For this reason, the difference can be estimated from two consecutive slopes. The slopes have *settled*
+if the last two slopes differ from the order by at most :data:`SETTLED`, according to these estimates.
 
 The last slope and the stated order may differ by at most :data:`TOLERANCE`.
 """
@@ -86,16 +84,12 @@ class Refinement:
 
     @property
     def slopes(self) -> tuple[float, ...]:
-        """The slopes of log(error) against log(h), one for each two consecutive runs in :attr:`clean`."""
+        """The slopes of log(error) against log(h) from each run in :attr:`clean` to the next run."""
         return slopes(self.clean)
 
     @property
     def settled(self) -> bool:
-        """True if the last two slopes are close to the limit of the slopes as the step size tends to 0.
-
-        The estimated distance of each slope from the limit is at most :data:`SETTLED`
-        (:mod:`codegen.lab.orders.step_sizes`).
-        """
+        """True if the slopes have settled, as defined in :mod:`codegen.lab.orders.step_sizes`."""
         last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
         changes = [abs(b - a) for a, b in pairwise(last)]
         return len(last) == 3 and all(c <= SETTLED * (r - 1) for c, r in zip(changes, ratio, strict=True))
@@ -162,12 +156,12 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
 
     No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as the slopes
     have settled. A run is excluded if the run fails, or if the error of the run is too small to be measured.
-    If the error of a run is too small to be measured, the doubling of the number of steps ends. There is one
-    exception: the doubling continues if all runs so far are excluded.
+    The doubling of the number of steps ends at a run whose error is too small to be measured, unless all runs
+    so far are excluded.
 
-    A run is usable if the run belongs to the longest sequence of consecutive runs that are not excluded.
-    After the doubling, the function adds runs if all of the following three conditions hold: the slopes have
-    not settled, the last run is excluded, and at least one run is usable. The added runs are:
+    The usable runs are the runs in :attr:`Refinement.clean`. After the doubling, the function adds runs if
+    all of the following three conditions hold: the slopes have not settled, the last run is excluded, and at
+    least one run is usable. The added runs are:
 
     - runs with the numbers of steps in :data:`LONGER`,
     - two runs with 6/5 n and 7/5 n steps for each usable run with n steps.

@@ -152,8 +152,8 @@ The first two numbers bound the real part, and the last two numbers bound the im
 GRID = 120
 """The number of grid points along each axis of a diagram of stability regions.
 
-With this number, no grid point is on the imaginary axis. For many methods, the modulus of the stability
-function on this axis is 1 up to rounding errors.
+With this number, no grid point is on the imaginary axis. On this axis, rounding errors can decide whether a
+point belongs to a stability region.
 """
 
 MARGIN = 0.7

@@ -129,7 +129,7 @@ class Canvas:
         shown = numpy.isfinite(x) & numpy.isfinite(y)
         corners = numpy.repeat(numpy.array([x[shown], y[shown]]).T, 2, axis=0)
         path = Path(corners, [Path.MOVETO, Path.LINETO] * int(shown.sum()))
-        path.should_simplify = False  # A simplified path would lose lines of length zero.
+        path.should_simplify = False  # Simplification of the path would remove dots.
         patch = PathPatch(path, fill=False, edgecolor=looks["color"], linewidth=DOT, alpha=alpha)
         patch.set(gid=f"series:{number}", capstyle="round")
         axes.add_patch(patch)

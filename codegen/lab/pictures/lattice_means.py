@@ -121,7 +121,7 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
 
 def _formula(problem: Problem, quantity: Quantity) -> Any:
-    """Return ``quantity`` if it is a formula. SceneError is raised for the name of an invariant."""
+    """Return ``quantity``, or raise SceneError if ``quantity`` is a string instead of a formula."""
     if isinstance(quantity, str):
         raise SceneError(
             f"the quantity {quantity!r} is not a formula", where=problem.name, expected="a sympy formula"

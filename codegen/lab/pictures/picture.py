@@ -1,4 +1,4 @@
-"""A class for drawn pictures. Each picture has a note for its caption."""
+"""A class for drawn pictures."""
 
 from __future__ import annotations
 

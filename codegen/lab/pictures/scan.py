@@ -51,9 +51,10 @@ def draw(figure: Scan, source: Source) -> Drawn:
 
 
 def error(source: Source, figure: Scan, run: Run, value: float) -> float:
-    """Make the run with the parameter ``value``, and return the distance from the final reference state.
+    """Return the error of a run: the distance of its final state from the final state of the reference run.
 
-    If a step of the run fails, the result is infinity. If the reference run fails, SceneError is raised.
+    In the run, the varied parameter has the value ``value``. If a step of the run fails, the result is
+    infinity. If the reference run fails, SceneError is raised.
     """
     if figure.reference is None:
         raise ValueError("expected a reference run in a scan, found none")

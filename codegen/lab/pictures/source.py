@@ -162,7 +162,8 @@ def formulas(problem: Problem, quantities: Sequence[Quantity], swept: str = "") 
     """Return a function of the arrays ``states`` and ``times`` that evaluates quantities of a scene.
 
     Each row of ``states`` contains the values of one coordinate. Each row of the result contains the values
-    of one quantity. If ``swept`` is the name of a parameter, the last row of ``states`` contains its values.
+    of one quantity. If ``swept`` is the name of a parameter, ``states`` has an additional last row with the
+    values of this parameter.
     :class:`codegen.errors.SceneError` is raised for a formula with an unknown symbol.
     """
     import sympy

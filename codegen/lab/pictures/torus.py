@@ -1,4 +1,4 @@
-"""Draws curves on a torus in coordinates (two angles), with level lines and the arrows of a vector field."""
+"""Draws curves on a torus, with level lines and the arrows of a vector field. The axes show two angles."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs of many steps: up to ten million steps forward, and up to a hundred thousand forward and back."""
+"""Runs of many steps: one run forward in time, and one run forward and back to the initial time."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Endurance:
     - ``returned``: the distance of the final state from the initial state after a run forward and back.
     - ``failure``: the error message of the integrator if a step failed.
 
-    The test detects only unreported failures. A run that ends with an error message passes the test, because
+    The property :attr:`held` tests the result. A run that ends with an error message passes the test, because
     the failure is reported. A complete run forward passes if ``defect`` is None, or if ``defect`` is at most
     64 * ``steps`` * 2^-53 (a bound for rounding errors). A complete run forward and back passes if
     ``returned`` is finite. A large ``returned`` is permitted.
@@ -49,7 +49,7 @@ class Endurance:
 
     @property
     def held(self) -> bool:
-        """True if the run passes the test for unreported failures.
+        """True if the run passes the test.
 
         A run that ends with an error message passes. A run without an error message passes if two conditions
         hold:

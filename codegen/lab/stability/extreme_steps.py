@@ -1,8 +1,8 @@
 """Single steps with extreme input: the result of emitted code is compared with an exact result.
 
-The exact result is the step made by the interpreter (:mod:`codegen.ir.interpret`) with at least 60 digits. In
-several probes, the interpreter adds random rounding errors of a double to the input and to the result of
-every operation. The differences between the probes and the exact result show how much rounding can change the
+The exact result is the step made by the interpreter (:mod:`codegen.ir.interpret`) with at least 60 digits.
+The interpreter also makes several steps with simulated rounding errors of double precision. These steps are
+called *probes*. The differences between the probes and the exact result show how much rounding can change the
 result.
 
 There are three verdicts:
@@ -49,9 +49,10 @@ TINY = 2.0**-1022
 """The smallest normal double, below which the absolute value of a result counts as zero."""
 
 ROUNDINGS = 256.0
-"""A result is wrong if its error exceeds about ROUNDINGS times the largest error of a probe.
+"""The factor of an error bound. A result is wrong if its error exceeds ROUNDINGS * (d + e).
 
-A probe is a step with a random rounding error in each operation.
+Here d is the largest error of a step with simulated rounding errors, and e is about one rounding error of the
+result.
 """
 
 LEAST = 3
@@ -95,7 +96,7 @@ class Answer:
 
     ``verdict`` is ``accurate``, or a text that begins with ``status``, ``undetermined`` or ``WRONG``.
     ``error`` is the largest relative error of a component (for example a momentum) of the state.
-    ``determined`` is the number of decimal digits of the result that rounding errors do not change. If the
+    ``determined`` is the number of decimal digits that can be correct in spite of rounding errors. If the
     result is not compared with an exact result, ``error`` and ``determined`` are None.
     """
 
@@ -239,8 +240,8 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
     """Return the exact state after the step, and the final state of each probe.
 
-    A probe makes the step with simulated rounding errors. If the step size is above 1, Newton's method and
-    the probes use more digits, because long steps cause cancellation.
+    A probe makes the step with simulated rounding errors. If the step size is above 1, the probes use more
+    digits, because long steps cause cancellation.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -287,8 +288,8 @@ class Rounding(BallDomain):
     """Arithmetic with many digits that adds one rounding error of a double to the result of every operation.
 
     The errors are relative, and the signs of the errors are random. An iteration for the equations of an
-    implicit method evaluates each operation repeatedly. In each evaluation, the error of the operation has
-    the same sign. With a new random sign in each evaluation, the equations would change during the iteration.
+    implicit method evaluates each operation repeatedly. One random sign is used for all evaluations of an
+    operation. With a new random sign in each evaluation, the equations would change during the iteration.
 
     In a system of implicit equations, each right-hand side gets two errors. The first error is proportional
     to the right-hand side itself, and is zero if the right-hand side is zero. For this reason, a second error

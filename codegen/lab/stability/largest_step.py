@@ -47,8 +47,8 @@ class Limit:
 def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
     """Return the largest usable step size of a compiled method.
 
-    Let T be the length of the time span. The step size is T/n, where n is the number of steps of the run. If
-    n > 1, the longer step size T/(n - 1) is not usable.
+    The step size is T/n, where T is the length of the time span, and n is a positive integer. If n > 1, the
+    longer step size T/(n - 1) is not usable.
     """
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "a longer step would exceed the time span", 0, 1
