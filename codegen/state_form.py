@@ -82,7 +82,7 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
     ([1.0, 0.0, 0.0, 1.0, 2.0, 3.0], ([[1.0, 0.0], [0.0, 1.0]], [2.0, 3.0]))
     >>> read(([2, 3], [[1, 0], [0, 1]]), 6, (("q", 4), ("mu", 2)))
     Traceback (most recent call last):
-    ValueError: expected a state with the parts q, mu (4 and 2 numbers) in this order, found parts of \
+    ValueError: expected a state with parts of 4 and 2 numbers (in the order q, mu), found parts of \
 2 and 4 numbers
     """
     is_tuple = isinstance(state, tuple) and any(map(_has_entries, state))
@@ -104,8 +104,8 @@ def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
     """Raise ValueError if the entries of a state tuple do not match the fields of a state.
 
     For each entry of the tuple, ``sizes`` contains the number of components of this entry. An entry matches
-    one field, or several consecutive fields together. If there are fewer than two fields, every size is
-    permitted.
+    one field, or several consecutive fields together. If ``fields`` has fewer than two elements, no error is
+    raised.
     """
     if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
         return
@@ -113,7 +113,7 @@ def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
     if not ends.issuperset(accumulate(sizes)):
         names, known = ", ".join(name for name, _ in fields), _listed([size for _, size in fields])
         raise ValueError(
-            f"expected a state with the parts {names} ({known} numbers) in this order, found parts of "
+            f"expected a state with parts of {known} numbers (in the order {names}), found parts of "
             f"{_listed(sizes)} numbers"
         )
 
@@ -135,7 +135,10 @@ class Batch:
     states: tuple[State, ...]
 
     def joined(self, results: Sequence[Any]) -> Any:
-        """Return all results as an array or a tuple of arrays. The first index is the index of the state."""
+        """Return the results as one array or as a tuple of arrays.
+
+        Entry i of each array belongs to state i of the batch.
+        """
         import numpy as np
 
         if isinstance(results[0], tuple):
@@ -219,7 +222,7 @@ def _real(x: object) -> float:
     except (TypeError, OverflowError):
         raise ValueError(
             f"expected real numbers in state, found {described(x)}; write a list, a NumPy array, or a tuple "
-            "of these"
+            "of lists or arrays"
         ) from None
 
 

@@ -29,7 +29,7 @@ tableau has the weights bhat_i = b_i and the entries ahat_ij = b_j - b_j a_ji/b_
 non-zero. The nodes are c_i = sum_j a_ij and chat_i = sum_j ahat_ij.
 
 *Order.* A method has order p when its series agrees with the series of the exact flow through the power h^p.
-In a word t_1 ... t_k, the letter t_1 acts first.
+A word is a sequence t_1 ... t_k of letters, such as trees or vector fields. The letter t_1 acts first.
 
 >>> import orderconds
 >>> sorted(orderconds.__all__)

@@ -69,7 +69,10 @@ class Term:
 
 @dataclass(frozen=True)
 class ModifiedEquation:
-    """The modified or modifying field of a method, and its Hamiltonian if the Hamiltonian is known.
+    """The modified field or the modifying field of a method for y' = f(y).
+
+    One step of the method is the exact flow of the modified field. If the method is applied to the modifying
+    field, one step is the exact flow of f.
 
     - ``family`` is the label of the method's family.
     - ``terms`` contains the non-zero terms of the field up to h^(``order`` - 1), where h is the step size.

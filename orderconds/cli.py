@@ -49,13 +49,13 @@ BUILT_IN = {
     "modified": ("orderconds.commands.modified", "Print the modified equation of a method."),
     "refine": (
         "orderconds.commands.refine",
-        "Replace the decimals of a tableau by exact numbers, or by proved decimals with more digits.",
+        "Replace the decimals of a tableau by exact numbers, or by decimals with more correct digits.",
     ),
     "series": ("orderconds.commands.series", "Print the BCH, Magnus or dexp series in a basis of brackets."),
     "solve": ("orderconds.commands.solve", "Find a method, prove its order, and write its tableau."),
     "table": (
         "orderconds.commands.table",
-        "Print a table of the library's tableaux, or the Butcher tableaux of methods.",
+        "Print a table of all tableaux of the library, or the Butcher tableau of each given method.",
     ),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
 }

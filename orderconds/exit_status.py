@@ -48,7 +48,7 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """The exception that :func:`past_click` raises. ``cause`` is the exception that is replaced."""
+    """The exception that :func:`past_click` raises in place of the exception ``cause``."""
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()

@@ -1,7 +1,6 @@
-"""The claimable families of a tableau: the families for which a complete tableau file contains a claim.
+"""The claimable families of a tableau: the families in which the tableau file should claim an order.
 
-A family is not claimable if the order in this family follows from the order in another family. The claimable
-families are:
+These families are:
 
 - For a Butcher tableau: ``rk``, ``cg`` and ``rkmk``. If no weight is zero, also ``sprk``, ``vcg``, ``vrkmk``.
 - For a commutator-free method: ``rk`` and ``cf``. If no weight is zero, also ``vcf``.

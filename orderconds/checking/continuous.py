@@ -70,7 +70,7 @@ def _judged(
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
     """Return the order condition for the coefficients of theta^p in the weights b_i(theta).
 
-    If p is the order n, the right-hand side is ``condition.rhs``. For other p, it is zero.
+    The order of ``condition`` is n. The right-hand side is ``condition.rhs`` if p = n, and zero otherwise.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")

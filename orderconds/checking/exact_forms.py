@@ -23,13 +23,13 @@ from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
 from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
-"""The bound on q^2 u for a fraction with the denominator q and a number with the uncertainty u.
+"""A fraction with the denominator q can replace a number with the uncertainty u only if q^2 u <= CHANCE.
 
-If q^2 u exceeds the bound, the fraction may agree with the number by coincidence and is rejected.
+If q^2 u is larger, the fraction may agree with the number by coincidence.
 """
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
-"""Keys of a tableau file whose values contain no coefficients."""
+"""Keys of a tableau file. The values of these keys contain no coefficients."""
 
 MAX_NUMBERS = 400
 MAX_SECONDS = 2.0
@@ -106,7 +106,10 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 
 
 def _fraction(x: Constant) -> Fraction | None:
-    """Return the simplest fraction that agrees with x, or None if it may agree by coincidence."""
+    """Among the fractions that agree with ``x``, return one with the smallest denominator.
+
+    Return None if the agreement may be a coincidence.
+    """
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
 

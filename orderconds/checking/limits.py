@@ -52,8 +52,7 @@ class Meter:
     def stops(self, more: int) -> bool:
         """Return True if the time or the memory of the check exceeds its limit.
 
-        Also return True if ``more`` additional conditions would exceed the limit on the number of conditions
-        of the current order.
+        Also return True if ``of_order + more`` exceeds ``limits.conditions``.
         """
         limits = self.limits
         if self.of_order + more > limits.conditions:

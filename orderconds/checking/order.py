@@ -31,7 +31,7 @@ STOPPED = "stopped"
 """The verdict on an order if a limit is reached before all conditions of the order are evaluated."""
 
 DOUBLE = "double"
-"""The certificate if the conditions hold to double precision, but no proof exists."""
+"""The certificate of an order that is confirmed in double precision, but not proved."""
 
 Tree = tuple[Key, Callable[[], OrderCondition]]
 """The key of a tree, and a function that returns the order condition of the tree."""
@@ -187,7 +187,7 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The largest absolute residual of each batch, or None if the coefficients are not doubles."""
+    """The largest absolute residual of each batch of conditions. None if the coefficients are not doubles."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -223,16 +223,15 @@ class _Search:
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
         """Judge the conditions of order n. Return the set of verdicts, the failing conditions and a flag.
 
-        If the flag is false, order n may have more failing conditions than those returned. Set ``decimal`` to
-        True if some conditions of lower order hold only to the precision of the rounded coefficients.
+        The flag is true if the search for failing conditions of order n is complete. Set ``decimal`` to True
+        if some conditions of lower order hold only to the precision of the rounded coefficients.
         """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # If ``known`` is true, conditions that follow from others are skipped. In the ring ``Balls``, the
-        # certificate ``exact`` requires the evaluation of all conditions.
+        # In the ring ``Balls``, no condition is skipped if all residuals of lower order are exactly zero.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):

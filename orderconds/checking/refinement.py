@@ -68,7 +68,7 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
         forms = exact_forms(given)
         if forms is None:
             raise NotProved(
-                "no exact numbers near the coefficients give a method with the order of this tableau"
+                "found no exact numbers that agree with the coefficients and preserve the order of the method"
             )
         return Refinement(forms.tableau, {}, exact=forms.texts)
     where = given.path or given.name

@@ -82,8 +82,8 @@ class RegisterForm(Struct, frozen=True):
     Let F be the vector field. On a group, stage i computes K <- A_i K + F(Y), and then Y <- exp(h B_i K) Y.
     On a vector space, the second update is Y <- Y + h B_i K.
 
-    - ``holds`` states whether the scheme exists. If rounded decimals do not decide the question, the value is
-      None.
+    - ``holds`` states whether the scheme exists. The value is None if the coefficients of the method are
+      rounded and have too few digits for a decision.
     - ``space`` is the space of the scheme and the method: ``group`` or ``vector space``.
     - ``A`` and ``B`` are the coefficients A_i and B_i as text.
     - ``reason`` states why no scheme is given.

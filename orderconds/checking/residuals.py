@@ -30,10 +30,8 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""This constant gives the largest radius of a ball with the verdict ``supported``.
-
-For a condition of order n, this radius is RESOLUTION/n!.
-"""
+"""The verdict ``supported`` on a condition of order n requires a residual ball with a radius of at most
+RESOLUTION/n!."""
 
 BITS = 256
 """The precision, in bits, of the balls that contain elements of a number field."""

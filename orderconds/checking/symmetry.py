@@ -54,9 +54,14 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
 
 
 def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
-    """Return the label of the family, the series of one step, a function ``trees`` and a number N.
+    """Return the data for the test of symmetry as a tuple (label, step, trees, most).
 
-    ``trees(n)`` yields the trees or forests with n vertices. The test of symmetry uses n up to N.
+    - ``label`` is the label of the family of the method.
+    - ``step`` is the series of one step.
+    - ``trees(n)`` yields the trees or forests with n vertices.
+    - ``most`` is the largest n in the test.
+
+    Return None if the method is neither a Runge-Kutta method nor a commutator-free method.
     """
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):

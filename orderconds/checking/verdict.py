@@ -96,7 +96,8 @@ def check(
 def _register_form(tableau: Tableau) -> RegisterForm | None:
     """Rewrite the method as a low-storage scheme with two registers.
 
-    Return None if the method is neither a Runge-Kutta method nor a commutator-free method.
+    If no scheme is found, the result contains the reason. Return None if the method is neither a Runge-Kutta
+    method nor a commutator-free method.
     """
     rewriting = low_storage(tableau)
     if rewriting is None:
@@ -127,8 +128,8 @@ def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrd
     """Return ``orders``. For coefficients that are doubles, rename the certificate ``decimal`` to ``double``.
 
     Each entry of ``orders`` has a certificate. A certificate is a word that states how the order was
-    established. The words ``decimal`` and ``double`` denote an order that is not proved, because the residual
-    of an order condition is a small interval that contains zero.
+    established. The words ``decimal`` and ``double`` denote an order that holds to the accuracy of the
+    coefficients, but is not proved.
     """
     if not tableau.doubles:
         return orders
@@ -140,7 +141,7 @@ def _of_doubles(certificate: str) -> str:
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a hint with exact numbers that agree with the doubles of a tableau, or an empty text."""
+    """Return a message that recommends exact coefficients instead of the doubles, or an empty text."""
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -229,17 +230,17 @@ Reading = tuple[Tableau, Family, int | None]
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return triples of a tableau, a family that is not in ``wanted``, and an order or None.
+    """Return triples (reading, family, claim) for families that are not in ``wanted``.
 
-    The tableau contains the method of ``tableau``, possibly in the form of a composition. The order is the
-    order that ``tableau`` claims in the family, or None if there is no claim.
+    - ``reading`` is ``tableau``, or a tableau of the same method as a composition.
+    - ``family`` is a family that accepts ``reading``.
+    - ``claim`` is the order that ``tableau`` claims in ``family``, or None.
 
     The caller uses the returned families to find upper bounds for the orders of ``tableau`` in the families
     of ``wanted``.
 
-    An entry of ``wanted`` is a pair of a family F and a claimed order. The result is empty if, for every
-    pair, the claimed order and the order ``required`` are below the number ``F.search_limit``. A missing
-    claimed order counts as 0.
+    An entry of ``wanted`` is a pair of a family and a claimed order. The result is empty if the claimed
+    orders and ``required`` are below ``search_limit`` of each family. A missing claimed order counts as 0.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -247,9 +248,10 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families that accept ``tableau``, if their attribute ``bounds_others`` is true.
+    """Return a :data:`Reading` for each claimable family that has the attribute ``bounds_others = True``.
 
-    Omit families with a label in ``labels``.
+    Omit families with a label in ``labels``. Each reading contains ``tableau``, or a tableau of the same
+    method as a composition.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -285,8 +287,8 @@ def _beyond(
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
     """Return the smallest order in ``computed`` that is an upper bound of the order in ``family``.
 
-    Let G be a family in ``computed``. The order in G is an upper bound if, for every n, each method of order
-    n in ``family`` also has order n in G. In this case, the order in ``family`` cannot exceed the order in G.
+    Let G be a family in ``computed``. The order in G is an upper bound if order n in ``family`` implies order
+    n in G. In this case, the order in ``family`` cannot exceed the order in G.
     """
     if not computed:
         return None
@@ -342,7 +344,7 @@ def _settled_by(
 
 
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """Replace the certificate ``decimal`` by ``ball`` if the computed order follows from ``facts``.
+    """Replace the certificate ``decimal`` (not proved) by ``ball`` (proved) if ``facts`` imply the order.
 
     ``facts`` contains proved pairs (family, order).
     """
@@ -429,7 +431,7 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
         return
     if dense.order != dense.claimed:
         reason = f"; {dense.failing[0]}" if dense.failing else ""
-        yield f"the continuous extension has order {dense.order} (rk), not {dense.claimed} as claimed{reason}"
+        yield f"the continuous extension has order {dense.order}, not {dense.claimed} as claimed{reason}"
     if dense.continuous is False:
         yield "the continuous extension does not end at the new state: some b_i(1) differs from b_i"
 
@@ -446,4 +448,4 @@ def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
         computed = family_order(enclosed, family)
         least = " at least" if computed.limit is not None or not computed.decided else ""
         order = f"order{least} {computed.order}"
-        yield f"no order is claimed in family {family.label()}, in which the method has {order}"
+        yield f"no claim in family {family.label()}; the method has {order} in this family"

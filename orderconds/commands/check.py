@@ -34,7 +34,7 @@ SHOWN = 5
 of skipped files and folders that are printed for one directory."""
 
 UNCLAIMED = "unclaimed"
-HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
+HOW_TO_CLAIM = 'add `order = 4` (TOML, Python); `"order": 4` (JSON); `order,4` (CSV); `order=4` (numpy.savez)'
 
 DIGITS = 12
 """The largest number of characters of a printed coefficient of a 2N scheme."""
@@ -65,8 +65,8 @@ WIDTH = 200
 @click.option(
     "--complete",
     is_flag=True,
-    help="Require a claim in every family to which the method belongs. No claim is needed in a "
-    "family if the order in this family follows from the order in another family.",
+    help="Require a claim in every family to which the method belongs, unless the order in this "
+    "family follows from the order in another family.",
 )
 @click.option(
     "--certified",
@@ -77,8 +77,9 @@ WIDTH = 200
 @click.option(
     "--require-claims",
     is_flag=True,
-    help="Exit with status 1 if a tableau claims no order in the checked families. In a DIR, also "
-    "read files that only resemble a tableau, such as a JSON file with a matrix.",
+    help="Exit with status 1 if at least one tableau contains no claim for the checked families. In a DIR, "
+    "files that only resemble a tableau, such as a JSON file with a matrix, are not skipped and cause an "
+    "error.",
 )
 @click.option(
     "--skip-others",
@@ -283,7 +284,8 @@ def _checked(job: _Job) -> _Outcome:
 def _excused(arguments: Sequence[str]) -> set[str]:
     """Return the names of the tableaux that need no proof.
 
-    The names come from the file ``DECIMAL`` in each given directory. A line is "NAME: reason".
+    The names come from the file ``DECIMAL`` in each given directory. Each line of this file is
+    "NAME: reason", where NAME is the file name of a tableau without the suffix.
     """
     names = set[str]()
     for argument in arguments:
@@ -297,7 +299,7 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
     """Yield the files to check, with each directory replaced by the tableau files below it.
 
-    If ``strict`` is true, files that only resemble a tableau are also yielded
+    If ``strict`` is true, files that only resemble a tableau are not skipped
     (:func:`~orderconds.exchange.folder.reason_to_skip`).
     """
     for argument in arguments:
@@ -323,7 +325,8 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
             names = list(dict.fromkeys(below.others))
             shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
             click.echo(
-                f"skipped {len(below.others)} hidden folders and files of other formats: {shown}", err=True
+                f"skipped {len(below.others)} items (hidden folders, files with an unknown suffix): {shown}",
+                err=True,
             )
         if not below.tableaux:
             kinds = ", ".join(f"*{suffix}" for suffix in SUFFIXES)
@@ -361,8 +364,8 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         click.echo(f"  {_register_form(report.low_storage)}")
     if report.effective_symmetry is not None:
         click.echo(
-            "  effectively symmetric: a step of h and then a step of -h return to the start, "
-            f"up to terms of higher order than h^{report.effective_symmetry}"
+            "  effectively symmetric: a step of size h, followed by a step of size -h, equals the identity "
+            f"through the power h^{report.effective_symmetry}"
         )
     for reason in dict.fromkeys(report.undecided.values()):
         names = [name for name, why in report.undecided.items() if why == reason]
@@ -404,8 +407,7 @@ def _count(n: int, what: str) -> str:
 
 
 def _proof(proof: Certificate) -> str:
-    """Return one line with the result of the proof for the equations in the table ``[proof]`` of a tableau
-    file."""
+    """Return one line that describes the result of ``proof``."""
     text = (
         f"the {proof.equations} equations from [proof] have exactly one solution "
         f"within {proof.radius} of the decimals"
@@ -437,7 +439,10 @@ def _print_failing(family: FamilyOrder) -> None:
         if family.stopped is None:
             click.echo(f"  {reached}, the highest order searched")
         else:
-            click.echo(f"  {reached}; a limit stopped the check after {family.stopped} conditions")
+            click.echo(
+                f"  {reached}; a limit on conditions, time or memory ended the check after "
+                f"{family.stopped} conditions"
+            )
         return
     if not family.decided:
         click.echo(f"  {family.family}: the coefficients have too few digits to decide order {n}")

@@ -45,7 +45,7 @@ def command(tableau: str, order: int, family: str | None, modifying: bool, as_js
 
     For the family rk, the tree is a rooted tree. For families of Lie group methods (cg, cf, "rkmk(1)"), the
     tree is replaced by a Lyndon word. The letters of this word are ordered trees. For these families, f[x y]
-    is the derivative of f along the fields x and y. In this derivative, x and y are treated as constant. The
+    is the derivative of f along the fields x and y. In this derivative, x and y are not differentiated. The
     commutator is [x, y] = x y - y x.
 
     For a symplectic method, the command also prints the modified Hamiltonian H~. The first term of H~ is the

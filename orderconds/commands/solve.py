@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     type=click.IntRange(*SOLVED_STAGES),
     required=True,
     help="The number of stages. If FAMILY is composition: the number of steps of the base method. If FAMILY "
-    "is splitting: the number of flows of V for the vector field T + V.",
+    "is splitting (of a vector field T + V): the number of flows of V in one step.",
 )
 @click.option(
     "--order", "-p", type=click.IntRange(*SOLVED_ORDER), required=True, help="The order of the method."
@@ -117,7 +117,7 @@ if TYPE_CHECKING:
     "--checkpoint",
     type=FILE,
     metavar="FILE",
-    help="Save the results of finished random starts to this file.  [default: OUT.search if -o OUT is given]",
+    help="Save the progress of the search to this file.  [default: OUT.search if -o OUT is given]",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:

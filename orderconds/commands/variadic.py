@@ -1,8 +1,8 @@
 """Options with several values, such as ``--method A B C``.
 
-After the first positional argument of a :class:`Variadic` command, a repeatable option accepts several
-values, as in ``bench dipole --method cf4 rkmk:rk4``. Before the first argument, a repeatable
-option accepts one value.
+A :class:`Variadic` command accepts ``--method A B`` as a short form of ``--method A --method B``. The option
+must have ``multiple=True``. The short form must come after the first positional argument, as in
+``bench dipole --method cf4 rkmk:rk4``.
 """
 
 from __future__ import annotations

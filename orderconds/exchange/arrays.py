@@ -5,11 +5,11 @@ The names of the arrays depend on the family:
 - ``rk``: A and b. An embedded method also has embedded_b, and the number embedded_order.
 - ``prk``: A, b, A_hat and b_hat.
 - ``composition``: gamma, or alpha and beta.
-- ``cf``: exponentials, count and start. The three arrays describe products of exponentials, in this order:
-  one product for each stage, the product of the update, and the product of the embedded update. Each row of
-  ``exponentials`` contains the coefficients of one exponential. For each product, ``count`` contains the
-  number of exponentials. ``start`` contains 0 if the product acts on y0, and i if the product acts on the
-  value of stage i.
+- ``cf``: exponentials, count and start. The arrays describe a list of products of exponentials. The list
+  contains one product for each stage, then the product of the update, then the product of the embedded
+  update. Each row of ``exponentials`` contains the coefficients of one exponential. For each product,
+  ``count`` contains the number of exponentials. ``start`` contains 0 if the product acts on y0, and i if the
+  product acts on the value of stage i.
 
 The table ``proof`` of a tableau file is omitted.
 """

@@ -135,7 +135,7 @@ def _butcher(body: str, where: str) -> Arrays:
     weights = [row for part in parts[1:] for row in part]
     if not 1 <= len(weights) <= 2 or len({len(row) for row in weights}) != 1:
         raise TableauError(
-            "the weights below the horizontal line are not one or two rows of equal length",
+            "the rows of weights below the horizontal line differ in length, or their number is not 1 or 2",
             where=where,
             expected=r"a row `c_i & a_i1 & ...` for each stage, then `\hline`, then weights `& b_1 & ...`, "
             r"and at most one row of embedded weights",

@@ -31,8 +31,7 @@ TYPED_CALLS = ("array", "asarray", "matrix")
 """Constructors of arrays whose entries have one common type. In an array of integers, for example, no entry
 can be 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""Parts of the names of types such as ``float32`` and ``int64``. Arrays of these types are not evaluated: the
-types are complex or cannot store all doubles."""
+"""Parts of the names of types such as ``float32`` and ``int64``. Arrays of these types are not evaluated."""
 COPYING_CALLS = ("array", "Matrix", "ImmutableMatrix", "matrix")
 """Constructors of arrays that copy their argument and its rows. ``list`` and ``tuple`` do not copy the
 rows. ``asarray`` may return its argument without a copy."""
@@ -102,12 +101,10 @@ class Values:
     functions: dict[str, str] = field(default_factory=dict)
     """A map from the imported name of a function to its original name."""
     sources: dict[str, tuple[frozenset[str], frozenset[int]]] = field(default_factory=dict)
-    """A map from the name of a variable to a pair of sets.
+    """A map from the name of a variable to a pair of sets: the objects to which an unknown value may refer.
 
-    The first set contains names of variables. The second set contains integers. Each integer is the attribute
-    :attr:`Array.memory` of an array. If the value of the variable is unknown, the value may contain
-    references to the variables in the first set and to the arrays whose integers are in the second set. If
-    the value of the variable is not unknown, both sets are empty.
+    The first set contains names of variables. The second set contains the attribute :attr:`Array.memory` of
+    arrays. If the value of the variable is known, both sets are empty.
     """
     active: set[str] = field(default_factory=set)
     """Names of functions, classes and instances. The use of such a name may execute code of the module."""
@@ -147,13 +144,10 @@ class Values:
             self.sources[name] = traced
 
     def _traced(self, names: Collection[str]) -> tuple[frozenset[str], frozenset[int]]:
-        """Return a set of variables and a set of arrays.
-
-        ``names`` are names of variables. The values of these variables may contain references to the
-        variables in the first set and to the arrays in the second set.
+        """Return the objects to which the values of the variables ``names`` may refer.
 
         The first set contains names of variables, including all elements of ``names``. The second set
-        contains integers. Each integer is the attribute :attr:`Array.memory` of an array.
+        contains the attribute :attr:`Array.memory` of arrays.
         """
         reached, memories = set(names), set[int]()
         for name in names:
@@ -358,7 +352,7 @@ def _require_digits(node: ast.Call) -> None:
     for given, factor, more in allowed:
         size = given.value if isinstance(given, ast.Constant) else None
         if type(size) is not int or factor * size < digits - more:
-            raise _NotLiteral(node, "a precision below the number of digits")
+            raise _NotLiteral(node, "a precision that may drop digits of the number")
 
 
 def _is_integral(value: Value) -> bool:
@@ -381,7 +375,8 @@ def _array(function: str, given: Value) -> Value:
 
 
 def _copy(value: Value, integral: bool) -> Value:
-    """Copy an array and its rows, and set ``integral`` in the copies. Return other values unchanged."""
+    """Copy an array and its rows. The copies have the attribute ``integral`` with the given value. Return
+    other values unchanged."""
     return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 

@@ -25,8 +25,8 @@ class Rows:
 
     @property
     def plainly_other(self) -> bool:
-        """True if the table has a header whose first cell is not ``c``. A header with another first cell
-        shows that the table is not a tableau."""
+        """False if the table has no header, or if the first cell of the header is ``c``. Otherwise, the value
+        is True: the table is not a tableau."""
         return bool(self.header) and self.header[0] != "c"
 
 

@@ -99,7 +99,10 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return ``data`` with reserved names of numbers replaced, for example ``sqrt`` by ``sqrt_``."""
+    """Return ``data``, and rename each named number if its name has another meaning in the Python file.
+
+    For example, a number with the name ``sqrt`` is renamed to ``sqrt_``.
+    """
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()

@@ -115,7 +115,7 @@ class UnevaluatedNumbers:
     def named_root(
         self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
     ) -> Unevaluated:
-        """Store the polynomial ``minpoly`` and the interval [near - unit, near + unit] of its root. Return an
+        """Store the only real root of the polynomial ``minpoly`` in [near - unit, near + unit]. Return an
         expression that consists of the name of the root."""
         self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
         return Unevaluated(Name(name))

@@ -53,8 +53,8 @@ class Vertex:
 
     In an action tree, a vertex can be a force (a derivative of the Hamiltonian in q). If a force has at least
     one outward edge, ``legs`` is the pair (m, n). Here n is the number of outward edges of the force. The
-    edge to the parent has a place in the row of these edges: m outward edges are to the left of this place,
-    and n - m outward edges are to the right. For all other vertices, ``legs`` is None.
+    number of outward edges to the left of the edge to the parent is m. For all other vertices, ``legs`` is
+    None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

@@ -17,7 +17,9 @@ from orderconds.words.shuffle import Letter, Word
 
 
 def differential(tree: levels.Tree) -> str:
-    r"""Return the elementary differential of a rooted tree (HLW III.1, Definition 1.2).
+    r"""Return the elementary differential of a rooted tree.
+
+    Source: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.1, Definition 1.2.
 
     >>> differential(b"\0\1\2\1")
     "f''(f'(f), f)"
@@ -40,10 +42,9 @@ def hamiltonian(tree: levels.Tree) -> str:
 def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
-    ``f[x]`` is the derivative of the vector field f along the vector field x. To define ``f[x y]``, write the
-    vector field y as a linear combination of invariant vector fields. The coefficients of this linear
-    combination are functions. ``f[x y]`` is the derivative of ``f[y]`` along x, but in this derivative the
-    coefficients of the linear combination are treated as constants.
+    ``f[x]`` is the derivative of the vector field f along the vector field x. ``f[x y]`` is the derivative of
+    ``f[y]`` along x, but the vector field y is not differentiated: y is a linear combination of invariant
+    vector fields, and the coefficients are treated as constants.
 
     The operator of a forest is the product of the operators of its trees (Munthe-Kaas and Wright, Found.
     Comput. Math. 8 (2008) 227).
@@ -59,9 +60,10 @@ def frozen_differential(forest: levels.Forest) -> str:
 
 
 def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
-    r"""Return the elementary differential of a tree of two colours (HLW III.2.1).
+    r"""Return the elementary differential of a tree of two colours.
 
     The system is y' = f(y, z) and z' = g(y, z). A black vertex denotes f, and a white vertex denotes g.
+    Source: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.2.1.
 
     >>> partitioned_differential(b"\0\3\2")
     'f_zy(g, f)'

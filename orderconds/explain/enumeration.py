@@ -24,7 +24,7 @@ DRAWN = 500
 
 @dataclass(frozen=True, repr=False)
 class ShownTree:
-    """A tree, forest or word, together with its kind.
+    """A tree, a forest or a word, for example a rooted tree.
 
     >>> tree = trees("rooted", 3)[1]
     >>> tree.text, tree.differential, str(tree.condition)

@@ -36,8 +36,8 @@ class Kind:
     - ``diagram`` returns the drawing of a member.
     - ``names`` returns the text of the elementary differential or of the elementary Hamiltonian of a member.
 
-    Each member has an order condition in the family of methods that :meth:`family` returns. If
-    ``independent`` is true, these order conditions are independent of each other.
+    The method :meth:`family` returns a family of numerical methods. Members index the order conditions of
+    this family. If ``independent`` is true, these order conditions are independent of each other.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -130,7 +130,7 @@ def of_family(label: str) -> Kind | None:
 
 
 def refuse_too_many_trees(family: Family, order: int) -> None:
-    """Raise an InputError if a single order has more than :data:`MAX_TREES` trees of ``family``.
+    """Raise an InputError if ``family`` has more than :data:`MAX_TREES` trees of the same order.
 
     The tested orders are at most ``order`` and at most ``family.order_bound``.
 
@@ -151,7 +151,7 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
 
 
 def named_by(condition: OrderCondition) -> str:
-    """Return the elementary differential or Hamiltonian of the tree of a condition.
+    """Return the elementary differential or the elementary Hamiltonian that belongs to a condition.
 
     Return ``condition.tree`` if :func:`of_family` returns None for the family of the condition.
 

@@ -122,10 +122,10 @@ def test_a_wrong_state_has_a_message(state: object, message: str) -> None:
 @pytest.mark.parametrize(
     ("state", "message"),
     [
-        ((MU, Q), r"the parts q, mu \(9 and 3 numbers\) in this order, found parts of 3 and 9 numbers"),
+        ((MU, Q), r"parts of 9 and 3 numbers \(in the order q, mu\), found parts of 3 and 9 numbers"),
         (
             (np.array([MU, MU]), np.array([Q, Q])),
-            "in this order, found parts of 3 and 9 numbers",
+            r"\(in the order q, mu\), found parts of 3 and 9 numbers",
         ),
         ((Q[:2], np.zeros(6)), "found parts of 6 and 6 numbers"),
         ((Q,), r"expected 12 numbers in state, found 9; a state is q \(9 numbers\), mu \(3 numbers\)"),

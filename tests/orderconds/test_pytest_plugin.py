@@ -81,7 +81,7 @@ def test_a_file_that_cannot_be_read_fails_with_its_message(folder: Path, run: Ru
 def test_complete_demands_every_family(folder: Path, run: Run) -> None:
     status, output = run(folder, "--orderconds-complete")
     assert status == 1
-    assert "no order is claimed in family cg, in which the method has order 1" in output
+    assert "no claim in family cg; the method has order 1 in this family" in output
 
 
 def test_certified_demands_proofs(folder: Path, run: Run) -> None:

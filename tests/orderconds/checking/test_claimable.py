@@ -20,7 +20,7 @@ def test_a_missing_claim_fails_a_complete_check_and_no_other() -> None:
     assert check(tableau).verdict == "holds"
     report = check(tableau, complete=True)
     assert report.verdict == "fails"
-    assert report.broken_claims == ("no order is claimed in family rkmk, in which the method has order 2",)
+    assert report.broken_claims == ("no claim in family rkmk; the method has order 2 in this family",)
 
 
 def names(tableau: Tableau) -> list[str]:

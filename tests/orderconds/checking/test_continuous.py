@@ -72,9 +72,9 @@ def test_at_each_theta_the_weights_satisfy_the_conditions_of_a_step_of_length_th
     ("entries", "message"),
     [
         ('order = 2\nb = [["1", "-1"], ["0", "1"]]', ""),
-        ('order = 1\nb = [["1", "-1"], ["0", "1"]]', "has order 2 (rk), not 1 as claimed"),
-        ('order = 3\nb = [["1", "-1"], ["0", "1"]]', "has order 2 (rk), not 3 as claimed"),
-        ('order = 2\nb = [["1", "-1"], ["0", "1/2"]]', "has order 0 (rk), not 2 as claimed; theta^2, "),
+        ('order = 1\nb = [["1", "-1"], ["0", "1"]]', "has order 2, not 1 as claimed"),
+        ('order = 3\nb = [["1", "-1"], ["0", "1"]]', "has order 2, not 3 as claimed"),
+        ('order = 2\nb = [["1", "-1"], ["0", "1/2"]]', "has order 0, not 2 as claimed; theta^2, "),
         ('order = 1\nb = [["1"]  , []]', "does not end at the new state"),
         ('order = 1\nb = [["1"], ["0"]]', "does not end at the new state"),
     ],

@@ -79,6 +79,9 @@ def test_the_command_takes_limits_and_says_where_it_stopped() -> None:
     arguments = ["check", "dop853", "-f", "rk", "--order", "8", "--max-conditions", "60"]
     found = CliRunner().invoke(program, arguments)
     assert found.exit_code == 1
-    assert "no condition fails up to order 7; a limit stopped the check after 85 conditions" in found.output
+    assert (
+        "no condition fails up to order 7; a limit on conditions, time or memory ended the check after "
+        "85 conditions"
+    ) in found.output
     record = json.loads(CliRunner().invoke(program, [*arguments, "--json"]).stdout)[0]["orders"]["rk"]
     assert (record["order"], record["limit"], record["stopped"], record["verdict"]) == (7, 7, 85, "undecided")

@@ -50,7 +50,7 @@ def test_other_methods_are_matrices_by_name() -> None:
     [
         (
             r"\begin{array}{c|c} 0 & 0 \\ \hline 1 \\ 2 & 1 \end{array}",
-            "the weights below the horizontal line are not one or two rows of equal length",
+            "the rows of weights below the horizontal line differ in length, or their number is not 1 or 2",
         ),
         (r"x = 1", "no tableau"),
         (r"A = \begin{pmatrix} \unknown{1} \end{pmatrix}", "expected a number"),
