@@ -121,9 +121,10 @@ class SphereCurves(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class SpaceCurves(Figure):
-    """Curves in space, in orthogonal projection. ``point`` has three formulas.
+    """Curves in space, in orthogonal projection.
 
-    ``direction`` is the direction from the origin to the viewer, as (azimuth, elevation) in degrees.
+    - ``point``: formulas for the three coordinates of the points of a curve.
+    - ``direction``: the direction from the origin to the viewer, as (azimuth, elevation) in degrees.
     """
 
     point: tuple[Quantity, Quantity, Quantity]

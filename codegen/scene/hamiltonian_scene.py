@@ -106,10 +106,10 @@ def _check_coordinates(name: str, coordinates: str) -> None:
 
 def _refuse_parts(name: str, parts: Mapping[str, sympy.Expr]) -> NoReturn:
     raise SceneError(
-        f"a wrench in a scene with the parts {', '.join(parts)}",
+        f'both arguments "wrench" and "parts" are given; the parts are {", ".join(parts)}',
         where=name,
         expected="parts without a wrench, or a wrench without parts",
-        hint='remove the argument "parts", because splittings compose exact flows and a wrench has none',
+        hint='remove the argument "parts", because splitting methods do not permit a wrench',
     )
 
 
@@ -194,7 +194,7 @@ class _CanonicalSystem:
         return known | {key: self.reader.scalar(x, f"invariant {key}") for key, x in declared.items()}
 
     def derived(self, key: str, column: Column) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-        """Return two tuples of formulas: the entries of ``column``, and the same entries computed from H.
+        """Return the formulas in ``column``, and the formulas that are derived from the Hamiltonian H.
 
         ``key`` is "xi" or "n".
         """

@@ -115,7 +115,7 @@ def matrix_terms(reader: Reader, formula: MatrixFormula) -> tuple[tuple[Expr, Co
         given = factors[0].constant if len(factors) == 1 else None
         if given is None:
             raise SceneError(
-                "A contains an unknown or a product of matrices",
+                "the matrix A contains an unknown or a product of matrices",
                 where=reader.name,
                 expected="a sum of multiples of banded(...) and full(...)",
             )
@@ -164,7 +164,7 @@ class _Compiler:
                 yield c, (self.factor(formula, transposed),)
 
     def factor(self, formula: MatrixFormula, transposed: bool) -> _Factor:
-        """Return the factor that consists of ``formula``. The factor is transposed if ``transposed`` is true.
+        """Return ``formula``, or its transpose if ``transposed`` is True, as a factor of a matrix product.
 
         :class:`SceneError` is raised for a matrix variable other than ``self.x``.
         """
@@ -335,8 +335,8 @@ def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
 def _cost(left: tuple[_Factor, ...], right: tuple[_Factor, ...]) -> float:
     """Return the number of scalar multiplications for the product of two matrices.
 
-    ``left`` and ``right`` contain the factors of the two matrices. The result is infinity for two constant
-    matrices, to exclude their product.
+    ``left`` and ``right`` contain the factors of the two matrices. The result is infinity if each of the two
+    matrices is a single constant factor.
     """
     rows, inner, columns = left[0].rows, right[0].rows, right[-1].columns
     first, second = (side[0].constant if len(side) == 1 else None for side in (left, right))

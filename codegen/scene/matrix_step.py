@@ -85,7 +85,7 @@ class MatrixFormula(ABC):
     @property
     @abstractmethod
     def place(self) -> Place:
-        """The set that contains all values of the formula."""
+        """The set that contains the values: the Lie algebra, the group, or all square matrices."""
 
     @abstractmethod
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -132,7 +132,7 @@ class Generator(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """ALGEBRA, because the matrix A(t) is in the Lie algebra at all times t."""
+        """The result is ALGEBRA, because A(t + c h) is in the Lie algebra."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -150,7 +150,7 @@ class Unit(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """GROUP, because the unit matrix is an element of the group."""
+        """The result is GROUP, because every matrix group contains the unit matrix."""
         return Place.GROUP
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -332,7 +332,7 @@ class Logarithm(Unary):
 
     @property
     def place(self) -> Place:
-        """MATRIX, because the logarithm of a matrix can be outside the Lie algebra."""
+        """The result is MATRIX, because the logarithm of a matrix can be outside the Lie algebra."""
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:

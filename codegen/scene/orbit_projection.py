@@ -22,14 +22,15 @@ Let T be the tangent space of the orbit at the initial state. The test moves the
 DISPLACEMENT, perpendicular to T. The test projects the moved point. The projected point passes the test if
 the distance between this projected point and T is at most REDUCED * DISPLACEMENT.
 
-The orbit may be curved. A point of the orbit can have a distance of about DISPLACEMENT^2 from T. A projected
-point on the orbit must pass the test, so REDUCED must be at least about DISPLACEMENT.
+The orbit may be curved. At the distance DISPLACEMENT from the initial state, the orbit can have a distance of
+about DISPLACEMENT^2 from T. A projected point on the orbit must pass the test, so REDUCED must be at least
+about DISPLACEMENT.
 """
 
 INDEPENDENT = 1e-8
-"""The tolerance of the test whether a vector is a linear combination of given vectors.
+"""The tolerance of the test whether a vector v is linearly independent of given vectors.
 
-A vector v passes the test if its component perpendicular to the given vectors has at most the length
+The vector v is independent if its component perpendicular to the given vectors is longer than
 INDEPENDENT * max(1, |v|).
 """
 
@@ -37,7 +38,7 @@ INDEPENDENT * max(1, |v|).
 def reaches_orbit(problem: Problem) -> bool:
     """Return True if :meth:`Action.to_orbit` maps points near the initial state onto the orbit.
 
-    If the orbit is open, the result is True.
+    If the orbit is an open set (:func:`orbit_is_open`), the result is True.
     """
     field, d = problem.as_field(), FloatDomain(0.0)
     start = tuple(map(float, field.initial(d)))

@@ -85,8 +85,8 @@ class Problem:
     - ``coordinates``: the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group. None means
       the exponential map.
     - ``matrices``: the field as formulas of matrices, or None (:mod:`codegen.scene.matrix_formula`).
-    - ``carries_momentum``: True if the momentum conjugate to the time was added to a linear problem as the
-      last coordinate (:mod:`codegen.scene.linear_extension`).
+    - ``carries_momentum``: True for a linear problem whose last coordinate is the momentum conjugate to the
+      time (:mod:`codegen.scene.linear_extension`).
     - ``steps``: the methods that the scene defines by formulas (:mod:`codegen.scene.matrix_step`).
     - ``sites``: the lattice, if the problem is the equation of one site (:mod:`codegen.scene.sites`). Then
       ``roots`` also contain the coordinates of neighbours.
@@ -186,7 +186,7 @@ class Problem:
                 f"{self.group.name} is too large",
                 where=self.name,
                 expected="a matrix with at most eight rows",
-                hint='use a smaller matrix; the commands "emit" and "converge" work for every matrix size',
+                hint='use a smaller matrix, or the commands "emit" and "converge", which accept every size',
             )
 
     def as_field(self) -> Problem:

@@ -27,8 +27,8 @@ class Semilinear:
     """The operator and the nonlinear term of a semilinear problem, as formulas.
 
     - ``wave``, ``space``: the symbols of the wave number and of x.
-    - ``symbol``: the eigenvalue of L as a formula in the wave number: the real part, and the imaginary part
-      if it is not zero.
+    - ``symbol``: the eigenvalue of L as a formula in the wave number. A complex eigenvalue has two formulas,
+      one for the real part and one for the imaginary part.
     - ``length``: the period.
     - ``initial``: the initial state as a formula in x.
     - ``formulas``, ``outer``: formulas g_i and orders m_i. N is the sum of all (d/dx)^m_i g_i.
@@ -79,8 +79,7 @@ class ExactExponential(CoordinateMap):
 def model_of(scene: Problem) -> Problem:
     """Return the scalar model problem u' = L u + N(u), L = -1/2, for the compiler passes.
 
-    N(u) is u^2 + t if the nonlinear term of the scene depends on the time, otherwise u^2. A step
-    has the same operations for all values of L and N.
+    N(u) is u^2 + t if the nonlinear term of the scene depends on the time, otherwise u^2.
     """
     assert scene.semilinear is not None
     (block,) = scene.state

@@ -33,7 +33,9 @@ alias among the kept modes.
 """
 
 SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
-"""Wave numbers k for a test of L. The values of the Fourier symbol of L at k and -k must be conjugate."""
+"""Wave numbers k at which the Fourier symbol of the linear operator is tested. The values of the Fourier
+symbol at k and -k must be conjugate.
+"""
 
 DIGITS_OF_PI = 60
 """The number of digits of the rational constant that replaces pi in formulas."""
@@ -132,9 +134,9 @@ class _Parser:
         return tuple(read)
 
     def nonlinear(self, N: sympy.Expr) -> tuple[tuple[tuple[int, str], ...], dict[int, Expr]]:
-        """Return (order, symbol) of each derivative of u in N, and a mapping from m to the formula g_m.
+        """Write N as the sum of (d/dx)^m g_m over m, and return the derivatives of u and the formulas g_m.
 
-        N is the sum of (d/dx)^m g_m over all m.
+        The first result has a pair (order, symbol) for each derivative of u. The second result maps m to g_m.
         """
         import sympy
 

@@ -69,7 +69,7 @@ def _read(
         raise SceneError(
             f"the offset {offset} of the {what}",
             where=reader.name,
-            expected="an offset with one entry 1 and all other entries 0, such as (1,) or (0, 1)",
+            expected="the offset of the next site along an axis, such as (1,) or (0, 1)",
         )
     both = [
         *reader.column(given.first, size, f"{what}, first", more=symbols),
@@ -127,8 +127,9 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
                     f"generator {k} of the part {part.name} is not constant along the flow of the part",
                     where=scene.name,
                     expected="generators f(y) for which the exact flow over a time tau is exp(tau f(y)).y",
-                    hint="split the part, or use other generators for the same velocity; for example, a spin "
-                    "S with the velocity (J S') x S also has the generator J (S + S'), because S x S = 0",
+                    hint="split the part, or use other generators for the same velocity; for example, if S "
+                    "and T are neighbouring spins and J is a number, the generators J T and J (S + T) give "
+                    "S the same velocity J T x S",
                 )
 
 
@@ -166,11 +167,11 @@ def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
                 if not orbit.sized(x - y, (x, y, 1)):
                     where = f" if the neighbours {sorted(absent)} do not exist" if absent else ""
                     raise SceneError(
-                        f"the parts add up to the velocity {orbit.text(x)}{where}",
+                        f"the parts do not add up to the velocity of f: the sum is {orbit.text(x)}{where}",
                         where=scene.name,
                         expected=f"{orbit.text(y)}, the velocity of f",
-                        hint='list all terms of f in the argument "parts"; give the generators of both sites '
-                        "in each Pair",
+                        hint='list all terms of f in the argument "parts"; each Pair must contain the '
+                        "generators of both sites",
                     )
 
 

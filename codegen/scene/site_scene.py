@@ -88,7 +88,7 @@ def SiteScene(
     sites = Sites(len(offsets[0]), offsets, symbols, ends, read_parts(reader, y, group.dim, parts))
     sites = _with_energy(reader, sites, y, energy, bonds)
     if reader.signals:
-        raise SceneError("a signal in the field of a site", where=name, expected="formulas in t")
+        raise SceneError("the argument f contains a signal", where=name, expected="formulas in t")
     laws = {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
     state = (StateField("y", Kind.POINT, tuple(reader.coordinates), start),)
     problem = Problem(
@@ -147,20 +147,19 @@ def _check_energy(problem: Problem) -> None:
         terms = [a * b for a, b in zip(gamma, f, strict=True)]
         if not orbit.sized(sum(terms), (*terms, 1)):
             raise SceneError(
-                f"the total energy of {len(whole.state[0].symbols) // len(problem.symbols)} sites has the "
-                f"time derivative {orbit.text(sum(terms))}",
+                f"the total energy of {len(whole.state[0].symbols) // len(problem.symbols)} sites is not "
+                f"constant: the time derivative is {orbit.text(sum(terms))}",
                 where=problem.name,
                 expected="an energy that is constant along the solutions",
-                hint='at an open boundary, the states in the argument "outside" must be constant, or must '
-                "exert no force on the lattice",
+                hint='for an open boundary, write constants in the argument "outside", or formulas for which '
+                "the force on the site at the boundary is zero",
             )
 
 
 def with_frozen_neighbours(scene: Problem) -> Problem:
     """Return the problem of one site, with the coordinates of the neighbours as parameters.
 
-    The value of each of these parameters is an initial coordinate of a site, rounded and shifted by at most
-    5/97. Different neighbours have different shifts, because two neighbours must not have equal states.
+    The values of these parameters are near the initial coordinates of the site.
     """
     sites = scene.sites
     assert sites is not None
@@ -210,9 +209,8 @@ def outside_states(
 ) -> tuple[tuple[Expr, ...], ...]:
     """For each offset, return the formulas of the state that replaces a missing neighbour.
 
-    For a periodic lattice, return (), or raise SceneError if ``outside`` is given. SceneError is also raised
-    if an open lattice has no column for an offset, or has a column for an offset that the field does not
-    read.
+    For a periodic lattice, return (), or raise SceneError if ``outside`` is given. For an open lattice,
+    SceneError is raised if ``outside`` is None, or is a mapping whose keys differ from ``offsets``.
     """
     if boundary not in (PERIODIC, OPEN):
         raise SceneError(f"the boundary {boundary!r}", where=reader.name, expected=f"{PERIODIC} or {OPEN}")
@@ -230,7 +228,7 @@ def outside_states(
     for offset in offsets:
         if offset not in given:
             raise SceneError(
-                f"no state for the neighbour {offset} outside the open boundary",
+                f"the boundary is open, but there is no state for the neighbour {offset}",
                 where=reader.name,
                 expected='a column of formulas in the argument "outside"',
                 hint="write, for example, zeros, the coordinates y, constants, or formulas in t",
@@ -238,8 +236,8 @@ def outside_states(
         listed.append(reader.column(given.pop(offset), size, f"outside {offset}"))
     if given:
         raise SceneError(
-            f'a state in the argument "outside" for the neighbour {next(iter(given))}, which the field '
-            "does not read",
+            f'the argument "outside" has a state for the neighbour {next(iter(given))}, but the field '
+            "does not read this neighbour",
             where=reader.name,
             expected=f"the offsets {', '.join(map(str, offsets))}",
         )

@@ -114,7 +114,8 @@ class Sites:
     - ``force``: in a Hamiltonian scene, the force of all bonds on a site
       (:mod:`codegen.scene.hamiltonian_sites`).
     - ``energy``: the energy of a site plus the energies of all its bonds.
-    - ``bonds``: for each bond of a site, a pair (k, energy). The neighbour has the offset offsets[k].
+    - ``bonds``: a pair (k, energy) for each bond between a site and a neighbour. The offset of this neighbour
+      is offsets[k].
     """
 
     dimension: int

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     import sympy
 
 MOST_ROWS = 8
-"""A scene with more than MOST_ROWS rows has no formulas for the components of the generator.
+"""The generator A of :func:`StiefelScene` has formulas in coordinates if X has at most this number of rows.
 
 For n rows, the length of the formulas grows as n^3.
 """
@@ -105,7 +105,7 @@ def _start(reader: Reader, x: Unknown, y0: Sequence[sympy.Expr] | None) -> tuple
 def _roots(
     reader: Reader, field: MatrixField, group: SO, symbols: tuple[str, ...], parameters: tuple[str, ...]
 ) -> tuple[Expr, ...]:
-    """Return formulas for the components of the generator of :func:`StiefelScene`."""
+    """Return formulas for the components of the generator A (:func:`StiefelScene`)."""
     domain = ExprDomain(reader.space)
     point = [reader.space.sym(s) for s in symbols]
     scalars = {s: reader.space.sym(s) for s in (TIME, *parameters)}

@@ -79,7 +79,9 @@ def table(
     :class:`SceneError` is raised for lists of different lengths, for fewer than 2 or more than LARGEST
     points, for numbers in ``xs`` that do not increase, and for an unknown ``smoothness`` or ``outside``.
 
-    A derivative is discontinuous at the points ``xs``: the third for ``cubic``, the first for ``linear``.
+    At the inner points of ``xs``, ``linear`` has a discontinuous first derivative, and ``cubic`` has a
+    discontinuous third derivative. With ``hold``, the first derivative is also discontinuous at the first and
+    the last point.
 
     >>> from codegen.ir.domain import FloatDomain
     >>> thrust = table([0, 1, 2], [0.0, 0.5, 0.2], sympy.Symbol("t"), "linear")

@@ -175,14 +175,14 @@ def with_one_system(scene: Problem) -> Problem:
     """
     if scene.sites is not None:
         raise SceneError(
-            "the scene of a chain or lattice does not fix the number of sites",
+            "the scene is a chain or lattice without a fixed number of sites",
             where=scene.name,
             expected="a scene with a fixed number of coordinates",
             hint="emit the scene, and run it for arrays of states with codegen.load_lattice",
         )
     if scene.semilinear is not None:
         raise SceneError(
-            "the scene of this semilinear equation does not fix the number of points",
+            "the scene is a semilinear equation without a fixed number of grid points",
             where=scene.name,
             expected="a scene with a fixed number of coordinates",
             hint="emit the scene, and run it for any number of points with codegen.load_spectral",

@@ -31,7 +31,7 @@ d1, d2 = Matrix([0, 0, 1]), Matrix([Rational(3, 4), 0, 0])
 
 
 def resistance(d: Matrix, J: Matrix) -> Matrix:
-    """Return hat(d)^T J^-1 hat(d), the term C_k of a body with the inertia J and the joint at the point d."""
+    """Return hat(d)^T J^-1 hat(d), where hat(d) is the matrix of v -> d x v."""
     hat = Matrix([[0, -d[2], d[1]], [d[2], 0, -d[0]], [-d[1], d[0], 0]])
     return hat.T * J.inv() * hat
 

@@ -61,7 +61,7 @@ figures = [
     Orders(
         name="found_methods",
         title='Errors for the dipole: methods found with the command "orderconds solve"',
-        caption="Methods of the families vcf and vcg beside VRKMK4 and VCG4 of the thesis.",
+        caption="Methods of the families vcf and vcg, compared with VRKMK4 and VCG4 of Marthinsen's thesis.",
         halvings=5,
         orders=(4, 6),
         runs=(
@@ -76,7 +76,7 @@ figures = [
     Deviation(
         name="energy",
         title="Energy error of the dipole over 100 000 steps",
-        caption="Steps of size 0.01. Each point is the largest error in 1000 steps.",
+        caption="Steps of size 0.01. Each point is the maximum over 1000 consecutive steps.",
         source="Fig. 3.3 of Marthinsen's thesis",
         quantity="energy",
         axis="largest energy error",

@@ -3,7 +3,7 @@
 The equations are x' = y and y' = -a x - b x^3 with a = b = 1 (H. Marthinsen's thesis, section 2.2). In a
 step, Lie-Euler keeps the whole field constant. In the scene ``duffing_sl2``, the stiffness of the spring does
 not change in a step of Lie-Euler. In ``duffing_se2``, the cubic part of the force does not change in a step
-of Lie-Euler. Translations commute, so in ``duffing`` every Lie group method reduces to its classical method.
+of Lie-Euler. Translations commute, so RKMK, CG and CF methods for ``duffing`` are Runge-Kutta methods.
 """
 
 from collections.abc import Sequence
@@ -45,7 +45,8 @@ figures = [
     PlaneCurves(
         name="frozen",
         title="Flows of the frozen fields of Duffing's equation",
-        caption="Ends of single Lie-Euler steps of sizes 0 to 20. The reference is the exact solution.",
+        caption="Each point of a curve is the result of one Lie-Euler step. The step sizes are from 0 to 20. "
+        "The reference is the exact solution.",
         source="Fig. 2.1 of Marthinsen's thesis",
         point=(x, y),
         panels=True,

@@ -7,7 +7,8 @@ box, Phys. Rev. A 76 (2007), 042319). The Hamiltonian is
     H(t) = delta cos(nu t) N - (a/2) N (N - 1) + (rabi/2) sin^2(nu t) (L + L^T).
 
 Here N = diag(0, 1, 2, 3), and L has the entries sqrt(1), sqrt(2), sqrt(3) above the diagonal. The parameter a
-is the anharmonicity, ``rabi`` the strength of the pulse, and ``delta`` the largest detuning.
+is the anharmonicity, ``rabi`` the strength of the pulse, ``delta`` the largest detuning, and pi/nu the
+duration of the pulse.
 
 The state consists of the 8 real numbers (Re psi, Im psi).
 """

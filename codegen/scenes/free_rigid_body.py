@@ -35,7 +35,7 @@ exact = Run("rkmk:butcher6", 0.01, 100)
 figures = [
     SphereCurves(
         name="isotropy",
-        title="One step of Lie-Euler on the sphere: its end depends on the isotropy alpha",
+        title="Results of one Lie-Euler step on the sphere for different values of the parameter alpha",
         caption="One step of size 1 for each alpha. The reference is the exact solution up to t = 1.",
         source="Fig. 2.2 of Marthinsen's thesis",
         point=tuple(m),

@@ -56,8 +56,7 @@ The section before the rod has the key (-1,). The section after the rod has the 
 
 normal = R[:, 0].cross(R[:, 1])
 FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
-"""Additional cross sections for free ends. The strains between an end and its additional section are zero,
-even if R has rounding errors."""
+"""Additional cross sections for free ends. They exert no force and no torque on the rod."""
 
 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:

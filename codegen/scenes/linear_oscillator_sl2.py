@@ -55,7 +55,7 @@ figures = [
         title="Lie-Gauss: errors of the energies H and −u",
         caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
         "eps = 0.3, alpha = 0.1, h = 0.3. "
-        "Lie-Gauss with h = 0.03 approximates the exact energy.",
+        "The exact energy is replaced by the energy that Lie-Gauss gives with h = 0.03.",
         source="Fig. 4.1a of Marthinsen's thesis",
         quantities=both,
         axis="difference from the exact energy",
@@ -68,7 +68,7 @@ figures = [
         title="The energies H and −u of Lie-Euler beside the exact energy",
         caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
         "eps = 0.3, alpha = 0.1, h = 0.6. "
-        "Lie-Gauss with h = 0.03 approximates the exact energy.",
+        'The curve "exact" is the result of Lie-Gauss with h = 0.03.',
         source="Fig. 4.1b of Marthinsen's thesis",
         quantities=both,
         axis="energy",

@@ -58,7 +58,7 @@ figures = [
     ),
     TimeSeries(
         name="exponents",
-        title="Integrals divided by the time tend to the Lyapunov exponents",
+        title="Approximations of the Lyapunov exponents of Lorenz's system against time",
         caption="Steps of size 1/100. The exponents are 0.9056, 0 and -14.5723.",
         quantities={f"exponent {i + 1}": Symbol(f"s{i}", real=True) / t for i in range(3)},
         axis="integral / t",

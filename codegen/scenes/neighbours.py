@@ -21,7 +21,7 @@ OWN = frozenset({"codegen", "orderconds"})
 
 
 class Neighbours(MetaPathFinder):
-    """An import hook for the modules ``names`` in the folder ``folder``."""
+    """An import hook that finds modules in ``folder``. ``names`` contains the names of these modules."""
 
     def __init__(self, folder: Path, names: frozenset[str]) -> None:
         self.folder, self.names = folder, names
@@ -29,7 +29,7 @@ class Neighbours(MetaPathFinder):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return the import specification of a neighbour, or None for other modules."""
+        """Return the import specification of the module ``fullname``, or None if it is not in ``names``."""
         if path is not None or fullname not in self.names:
             return None
         return PathFinder.find_spec(fullname, [str(self.folder)], target)

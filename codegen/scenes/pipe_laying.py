@@ -3,8 +3,8 @@
 The problem is from section 2.3.1 of H. Marthinsen's thesis. As in the scene ``free_rod``, the rod is a chain
 of N cross sections, and neighbouring sections have the distance ds. Two additional sections are next to the
 ends of the chain: a clamped section, and a section on the vessel. The vessel moves up and down, and pitches
-about the axis e2. The parameter ``length`` is the distance between the clamped section and the section on the
-vessel at time 0. This distance must be (N + 1) ds.
+about the axis e2. At time 0, the distance between the clamped section and the section on the vessel is the
+parameter ``length``. This distance must be (N + 1) ds.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, eye, sin

@@ -1,9 +1,9 @@
 """Heisenberg spins on a plane lattice: the Landau-Lifshitz equation with exchange, anisotropy and a field.
 
-Each site has a spin S of length one. The spin turns about the effective field H: S' = H x S. The equation of
-L. D. Landau and E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169) has another term for damping. H is the
-sum of three terms: the exchange field, the anisotropy field and an external field. The exchange field is J
-times the sum of the four neighbouring spins. The lattice is periodic.
+Each site has a spin S of length one. The spin turns about the effective field H: S' = H x S. The scene omits
+the damping term in the equation of L. D. Landau and E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169). H
+is the sum of three terms: the exchange field, the anisotropy field and an external field. The exchange field
+is J times the sum of the four neighbouring spins. The lattice is periodic.
 
 As in J. Frank, W. Huang and B. Leimkuhler (J. Comput. Phys. 133 (1997) 160-172), the energy is split into the
 energies of pairs of neighbours and the energies of single spins. The exact flow of each part is a rotation.

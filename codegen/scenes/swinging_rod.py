@@ -1,4 +1,4 @@
-"""Geometrically exact rod that is clamped at one end and swings under gravity, a chain on T*SE(3).
+"""Geometrically exact rod on T*SE(3). The rod is clamped at one end and swings under gravity.
 
 As in the scene ``free_rod``, the rod is a chain of N cross sections. Section i is at the distance i ds from
 the clamp. The free end of the rod has the distance ds/2 from section N. J. C. Simo and L. Vu-Quoc (Comput.

@@ -91,7 +91,7 @@ def _shared_angle(
     if precision is not DOUBLE or batch:
         listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
         return listed
-    # Arguments far from zero are rare, so a separate function that is not inlined computes their c_k.
+    # Large arguments are rare, so a separate function evaluates the Stumpff functions for them.
     far, small = f"{name}_far", float(stumpff.SMALL)
     listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
     # The "tiny" polynomials are the shorter polynomials for z <= TINY. With three or more ``orders``, these
@@ -173,7 +173,7 @@ def needed(
 
     - ``functions``: the functions that the module calls.
     - ``sweeps``: True if the module solves equations by iteration.
-    - ``wide``: the number of rows of the inverted matrices if all have the same small size, else 0.
+    - ``wide``: the common number of rows of all inverted matrices, or 0 if their sizes differ or are large.
     - ``widest``: the number of rows of the largest inverted matrix.
     - ``chain``: the number of angles in the longest sequence of rotations in a step
       (:func:`codegen.snippets.stumpff.limit`).

@@ -20,14 +20,16 @@ from math import factorial
 from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
-"""For z <= SWITCH[k], c_k is evaluated by a polynomial.
+"""For 0 <= z <= SWITCH[k], c_k(z) is evaluated by a polynomial.
 
 For z > 4 the closed form c_3 = (1 - c_1)/z has no cancellation, because c_1 < 1/2.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
-"""Two short polynomials approximate c_k(z) for z <= SMALL and for z <= TINY. The polynomial for
-z <= TINY is shorter."""
+"""For 0 <= z <= SMALL, a short polynomial approximates the Stumpff function c_k(z).
+
+For 0 <= z <= TINY, there is an even shorter polynomial.
+"""
 
 PI = Fraction("3.14159265358979323846264338327950288")
 
@@ -37,16 +39,16 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 
 
 LEFT = 10
-"""The required number of correct bits of a vector after a rotation by the largest allowed angle."""
+"""The number of correct bits that a vector must keep after rotations (:func:`limit`)."""
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     """Return the largest z for which the Stumpff functions c_k(z) are computed.
 
-    For a rotation by the angle a, z is a^2. For larger z the value of c_k is NaN, because too few digits of
-    the rotated vector would be correct. Let eps = 2^-bits, with bits = ``precision.bits``, be the relative
-    rounding error of the angle. The error of the rotated vector is a eps. The next angle may be computed from
-    this vector. The relative error of the next angle is assumed to be 8 a eps.
+    For z above the returned limit, c_k(z) is NaN. For a rotation by the angle a, z is a^2. Let eps = 2^-bits,
+    with bits = ``precision.bits``, be the relative rounding error of the angle. The error of the rotated
+    vector is a eps. The next angle may be computed from this vector. The relative error of the next angle is
+    assumed to be 8 a eps.
 
     The angle of each of ``chain`` rotations is computed from the result of the preceding rotation
     (:func:`codegen.ir.angle_depth.chain`). Each further rotation multiplies the error by 8 a. The error of

@@ -258,8 +258,8 @@ def test_the_energy_of_a_splitting_is_bounded_and_spins_keep_their_length():
 @pytest.mark.parametrize(
     ("parts", "message"),
     [
-        ({"single": S}, "the parts add up to the velocity"),
-        ({"single": S * S[0]}, "the parts add up"),
+        ({"single": S}, "the parts do not add up to the velocity of f"),
+        ({"single": S * S[0]}, "the parts do not add up"),
         ({"single": Matrix([S[1], 0, 0])}, "generator 0 of the part single is not constant along"),
         (
             {"bonds": Pair((1,), neighbour(S, (1,)), S)},
@@ -355,9 +355,9 @@ def site_scene(**options):
         ({"f": 1}, "f is 1"),
         ({"boundary": "closed"}, "the boundary 'closed'"),
         ({"outside": [0, 0, 0]}, 'the argument "outside" is not allowed for a periodic lattice'),
-        ({"boundary": "open"}, r"no state for the neighbour \(1,\) outside the open boundary"),
+        ({"boundary": "open"}, r"the boundary is open, but there is no state for the neighbour \(1,\)"),
         ({"boundary": "open", "outside": {(-1,): [0, 0, 0]}}, r"no state for the neighbour \(1,\)"),
-        ({"boundary": "open", "outside": {(1,): S, (2,): S}}, r"the neighbour \(2,\), which the field"),
+        ({"boundary": "open", "outside": {(1,): S, (2,): S}}, r"the neighbour \(2,\), but the field"),
         ({"boundary": "open", "outside": [0, 0]}, "has 2 components"),
         ({"y0": [1, 1]}, "y0 has 2 components"),
         ({"invariants": {"first": S[0]}}, "the invariant first changes"),

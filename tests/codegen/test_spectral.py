@@ -422,7 +422,7 @@ def test_a_command_that_runs_one_system_refuses_a_semilinear_equation(command, t
     output = ["-o", str(tmp_path)] if command == "report" else []
     result = CliRunner().invoke(program, [command, ALLEN_CAHN, "--method", "cf:cf4", *output])
     assert result.exit_code == 2
-    assert "the scene of this semilinear equation does not fix the number of points" in result.output
+    assert "the scene is a semilinear equation without a fixed number of grid points" in result.output
     assert "codegen.load_spectral" in result.output
     assert not list(tmp_path.iterdir())
 

@@ -1,4 +1,4 @@
-# 10: a wrench in a scene with the parts T
+# 10: both arguments "wrench" and "parts" are given; the parts are T
 from sympy import eye
 
 from codegen.groups import SO3
