@@ -35,7 +35,7 @@ def extension_of(method: Method, scene: Problem) -> Continuous:
         raise MethodError(
             f"{method.label} has no continuous extension",
             where=scene.name,
-            expected='rk or rkmk(r) with an explicit tableau that has the key "dense"',
+            expected='the family rk or rkmk(r), and an explicit tableau that has the key "dense"',
             hint="to find an extension, run: orderconds extend TABLEAU; or use --integrate, which reaches "
             "output times by shorter steps",
         )
@@ -88,10 +88,10 @@ def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
 
 
 def observed_run(method: Method, scene: Problem, degree: int, events: int, dense: bool) -> Observed:
-    """Return the description of a run to a given end time with ``events`` event functions.
+    """Return the description of a run to a given end time.
 
-    ``degree`` is the degree of the Taylor polynomial of a step, or 0 if a step has no Taylor polynomial.
-    MethodError is raised for a Taylor method with step control.
+    ``events`` is the number of event functions. ``degree`` is the degree of the Taylor polynomial of a step,
+    or 0 if a step has no Taylor polynomial. MethodError is raised for a Taylor method with step control.
     """
     if count(events, "events") > MOST_EVENTS:
         raise InputError(
@@ -99,8 +99,8 @@ def observed_run(method: Method, scene: Problem, degree: int, events: int, dense
         )
     if degree and method.adaptive:
         raise MethodError(
-            f"the Taylor method {method.label} cannot run to a given end time with step control",
+            f"the Taylor method {method.label} cannot combine step control with a run to a given end time",
             expected="a Taylor method with constant step size, or an embedded method with step control",
-            hint="leave out --adaptive or --integrate",
+            hint="leave out --adaptive, or leave out --integrate, --events and --dense",
         )
     return Observed(events, extension_of(method, scene) if dense else None)

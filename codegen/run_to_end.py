@@ -53,7 +53,7 @@ class RunToEnd(ABC):
         contains all results before the failure.
         """
         if not self.interface.integrated:
-            raise TypeError("this module has no run to an end time; emit it with integrate=True")
+            raise TypeError("this module cannot integrate to a given end time; emit it with integrate=True")
         t, h, limit = real(t, "t"), real(h, "h"), count(limit, "limit")
         times = monotone(t, () if t_eval is None else t_eval)
         end = end_of_run(t, end, times)

@@ -2,10 +2,14 @@
 
 Let e_i be the error estimate for the component y_i of the state. The error norm of a step is the root mean
 square of the quotients e_i/(atol + rtol |y_i|). A step is accepted if the norm is at most one. Let p be the
-order of the estimate. After an accepted step, the step size is multiplied by the factor
-0.9 norm^(-0.8/p) before^(0.2/p), where ``before`` is the norm of the previous accepted step. This factor is
-limited to [0.2, 5]. If the trial directly before the accepted step was rejected, the factor is limited to
-[0.2, 1]. After a rejected step, the step size is multiplied by 0.9 norm^(-1/p), limited to [0.2, 0.9].
+order of the estimate, ``norm`` the error norm of a step, and ``before`` the error norm of the previous
+accepted step. After an accepted step, the step size is multiplied by the factor
+
+    0.9 norm^(-0.8/p) before^(0.2/p).
+
+This factor is limited to [0.2, 5]. If the trial directly before the accepted step was rejected, the factor is
+limited to [0.2, 1]. After a rejected step, the step size is multiplied by 0.9 norm^(-1/p), limited to
+[0.2, 0.9].
 
 The limits of the factors are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
 I, section II.4. The controller is by Gustafsson (Hairer and Wanner, Solving Ordinary Differential Equations
@@ -244,12 +248,7 @@ class Controlled:
         """Return the statements that are executed after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # Let norm be the error norm of the accepted step, and let p be the order of the error estimate. The
-        # number norm^(-SHARE/p) is assigned to ``root``. The number ``most`` is FLOOR^(-SHARE/p). The minimum
-        # of ``root`` and ``most`` is stored in ``previous`` for the next accepted step. The assignment that
-        # contains ``trend`` is executed before ``previous`` is overwritten. Therefore ``trend`` contains the
-        # number that was stored after the preceding accepted step. If the caller gave no step size, the
-        # factor ``proposed`` is SAFETY norm^(-1/p) after the first accepted step.
+        # If the caller gave no step size, the factor after the first accepted step is SAFETY norm^(-1/p).
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # If the trial directly before this step was rejected, the step size does not grow after this step
         # (Hairer, Norsett and Wanner).

@@ -101,7 +101,7 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
 
 
 def of_step(kernel: Kernel, work: Work) -> Amounts:
-    """Return the amounts of work in a step, without the work for sweeps and for matrices."""
+    """Return the amounts of work in a step, except those of :func:`of_sweep` and :func:`of_matrix`."""
     # The time of the warm start is proportional to the number of unknowns in all substeps.
     unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
     return of_operations(work[STEP]) + Amounts(unknowns=unknowns)
@@ -137,8 +137,8 @@ def inversion(n: int) -> Amounts:
 class StepCost:
     """Predicts the cost of a step of one kernel.
 
-    ``sweeps`` contains the average number of sweeps in a step for each loop of the kernel. ``matrices``
-    contains the average number of computed matrices in a step for each loop.
+    ``sweeps[k]`` is the average number of sweeps that loop k of the kernel makes in a step. ``matrices[k]``
+    is the average number of matrices that loop k computes in a step.
     """
 
     def __init__(self, kernel: Kernel) -> None:

@@ -11,8 +11,8 @@ loop has converged in three cases:
   rounding errors. A small change alone does not prove convergence, because a slow iteration makes small
   changes far from the solution.
 - *still*: the change no longer decreases and is at most the tolerance of the loop times ``scale``.
-- *lost*: the change no longer decreases, and the step size h times the change is below the rounding errors of
-  the state. This case is needed if an unknown is a small difference of large numbers.
+- *lost*: the change no longer decreases, and the change multiplied by the step size is below the rounding
+  errors of the state. This case is needed if an unknown is a small difference of large numbers.
 
 If a change is not finite, the loop ends with the status NOT_FINITE.
 
@@ -171,12 +171,13 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the test whether h times CHANGE is below the rounding errors of the state.
+        """Return the test whether the change of the unknowns is below the rounding errors of the state.
 
-        If the unknowns belong to a variation (a tangent vector at the state), the test uses the rounding
-        errors of the variation in place of the rounding errors of the state.
+        The change is multiplied by the step size. If the unknowns belong to a variation (a tangent vector at
+        the state), the test uses the rounding errors of the variation in place of the rounding errors of the
+        state.
         """
-        # The array ``vector`` contains the tangent vector.
+        # The array ``vector`` contains the variation.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -205,7 +206,8 @@ class Stopping:
         the absolute values of the unknowns. The rate is ``change`` divided by its value in the previous
         sweep. The bound is :data:`FOUR_ROUNDINGS` times ``scale``. The loop has converged in these cases:
 
-        - The rate is below 1/2, and the predicted next change is at most the bound.
+        - The rate is below 1/2, and the predicted next change (the rate times ``change``) is at most the
+          bound.
         - The rate is between 1/2 and 1, and the predicted sum of all later changes is at most the bound.
         - The rate is at least 1, and ``change`` is at most ``loop.tolerance * scale``.
         - The rate is at least 1, and the test :meth:`lost` is true.
@@ -248,11 +250,11 @@ class Stopping:
         The first rule that applies gives the status:
 
         - NOT_FINITE if the value of the term ``finite`` is an infinity or a NaN.
-        - OK if the flag ``converged`` and the test ``possible`` are true.
+        - OK if the flag ``converged`` is true, and ``possible`` is None or true.
         - NOT_CONVERGED in all other cases.
 
-        If the matrix of Newton's method is singular, the test ``possible`` is false. If there is no such
-        test, ``possible`` is None.
+        If the matrix of Newton's method is singular, the test ``possible`` is false. If no such test is
+        needed, ``possible`` is None.
         """
         # Comparisons with a NaN are false, so a NaN never sets the flag ``converged``.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))

@@ -163,8 +163,7 @@ class BandedMatrix(StoredMatrix):
         """The length of the array for the matrix h A(t_i) at one time t_i."""
         return self.n * len(self.matrix.offsets)
 
-    # A letter (a linear combination) has diagonals with the same offsets as A(t_i). Therefore the array of a
-    # letter is as long as the array for a time t_i.
+    # A linear combination of the matrices h A(t_i) has the same diagonals as each of the matrices.
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
@@ -193,7 +192,7 @@ class BandedMatrix(StoredMatrix):
             for place, d in enumerate(matrix.diagonals):
                 if d.offset == offset:
                     entries.append((term, d.entry, table_name(matrix, place)))
-        # The entry in row i is stored at place i of its diagonal.
+        # Entry ``number * n + i`` of ``result`` belongs to row i of the matrix.
         target = result[_at(number * self.n, i)]
         body = (
             *self.before(entries, i, j),
@@ -234,7 +233,7 @@ class FullMatrix(StoredMatrix):
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         super().__init__(matrix, columns, nodes)
-        # All names in ``hoisted`` are chosen here, because the properties below use the number of names.
+        # ``node_size`` depends on the number of names in ``hoisted``, so all names are chosen here.
         self.entries: list[tuple[int, Entry, str]] = []
         self.banded: list[tuple[int, int, Entry, str]] = []
         for term, (_, own_matrix) in enumerate(matrix.terms):
@@ -283,7 +282,7 @@ class FullMatrix(StoredMatrix):
         # C has no arrays of length zero, so ``result`` has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
         about = "The subexpressions of the entries of A(t) that contain neither the row i nor the column j."
-        # The subexpressions do not depend on h, so h is not a parameter.
+        # The emitted function does not need the step size h.
         time = tuple(t for t in moment if t.text != STEP.text)
         evaluated = Function(VALUE, about, (*time, *parameters, result), tuple(named))
         return [evaluated, self._row_sum(a), self._product(a, x, y)]

@@ -8,9 +8,9 @@ Fixed-point iteration assigns the images to the unknowns.
 Newton's method multiplies the residuals g(u) - u or r(u) by the inverse of a matrix and adds the product to
 the unknowns. The three forms of Newton's method use different matrices:
 
-- *Newton*: the matrix 1 - g'(u). The inverse matrix is stored for later sweeps and steps. If a change exceeds
-  ``Newton.CONTRACTION`` times the previous change, the next sweep computes a new matrix. The loop fails if a
-  new matrix is singular or does not reduce the change.
+- *Newton*: the matrix 1 - g'(u). The inverse matrix is stored for later sweeps and steps. If the change of
+  the unknowns in a sweep exceeds ``Newton.CONTRACTION`` times the change in the previous sweep, the next
+  sweep computes a new matrix. The loop fails if a new matrix is singular or does not reduce the change.
 - *simplified Newton*: the matrix 1 - g'(u), expanded to first order in h. Each step computes the matrix
   before its sweeps.
 - *residuals*: the matrix -r'(u), expanded to first order in h. Each inverse matrix is used for
@@ -61,7 +61,7 @@ WIDE = 12
 """The largest number of unknowns for which each entry of a matrix has its own emitted statement."""
 
 WIDEST = 20
-"""With more than WIDEST unknowns, fixed-point iteration computes their changes in a loop over arrays."""
+"""The largest number of unknowns for which fixed-point iteration emits a statement for each change."""
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
@@ -104,10 +104,10 @@ class _Loop:
 
     @cached_property
     def images(self) -> list[Term]:
-        """The variables for the images of the unknowns (the components of g(u) or r(u)).
+        """The variables for the components of g(u), or of r(u) for equations r(u) = 0.
 
-        Some images are variables of the kernel. For every other image, a new variable "next u" is used, where
-        u is the unknown.
+        The components are called images. Some images are variables of the kernel. For every other image, a
+        new variable "next u" is used, where u is the unknown.
         """
         loop = self.iteration.loop
         return [
@@ -131,11 +131,11 @@ class _Loop:
         return [*sequence, *self.rule.before()]
 
     def computed(self) -> list[Statement]:
-        """Return the statements of one sweep: they compute g(u), or r(u) for equations r(u) = 0."""
+        """Return the statements of a sweep that evaluate g(u) in u = g(u), or r(u) in r(u) = 0."""
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
-        # As in Jacobi's method, all images are computed before the unknowns are updated.
+        # As in Jacobi's method, the unknowns are updated only after the evaluation of all equations.
         for image, x in zip(self.images, self.iteration.images, strict=True):
             if image.text.startswith("next "):
                 sequence.append(Assign(image, value(x)))
@@ -193,7 +193,7 @@ class _FixedPoint(_Loop):
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return the statements that compute the changes in a loop, and the sum of the absolute changes."""
+        """Return statements that find the largest change by a loop, and the sum of the absolute changes."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
         # The maximum of the changes may ignore a NaN. Therefore the loop also sums the absolute values of the
@@ -293,7 +293,7 @@ class _Newton(_Loop):
         return [*sequence, *self.until_converged(body, astray, self.singular() if eliminated else None)]
 
     def singular(self) -> Term:
-        """Return the test whether the loop has failed because its matrix is singular.
+        """Return the test that is true if the loop has not converged and the matrix is singular.
 
         The result is valid only if the matrix is inverted by elimination.
         """
@@ -334,7 +334,7 @@ class _Newton(_Loop):
         return [*sequence, *([If(self.age > 0, tuple(counted))] if counted else [])]
 
     def matrix_counted(self) -> list[Statement]:
-        """Return the statement that increases the number of matrices in the statistics by 1.
+        """Return a list with the statement that increases the number of matrices in the statistics by 1.
 
         If ``counting`` is False, the list is empty.
         """

@@ -53,7 +53,7 @@ class Term:
     """A symbolic expression: an operation on terms, a name, or a constant.
 
     - ``text`` is the name of a variable, function or field.
-    - ``own`` is True for a name from the kernel (:class:`codegen.ir.kernel.Kernel`).
+    - ``own`` is True if ``text`` comes from a kernel (:class:`codegen.ir.kernel.Kernel`), otherwise False.
     - ``shape`` is the shape of an array, and () for a single value. A size of 0 means that the size is known
       only at run time.
     - ``optional`` is True for an argument that the caller may omit.
@@ -126,7 +126,7 @@ class Term:
         return _comparison("==", self, other)
 
     def differs(self, other: Operand) -> Term:
-        """Return the comparison ``self != other`` of counts or status codes."""
+        """Return the comparison ``self != other``. Both operands are counts or status codes."""
         return _comparison("!=", self, other)
 
     def __getitem__(self, index: Operand) -> Term:
@@ -176,7 +176,7 @@ def _arithmetic(op: str, x: Term, y: Operand) -> Term:
 
 
 def _comparison(op: str, x: Term, y: Operand) -> Term:
-    # If ``y`` is a Python number, ``x`` determines whether it becomes a real or a count.
+    # A Python number ``y`` becomes a count if ``x`` is a count or a flag, and a real otherwise.
     return Term(op, (x, _term(y, x)), Kind.FLAG)
 
 
@@ -196,7 +196,7 @@ def flag(name: str) -> Term:
 
 
 def own(name: str, *shape: int) -> Term:
-    """Return a real variable with a name from the kernel, or an array of reals with the given shape."""
+    """Return a variable of the kind REAL with a name from the kernel. With a shape, it is an array."""
     return Term("name", (), Kind.REAL, name, shape=shape, own=True)
 
 
@@ -273,7 +273,7 @@ def select(test: Term, yes: Operand, no: Operand) -> Term:
 
     An array language computes both values and selects one (:mod:`codegen.run.language`).
     """
-    # If ``yes`` is a term and ``no`` is a number, ``yes`` determines the kind of ``no``, and vice versa.
+    # If only one of ``yes`` and ``no`` is a term, this term determines the kind of the number.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)

@@ -59,7 +59,7 @@ LOOP = "loop"
 
 
 def is_looped(plan: Plan) -> bool:
-    """Return True if the kernel is inlined in a run.
+    """Return True if the kernel is inlined in the loop over the steps of a run.
 
     The kernel is inlined only if the state is small and the step is explicit.
     """
@@ -215,12 +215,8 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # During the run, ``state`` contains the initial state, and ``rows.add`` copies this initial state
-            # to the row. The array ``moving`` contains the current state, with the momentum in the body
-            # frame. The function LEAVE replaces the initial state in the row by the current state, with the
-            # momentum in the space frame. LEAVE computes this momentum as a sum. The first summand is the
-            # initial momentum in the row. The second summand is the increase of the momentum since the
-            # beginning of the run.
+            # LEAVE adds the increase of the momentum to the initial momentum, which ``rows.add`` has copied
+            # to the row.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.

@@ -1,4 +1,4 @@
-"""Trials of solvers: the sweeps and the Newton matrices of a few steps from the initial state are counted.
+"""Trials of solvers: count the sweeps and the Newton matrices in a few steps from the initial state.
 
 Python executes the statements of the emitted code (:mod:`codegen.run.execute`). Therefore the counts are
 those of the emitted code.
@@ -73,7 +73,7 @@ class Trials:
         time = [float(first)] if self.plan.time else []
         # The user chooses the run-time inputs later. In a trial they are zero.
         signals = [lambda t: (0.0,) * number] if number else []
-        # The exact step size is rounded once, as in the emitted example.
+        # The times are fractions, so only the conversion of the quotient to a double causes a rounding error.
         h = float(longer * (last - first) / PARTS)
         # No trajectory is stored.
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]

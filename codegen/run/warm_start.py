@@ -124,10 +124,7 @@ def _factors(start: Start) -> Term:
 
 
 def each(n: int, statement: Callable[[Term], Statement]) -> list[Statement]:
-    """Return the statements that execute ``statement`` for the indices 0 to n - 1.
-
-    If n is at most FEW, the result contains n separate statements.
-    """
+    """Return ``statement(k)`` for k = 0, ..., n - 1 if n is at most FEW, otherwise a loop over k."""
     if n <= FEW:
         # For few indices, separate statements are faster than a loop.
         return [statement(whole(k)) for k in range(n)]
@@ -197,7 +194,7 @@ class WarmStart:
         ]
         for k, partial in enumerate(sums):
             later, earlier = self.values[place][k], self.values[place + 1][k]
-            # The processor can compute the two products before the previous iteration ends.
+            # The products do not depend on ``partial``, so a processor can compute them early.
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),

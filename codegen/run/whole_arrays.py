@@ -40,10 +40,11 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
 
 
 def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term) -> list[Statement]:
-    """Return ``sequence``, but use parts of the array ``state`` in place of long copies.
+    """Return ``sequence`` without the statements that copy long parts of the array ``state``.
 
     An ``Array`` statement is removed if it copies at least SHORTEST consecutive entries of ``state``.
-    ``symbols`` are the names of the entries of ``state``.
+    Calls in the result use the part of ``state`` in place of its copy. ``symbols`` are the names of the
+    entries of ``state``.
     """
     places = {s: k for k, s in enumerate(symbols)}
     parts: dict[str, Term] = {}

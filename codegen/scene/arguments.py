@@ -42,7 +42,7 @@ def check_points(reader: Reader, group: LieGroup, action: object) -> None:
         raise SceneError(
             f"a point with {len(y)} coordinates",
             where=reader.name,
-            expected=f"a point with {size} coordinates, on which {group.name} acts by {action.name}",
+            expected=f"a point with {size} coordinates, because {group.name} acts by {action.name}",
         )
     try:
         width = len(action.velocity(domain, group, zero, y))

@@ -139,10 +139,7 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        # The potential is singular at the neutral element. The kinetic energy T(P) cannot be computed at this
-        # element, so T(P) = 0 is tried. With T(P) = 0, the formula ``split`` is V(q), which is the
-        # Hamiltonian H with zero in place of the momentum P. If H depends on P, V(q) differs from H. The
-        # function ``_same`` finds this difference, and H is not split.
+        # The Hamiltonian is singular at the neutral element, so a kinetic energy of zero is tried.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)

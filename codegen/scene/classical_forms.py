@@ -2,8 +2,7 @@
 
 A form is a problem on R^n with a map to the state of the scene. The first form uses the coordinates of the
 scene. Another form can use the body frame (:mod:`codegen.scene.body_frame`). If a factor of the group has a
-covering group, the last form can use the coordinates of the covering group. The covering group has fewer
-coordinates than the factor.
+covering group, the last form can use the coordinates of the covering group.
 """
 
 from __future__ import annotations
@@ -38,8 +37,7 @@ class ClassicalForm:
     A *state of the form* is a vector of coordinates on this R^n.
 
     - ``to_scene``: formulas that compute the state of the scene from the state of the form.
-    - ``from_scene``: formulas that compute the state of the form from a state of the scene that is near the
-      initial state.
+    - ``from_scene``: formulas for the inverse of ``to_scene``, valid near the initial state of the scene.
     - ``state``: a text that describes the coordinates on R^n.
     - ``conversion``: a text that describes the map to the state of the scene.
     """
@@ -111,9 +109,7 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # For each value of ``covered``, ``best`` is the change of coordinates that leads to the fewest
-        # operations. If ``best`` uses a covering group, ``best`` is yielded. If ``best`` uses the body frame
-        # and no covering group, ``best`` is yielded only for ``covered`` = False.
+        # Without covering groups, the second iteration would yield the same change as the first.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -319,7 +315,7 @@ class _Change:
         return "; ".join(dict.fromkeys(parts))
 
     def moving(self, leaf: _Leaf) -> bool:
-        """Return True if the velocity of the factor ``leaf`` is expressed in the body frame."""
+        """Return True if the velocity of ``leaf`` (a factor of the group) is in the body frame."""
         return self.body and leaf.group.offers(LeftTranslation) is not None and not leaf.group.abelian
 
     def evaluated(self, roots: Sequence[Expr], known: Bindings) -> tuple[Expr, ...]:
@@ -372,10 +368,10 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of the factor ``leaf`` in the body frame.
+        """Return the velocity of the factor ``leaf``.
 
-        ``roots`` contains the velocities of all factors in the space frame. If the factor has no left
-        translations, return the velocity in the space frame.
+        The velocity is in the body frame if the factor has left translations, otherwise in the space frame.
+        ``roots`` contains the velocities of all factors in the space frame.
         """
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])
         group = leaf.group.offers(LeftTranslation)

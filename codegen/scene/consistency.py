@@ -32,9 +32,9 @@ If the second formula is None, the first formula must equal the velocity f.y in 
 
 
 STEP_DIGITS, SLOPE_DIGITS = 10, 12
-"""Central differences use the step eps = 10^-STEP_DIGITS. The error of a central difference is about eps^2 =
-10^-20. This error is far below the tolerance 10^-SLOPE_DIGITS. The velocity of an action must agree with the
-central difference of ``actexp`` to SLOPE_DIGITS digits.
+"""The step 10^-STEP_DIGITS and the tolerance 10^-SLOPE_DIGITS of the central differences in check_action.
+
+The error of a central difference is about 10^-20, the square of the step.
 """
 
 
@@ -185,7 +185,7 @@ def check_flow(
                             f"the coordinate {orbit.symbols[k]} of the flow of {name} {verb} {orbit.text(x)} "
                             f"at {elapsed} = {orbit.text(there[elapsed])}",
                             where=orbit.name,
-                            expected=f"{orbit.text(y)}, from the equations of the part",
+                            expected=f"{orbit.text(y)}, by the differential equations of the part {name}",
                             hint="if the part is a sum of terms whose flows do not commute, "
                             "define each term as a separate part",
                         )

@@ -2,10 +2,11 @@
 the discrete gradient (secant), and the bivector (section 2.6 of H. Marthinsen's thesis).
 
 Let gamma be the trivialised differential of the energy H (:func:`differential`). The bivector omega is a skew
-bilinear form on the dual g* of the Lie algebra g. A field that preserves H has the form x' = f(x).x with
-f = omega(gamma, .). For Hamilton's equations on T*G, omega is the canonical bivector. For all other
-equations, f is given, and omega is (gamma wedge f)/|gamma|^2. This formula identifies gamma with the element
-of g that has the same coordinates. The formula requires that f is zero wherever gamma is zero.
+bilinear form on the dual g* of the Lie algebra g. The field f of an equation x' = f(x).x that preserves H has
+the form f = omega(gamma, .). The dot in f(x).x denotes the action of the element f(x) of g on the state x.
+For Hamilton's equations on T*G, omega is the canonical bivector. For all other equations, f is given, and
+omega is (gamma wedge f)/|gamma|^2. This formula identifies gamma with the element of g that has the same
+coordinates. The formula requires that f is zero wherever gamma is zero.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ class Conservative(Protocol):
 
     @property
     def roots(self) -> tuple[Expr, ...]:
-        """The components of the field f in the equation y' = f.y."""
+        """The formulas of the field f in the equation y' = f.y. The values of f are in the Lie algebra."""
 
     @property
     def hamiltonian(self) -> Expr | None:
@@ -71,8 +72,9 @@ class Conservative(Protocol):
 def energy_of(problem: Conservative) -> Expr | None:
     """Return the energy of a problem, or None if the problem has no energy.
 
-    If ``problem`` describes one site of a lattice, the result includes the energies of its bonds. For a
-    problem without a Hamiltonian, the result is the invariant with the name ``energy``.
+    If ``problem`` describes one site of a lattice, the result is the energy of the site plus the energies of
+    all bonds of the site. For a problem without a Hamiltonian, the result is the invariant with the name
+    ``energy``.
     """
     if problem.sites is not None:
         return problem.sites.energy

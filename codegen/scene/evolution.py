@@ -56,7 +56,8 @@ class Evolution:
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
         """Convert the state y to these coordinates.
 
-        ``frame``: the group of q if y contains the momentum in the body frame, otherwise None.
+        ``frame`` is None if y contains no momentum in the body frame, otherwise the group of the
+        configuration.
         """
         if self.body is not None and frame is None:
             q, mu = self._split(y)
@@ -87,11 +88,7 @@ class Evolution:
             return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
-        # ``before`` is the old momentum mu, converted to the body frame and back to the space frame. The two
-        # conversions cause rounding errors. ``after`` is the new momentum, converted from the body frame to
-        # the space frame. The rounding errors of ``after`` and ``before`` are similar, so most errors cancel
-        # in ``after`` - ``before``. This difference is added to the given values mu, which have no such
-        # errors.
+        # The rounding errors of the two converted momenta nearly cancel in their difference.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
@@ -165,7 +162,7 @@ def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
 def evolution(scene: Problem) -> Evolution:
     """Return the :class:`Evolution` whose equations contain the fewest products of two power series.
 
-    For a lattice, the result uses all coordinates of one site.
+    If ``scene`` describes one site of a lattice, the result uses the coordinates of the scene.
     """
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]

@@ -82,7 +82,7 @@ def _timed(problem: Problem) -> Expr:
     """Return the time-dependent Hamiltonian of a problem. Raise SceneError if the problem has none."""
     if problem.hamiltonian is None or not problem.paired:
         raise SceneError(
-            f"{problem.name} has no momentum u conjugate to the time",
+            f"{problem.name} cannot be extended by a momentum u conjugate to the time",
             expected="a Hamiltonian scene, or a linear scene y' = A(t).y",
         )
     if not _reads(problem.hamiltonian, TIME):

@@ -38,7 +38,7 @@ def FieldScene(
     - ``y``: the sympy symbols of the coordinates, as a column.
     - ``f``: a column of ``group.dim`` formulas in the coordinates, in the symbol ``t`` and in parameters.
     - ``y0``: the exact initial point.
-    - ``span``: the rational time interval.
+    - ``span``: the start time and the end time, as rational numbers. The end time is larger.
     - ``velocity``: formulas for y', to check ``f`` and ``action``.
     - ``invariants``: a map from names to scalar formulas.
     - ``coordinates``: the coordinate map of Runge-Kutta-Munthe-Kaas methods: "exp", "cayley", "second_kind",
@@ -49,7 +49,7 @@ def FieldScene(
     - A formula has a wrong shape or contains an unknown symbol.
     - The initial point is not on the manifold.
     - The coordinate map is not defined for the group.
-    - The formulas of ``action`` are wrong.
+    - The neutral element moves a point, or ``action.velocity`` differs from the derivative of the action.
     - ``velocity`` differs from f(y).y.
     - An invariant is not constant along solutions.
     """

@@ -191,7 +191,7 @@ class TestAReaderOfAScene:
     @pytest.mark.parametrize(
         ("group", "action", "n", "expected"),
         [
-            (SO3(), Conjugation(), 6, "a point with 9 coordinates, on which SO.3. acts by conjugation"),
+            (SO3(), Conjugation(), 6, "a point with 9 coordinates, because SO.3. acts by conjugation"),
             (SO3(), Columns(2), 3, "a point with 6 coordinates"),
             (SE2(), CoadjointAction(), 4, "a point with 3 coordinates"),
             (SE2(), RightMultiplication(), 3, "a point with 4 coordinates"),

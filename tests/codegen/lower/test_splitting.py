@@ -414,8 +414,9 @@ def test_what_is_stated_to_be_a_flow_and_is_none_is_refused(flow, message):
     with pytest.raises(SceneError) as failure:
         stated(flow)
     assert f"the flow of T {message}" in str(failure.value)
-    assert "from the equations of the part; if the part is a sum of terms whose flows do not commute" in str(
-        failure.value
+    assert (
+        "by the differential equations of the part T; if the part is a sum of terms whose flows do not"
+        in str(failure.value)
     )
 
 

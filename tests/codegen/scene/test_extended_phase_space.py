@@ -131,7 +131,7 @@ def test_a_part_without_time_takes_u():
     [
         (
             "driven_spin+u",
-            "driven_spin has no momentum u conjugate to the time; expected a Hamiltonian",
+            "driven_spin cannot be extended by a momentum u conjugate to the time; expected a Hamiltonian",
         ),
         ("dipole+u", "the Hamiltonian of dipole does not depend on time"),
     ],
