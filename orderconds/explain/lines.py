@@ -15,8 +15,8 @@ class Style:
     ``last`` is the corner at the last branch of a vertex, and ``fork`` is the junction at each other branch.
     ``rail`` is a part of the vertical line between two branches.
 
-    If ``legs`` of a vertex is not None, a text such as ``(▸*▸)`` follows the vertex in the drawing. The text
-    lists edges from left to right: ``▸`` is the edge to a branch, and ``*`` is the edge to the parent.
+    A text such as ``(▸*▸)`` after a vertex lists edges from left to right: ``▸`` is the edge to a branch, and
+    ``*`` is the edge to the parent.
 
     >>> ASCII.signs["white"], UNICODE.signs["white"]
     ('o', '○')

@@ -73,7 +73,8 @@ class ActionFamily(Family):
         return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all trees of the given order. Simple conditions come first.
+        """Return the conditions of all trees of the given order, sorted by the attribute ``key`` of the
+        trees.
 
         The attribute ``relation`` of a dependent condition expresses its left-hand side as a polynomial in
         the left-hand sides of independent conditions.
@@ -104,10 +105,10 @@ class ActionFamily(Family):
         }
 
     def dependence_holds(self, order: int) -> bool:
-        """Return True if the :meth:`relations` of the given order pass a test over the rational numbers.
+        """Return True if the polynomials ``relations(order)`` pass a test in rational arithmetic.
 
-        The relations are computed modulo primes. The test evaluates the relations for the exact flow and for
-        one method with random rational coefficients.
+        The polynomials are computed modulo primes. The test evaluates the polynomials for the exact flow and
+        for one method with random rational coefficients.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 

@@ -3,14 +3,14 @@
 The conditions contain coefficients of words in a product of exponentials. The letters of a word are trees.
 Let u be a word of k letters. The coefficient of u is a sum over all indices with ``j_1 <= ... <= j_k``. In
 each term, the n-th letter of u comes from the exponential with index j_n. The term is a product of k factors.
-The n-th factor is the coefficient of the n-th letter in the exponent with index j_n. For each exponential,
-the term is also divided by r!, where r is the number of letters that come from this exponential.
+The n-th factor is the coefficient of the n-th letter in the exponent with index j_n. If r letters come from
+the same exponential, the term has the additional factor 1/r!.
 
 This sum is split into sums whose indices increase strictly. A run consists of all letters that come from one
-exponential. Each division of u into runs gives one sum. This sum has one index for each run.
+exponential. Each way to cut u into runs gives one sum. This sum has one index for each run.
 
 If the k letters are equal, the coefficient of u is S^k/k!, where S is the sum of the letter's coefficients in
-all exponents. Printed conditions contain no denominator k!, because both sides are multiplied by k!
+all exponents. Both sides of each printed condition are multiplied by the denominators k! of such words
 (:func:`multiplier`).
 """
 
@@ -43,16 +43,15 @@ from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
 """A word. At most one letter of the word is a string, the name of a stage. Every other letter is an action
-tree. The velocity of each stage is a linear combination of letters. Let the letter x be the name of stage i.
-In the velocity of stage i, x has the coefficient one. In the velocities of all other stages, x has the
-coefficient zero."""
+tree. The velocity of each stage is a linear combination of letters. If a letter is the name of a stage, the
+letter is added to the velocity of this stage."""
 
 
 def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    In a product of exponentials, the coefficient of a word of k equal letters has the denominator k!. The
-    factor is the product of k! over all such words in the tree.
+    In a product of exponentials, the coefficient of a word of k equal letters has the denominator k!. Each
+    ``Velocity`` in the tree contributes k! to the factor if its ``word`` consists of k equal letters.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -83,7 +82,7 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``.
+        """Return the coefficient of a word in the series of the group element of stage ``row``.
 
         If the word consists of k equal letters, return k! times the coefficient instead (see
         :func:`multiplier`).
@@ -93,11 +92,11 @@ class ActionFormula(ABC):
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
         """Return the coefficient of a word in the series of a group element.
 
-        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
-        group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
+        The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The velocity of each stage is a linear combination of letters. In the velocity of stage ``stage``, x
-        has the coefficient one. In the velocities of all other stages, x has the coefficient zero.
+        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
+        velocity of each stage is a linear combination of letters. The letter x is added to the velocity of
+        stage ``stage``.
         """
 
     def condition(self, tree: Velocity) -> Formula:
@@ -131,7 +130,7 @@ class ActionFormula(ABC):
 class ExponentialsFormula(ActionFormula):
     """The index sums of methods whose stages and update are products of exponentials.
 
-    The argument ``place`` of :meth:`exponent` and :meth:`around` is the index of an exponential.
+    In the methods of this class, the argument ``place`` is the index of an exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -149,7 +148,7 @@ class ExponentialsFormula(ActionFormula):
         to stage ``row``, or to the update if ``row`` is None."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``.
+        """Return the coefficient of a word in the series of the group element of stage ``row``.
 
         If the word consists of k equal letters, return k! times the coefficient instead (see
         :func:`multiplier`).
@@ -231,8 +230,8 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the coefficient of ``tree`` in one exponent of stage ``row``, or of the update if ``row`` is
-        None.
+        """Return the coefficient of ``tree`` in the exponent with the index ``place``. The exponent belongs
+        to stage ``row``, or to the update if ``row`` is None.
 
         The coefficient is ``a_ij tau_t(j)`` in stage i, and ``b_j tau_t(j)`` in the update. Here j is
         ``place``, and ``tau_t(j)`` is the result of :meth:`tau` for ``tree`` and stage j.
@@ -240,11 +239,13 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in the expansion of a group element.
+        """Return the coefficient of a word in the series of a group element.
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
-        Let xi be the velocity of stage ``stage``. Before the expansion, xi is replaced by xi + x, where x is
-        a new letter.
+
+        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
+        velocity of each stage is a linear combination of letters. The letter x is added to the velocity of
+        stage ``stage``.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -277,11 +278,13 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in the expansion of a group element.
+        """Return the coefficient of a word in the series of a group element.
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
-        Let xi be the velocity of stage ``stage``. Before the expansion, xi is replaced by xi + x, where x is
-        a new letter.
+
+        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
+        velocity of each stage is a linear combination of letters. The letter x is added to the velocity of
+        stage ``stage``.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -322,11 +325,13 @@ class MuntheKaasFormula(ActionFormula):
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in exp(X_i), where i is ``row``, or
-        in exp(Y) if ``row`` is None.
+        """Return the coefficient of a word in the series of an exponential.
 
-        Here x is a new letter. Its coefficient is one in the velocity of stage ``stage``, and zero in all
-        other velocities.
+        The exponential belongs to stage ``row``, or to the update if ``row`` is None.
+
+        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
+        velocity of each stage is a linear combination of letters. The letter x is added to the velocity of
+        stage ``stage``.
         """
         return self._exponential(row, (*before, stage, *after))
 
@@ -382,15 +387,15 @@ class MuntheKaasFormula(ActionFormula):
     def _terms(self, letters: int) -> Terms:
         """Return the terms of the truncated series dexpinv_X xi, as triples (q, m, n).
 
-        The triple (q, m, n) denotes the term ``q X^n xi X^m`` with m + n <= ``letters``.
+        The triple (q, m, n) denotes the term ``q X^n xi X^m``, in which X^m acts first. The sum m + n is at
+        most ``letters``.
         """
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # All other terms are zero. A word in X^m has at least m letters, and X^0 = 1 contains only the
-            # empty word.
+            # The power X^m must contain the word ``before``, and X^n must contain the word ``behind``.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):

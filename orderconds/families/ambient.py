@@ -37,5 +37,8 @@ class AmbientFamily(RungeKuttaFamily):
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order of the method in the family ``rk``."""
+        """Return the order of the method in the family ``rk``, or 0 if the order is unknown.
+
+        ``orders`` maps the labels of families to the orders of the method in these families.
+        """
         return orders.get("rk", 0)

@@ -79,8 +79,8 @@ class Family(ABC):
 
     # Relations to other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """Maps the names of other families to reasons why a method of order p in this family has at least order p
-    in the other family."""
+    """Each key is the name of another family. In that family, a method has at least the same order as in this
+    family. The value is the reason."""
     abelian: ClassVar[str | None] = None
     """The name of the family to which this family reduces on an abelian group, or None."""
     low_order: ClassVar[str | None] = None
@@ -88,9 +88,8 @@ class Family(ABC):
     bounds_others: ClassVar[bool] = False
     """True if ``check`` uses the order in this family to find bounds of the orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of families with the following property. If a low-storage (2N) scheme satisfies the
-    conditions of this family up to order p, the scheme also satisfies the conditions of the named families up
-    to order p."""
+    """The names of families in which a low-storage (2N) scheme has at least the same order as in this
+    family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
@@ -107,8 +106,8 @@ class Family(ABC):
     takes_cutoff: ClassVar[bool] = False
     """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order at which the compiler can minimise the number of brackets. The minimisation requires
-    that the series of dexpinv is not truncated."""
+    """The highest order of methods for which the compiler can minimise the number of brackets in one step.
+    The minimisation requires that the series of dexpinv is not truncated."""
     cutoff: int | None = None
     """The power of ad after which the series of dexpinv or dexp is truncated. None means no truncation."""
 
@@ -123,8 +122,8 @@ class Family(ABC):
     """True if a search considers only symplectic tableaux: b_i a_ij + b_j a_ji = b_i b_j for all i and j."""
     equal_abscissae: ClassVar[bool] = False
     """In some families, each stage i has three abscissae: c_i for the position, chat_i for the forces, and
-    m_i for the transport of the momentum (:mod:`orderconds.solve.abscissae`). The value is True if
-    c_i = chat_i = m_i for each stage i of every method that has positive weights and at least order three."""
+    m_i for the transport of the momentum (:mod:`orderconds.solve.abscissae`). The value is True if positive
+    weights and order three imply c_i = chat_i = m_i."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed, or None if there is no limit."""
 
@@ -251,7 +250,7 @@ class Family(ABC):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should state the order in this family, else None."""
+        """Return the family if a complete file of ``tableau`` states the order in it, else None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
@@ -286,15 +285,15 @@ class Family(ABC):
     def stability_coefficients(self) -> tuple[Fraction, ...] | None:
         """Return the coefficients of the stability polynomial, with the constant term first.
 
-        Return None for a family with a tableau.
+        Return None if the polynomial depends on a tableau.
         """
         return None
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the unknown coefficients of a method with ``stages`` stages, for use in a search.
 
-        Raises :class:`~orderconds.errors.InputError` if methods of this family with equal numbers of stages
-        can have different numbers of coefficients.
+        Raises :class:`~orderconds.errors.InputError` if ``stages`` does not determine which coefficients
+        exist.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 
@@ -326,11 +325,12 @@ class Family(ABC):
         return 0
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if ``method`` is proved to be symmetric. By default, return False."""
+        """Return True if ``method`` is proved to be symmetric. The base class always returns False."""
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return another family with fewer conditions, and ``method`` as a method of the other family.
+        """Return another family with fewer conditions. The result also contains ``method`` in a tableau
+        format of the other family.
 
         If ``method`` satisfies the conditions of the other family, ``method`` satisfies the conditions of
         this family. Return None if no such family is known.
@@ -378,8 +378,8 @@ class Family(ABC):
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
         """Return pairs (label, bound), where ``label`` is the label of a family.
 
-        If a symmetric method has the order ``order`` in this family, its order in the family ``label`` is at
-        least ``bound``.
+        For a symmetric method of order ``order`` in this family, ``bound`` is a lower bound of the order in
+        the labelled family.
         """
         return ((self.label(), order),)
 

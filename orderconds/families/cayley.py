@@ -67,13 +67,15 @@ class CayleyFamily(MagnusFamily):
         )
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient of a word in Omega, where cay(Omega) is the exact flow."""
+        """Return the coefficient of ``word`` in the series Omega. The Cayley transform of Omega is the exact
+        flow."""
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Express the coefficient of ``word`` in Omega by the coefficients of independent words.
+        """Express the coefficient of ``word`` in Omega by the coefficient of an independent word.
 
-        The result is the coefficient of one independent word (see :meth:`independent`), times 1, -1 or 0.
+        The method :meth:`independent` returns the independent words. The factor between the two coefficients
+        is 1, -1 or 0. If the factor is 0, the result is empty.
         """
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}

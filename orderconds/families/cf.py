@@ -2,9 +2,9 @@
 
 Each exponent is a linear combination of the values k_j of the vector field at the stages. The update with m
 exponentials is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the rightmost exponential acts
-first. In stage i, the coefficients alpha_iIj replace beta_Ij, where I is the index of the exponential
-(Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A method may compute stage i from the value of an
-earlier stage. Then the product of stage i includes the exponentials of the earlier stage.
+first. Stage i has coefficients alpha_iIj instead of beta_Ij, where I = 1, 2, ... is the number of the
+exponential (Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A method may compute stage i from the value
+of an earlier stage. Then the product of stage i includes the exponentials of the earlier stage.
 
 Printed conditions contain alpha, beta and three sums: b_j = sum_I beta_Ij, a_ij = sum_I alpha_iIj and the
 abscissae c_i = sum_j a_ij.

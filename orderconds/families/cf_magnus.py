@@ -3,9 +3,9 @@
 The step with m exponentials is exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i). Here A_i = h A(c_i h), and
 c_i are the nodes.
 
-The letter k of a word denotes X_k in the expansion A(t) = X_1 + t X_2 + .... A word must have the same
-coefficient in the step and in the exact flow (Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519; Alvermann
-and Fehske, J. Comput. Phys. 230 (2011) 5930).
+The letter k of a word denotes X_k in the expansion A(t) = X_1 + t X_2 + .... The order condition of a word
+states that the word has the same coefficient in the step as in the exact flow (Blanes and Moan, Appl. Numer.
+Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
     formats = ("magnus",)
     symbols = MagnusFamily.symbols
     implies: ClassVar[Mapping[str, str]] = {
-        "magnus": "a product of exponentials is also a single exponential"
+        "magnus": "a product of exponentials is the exponential of its logarithm"
     }
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -38,8 +38,8 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
     name = "cg"
     description = (
-        "Crouch-Grossman methods: exp(h b_s k_s) ... exp(h b_1 k_1) y0; in stage i, a_ij replaces b_j "
-        "(HLW IV.8.1)."
+        "Crouch-Grossman methods: the update is exp(h b_s k_s) ... exp(h b_1 k_1) y0; in stage i, a_ij "
+        "replaces b_j (HLW IV.8.1)."
     )
     formats = ("rk",)
     illustrates = ("ordered", "forests", "lyndon")

@@ -1,8 +1,8 @@
 """Compositions of a method Phi and its adjoint Phi*, or of symmetric methods.
 
 The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. If Phi_h
-is symmetric, X_2, X_4, ... are zero. The logarithm of Phi_{alpha h} is the sum of alpha^k h^k X_k over k. The
-logarithm of the adjoint Phi*_{beta h} is the sum of -(-beta)^k h^k X_k over k.
+is symmetric, X_2, X_4, ... are zero. For the step size alpha h, the method is Phi_{alpha h} = exp(alpha h X_1
++ alpha^2 h^2 X_2 + ...). The logarithm of the adjoint Phi*_{beta h} is the sum of -(-beta)^k h^k X_k over k.
 
 A word is a product of letters. The letter k denotes X_k and has the weight k. The condition of a word states
 that the word has the same coefficient in the series of one step as in the series of the exact flow (HLW
@@ -41,7 +41,8 @@ if TYPE_CHECKING:
 class CompositionFamily(WordFamily):
     """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}.
 
-    Here Phi_h is a method with step size h, and Phi*_h is the adjoint method.
+    Here Phi_h is a method with step size h, and Phi*_h is the adjoint method. The example prints the word 2
+    and the condition of this word.
 
     >>> for condition in CompositionFamily().conditions(2):
     ...     print(condition.tree, condition)
@@ -65,7 +66,7 @@ class CompositionFamily(WordFamily):
         ),
         "symmetric_composition": "every symmetric composition is a composition",
         "splitting": (
-            "if Phi is a product of two flows, the composition is a splitting of the same order "
+            "if the basic method is a product of two flows, the composition is a splitting of the same order "
             "(McLachlan 1995)"
         ),
     }

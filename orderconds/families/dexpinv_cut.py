@@ -73,9 +73,7 @@ class DexpinvCut(Family):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order that a method has in this family.
 
-        ``orders`` maps the names of other families to the orders of the method in these families. The module
-        docstring defines p and R. The result is at least min(p, R + 2). If ``cutoff`` is None, the result is
-        at least p.
+        ``orders`` maps the names of other families to the orders of the method in these families.
         """
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
@@ -87,7 +85,7 @@ class DexpinvCut(Family):
         return min(order, kept + 2)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Describe which conditions the truncation of dexpinv does not change.
+        """Return an object that tests whether the truncation of dexpinv changes a condition.
 
         Return None if :attr:`abelian` is None, or if ``method`` is not a Runge-Kutta tableau.
         """

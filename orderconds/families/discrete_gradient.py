@@ -47,7 +47,7 @@ class DiscreteGradientFamily(Family):
             raise InputError(
                 f"there are no conditions of order {order}",
                 where=f"family {self.name}",
-                expected="order 1 or 2, because no discrete gradient method has a higher order",
+                expected="order 1 or 2, because no method of this family has a higher order",
             )
         return tree_conditions(tuple(rooted_trees(order)), self.name)
 

@@ -81,7 +81,8 @@ def weight_conditions(
     """Return the order conditions of the trees.
 
     The function ``switching`` expresses the elementary weights of some trees as polynomials in the elementary
-    weights of other trees. If ``switching`` is given, each dependent condition stores its polynomial as text.
+    weights of other trees. If ``switching`` is given, the attribute ``relation`` of the conditions contains
+    the polynomials as text.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -119,7 +120,7 @@ def _summed(
     """Return an index sum for ``tree``.
 
     The summand is a product. Its first factors are ``factors``. The branches of the root give the other
-    factors. The last of the summation indices ``indices`` is the index of the root.
+    factors. The last element of ``indices`` is the summation index of the root.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

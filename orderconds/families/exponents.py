@@ -49,7 +49,7 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     extent = extents(elements)
 
     def sum_over_cuts(first: Term, then: Term, word: Word) -> Element:
-        """Return the coefficient of a word in the product of ``then`` and ``first``. ``first`` acts first."""
+        """Return the coefficient of ``word`` in the product of two terms. The term ``first`` acts first."""
         result = ring.zero
         (least, most), (low, high) = extent(first), extent(then)
         for k in range(max(least, len(word) - high), min(most, len(word) - low) + 1):

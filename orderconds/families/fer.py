@@ -76,8 +76,8 @@ class FerFamily(MagnusFamily):
                 "the exponent that acts last contains commutators, or another exponent has terms without "
                 "commutators",
                 where=f"family {self.name}",
-                expected="no commutators in the exponent that acts last, and only commutators as terms of "
-                "the other exponents",
+                expected="the exponent that acts last contains no commutators, and all terms of the other "
+                "exponents are commutators",
                 hint="use the family 'magnus'",
             )
 

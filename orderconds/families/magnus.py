@@ -56,8 +56,8 @@ class MagnusFamily(WordFamily):
     )
     formats = ("magnus",)
     symbols: ClassVar[Mapping[str, str]] = {
-        "omega": r"$\omega_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in $\Omega$, with $A_i = h "
-        r"A(c_i h)$",
+        "omega": r"$\omega_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in $\Omega$, where "
+        r"$A_i = h A(c_i h)$ acts first",
         "c": r"$c_i$ are the nodes",
         "b": r"$b_i$ are the coefficients of $A_i = h A(c_i h)$ in the exponent $F_1$",
         "phi": r"$\phi_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in the exponent $F_2$",
@@ -65,7 +65,7 @@ class MagnusFamily(WordFamily):
     }
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
         ("cf_magnus", "fer"),
-        "a product of exponentials is also a single exponential",
+        "a product of exponentials is the exponential of its logarithm",
     )
     transform: ClassVar[str] = "exp"
 
@@ -87,11 +87,7 @@ class MagnusFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the method is a Magnus method and its map is :attr:`transform`, else None.
-
-        If this family is returned, the tableau file should state up to which order the method satisfies the
-        conditions of this family.
-        """
+        """Return this family if the method is a Magnus method and its map is :attr:`transform`, else None."""
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
@@ -113,8 +109,8 @@ class MagnusFamily(WordFamily):
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the coefficient of ``word`` in the series Omega, as a linear combination of the
-        coefficients of Lyndon words in Omega."""
+        """Express the coefficient of ``word`` in Omega as a linear combination of coefficients of Lyndon
+        words."""
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -127,7 +123,7 @@ class MagnusFamily(WordFamily):
 
 
 def node_sum(name: str, word: Word) -> Formula:
-    """Return the sum over the nodes i, j, ... for a word.
+    """Return the index sum of a word. There is one summation index for each letter.
 
     Let p, q, ... be the letters of the word. If ``name`` is "omega", the terms of the sum are
     omega_{ij...} c_i^(p - 1) c_j^(q - 1) ....
@@ -142,8 +138,8 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Return the coefficient of ``word`` in a Lie element as a linear combination of the coefficients of
-    Lyndon words. The linear combination is the same for all Lie elements.
+    """Express the coefficient of ``word`` in an arbitrary Lie element as a linear combination of coefficients
+    of Lyndon words. The linear combination is the same for all Lie elements.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}

@@ -52,8 +52,7 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. The tableau file states the order in the family ``prk``. The order in this family is
-        the same."""
+        """Return None, because the order in this family is equal to the order in the family ``prk``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

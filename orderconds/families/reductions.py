@@ -1,11 +1,11 @@
-"""Reductions: theorems that imply some or all conditions of an order. The implied conditions are not
-evaluated.
+"""Reductions: theorems that imply order conditions of a method. The implied conditions are not evaluated.
 
 ``check`` evaluates the conditions of order n only if all conditions of lower order hold. There are three
 reductions:
 
-- *symmetry*: if n is even and the method is symmetric, the conditions of order n hold, because the order of a
-  symmetric method is even (HLW II.3, Theorem 3.2);
+- *symmetry*: the order of a symmetric method is even (Hairer, Lubich and Wanner, *Geometric Numerical
+  Integration* (HLW), II.3, Theorem 3.2). Therefore, if n is even, the conditions of lower order imply the
+  conditions of order n;
 - *substitution*: for some methods, the conditions of another family imply all conditions of order n and are
   faster to evaluate. For a symplectic pair with b = bhat, the conditions of free trees with directed edges
   imply the conditions of all rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
@@ -41,7 +41,7 @@ class Substitute(Struct, frozen=True):
 
 
 class UnseenCut(Struct, frozen=True):
-    """A test whether the truncation of dexpinv changes a condition.
+    """The data that determine which coefficients the truncation of dexpinv does not change.
 
     ``order`` is the order of the method without truncation. The function ``length`` returns the length of the
     longest word in the formula for the coefficient of a tree or forest. If this length is at most
@@ -58,8 +58,7 @@ class Reductions(Struct, frozen=True):
 
     ``even`` is true if the method is symmetric. ``substitute`` is None, or contains a family whose conditions
     imply the conditions of the original family. ``cut`` is None or an :class:`UnseenCut`. An
-    :class:`UnseenCut` belongs to a method that truncates the series of dexpinv. The method without the
-    truncation satisfies every condition of order at most ``cut.order``.
+    :class:`UnseenCut` belongs to a method that truncates the series of dexpinv.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]
@@ -88,7 +87,8 @@ class Reductions(Struct, frozen=True):
         """Return True if the test ``cut`` shows that the condition of the tree or forest ``key`` holds. The
         order of the condition is ``n``.
 
-        Without truncation of dexpinv, the method has at least order ``cut.order``. If ``cut.length(key)`` is
-        at most ``cut.longest``, the truncation does not change the left-hand side.
+        Without truncation of dexpinv, the condition holds if ``n`` <= ``cut.order``. The truncation does not
+        change the left-hand side if ``cut.length(key)`` <= ``cut.longest``. The result is True if both
+        inequalities hold.
         """
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

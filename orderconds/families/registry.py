@@ -222,7 +222,7 @@ def get(name: str, **options: int | None) -> Family:
     family = family_class(base.replace("-", "_"))
     accepted = tuple(inspect.signature(family).parameters)
     if argument is not None and not accepted:
-        raise InputError(f"family {base} has no options, found {name!r}", expected=base)
+        raise InputError(f"family {base} has no options, but {name!r} contains an option", expected=base)
     if argument is not None:
         options = {accepted[0]: int(argument), **options}
     for option in options:

@@ -120,7 +120,7 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions. The attribute ``relation`` of each dependent condition is set.
+    """Return the conditions. If a condition depends on other conditions, its attribute ``relation`` is set.
 
     The relation is the text of a polynomial in left-hand sides of independent conditions. The function
     ``polynomial`` maps the key of a condition to the polynomial, and ``text`` converts a key to text.
@@ -178,9 +178,8 @@ def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> d
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
     r"""Express a coefficient of a group-like series as a polynomial in the coefficients of Lyndon words.
 
-    The argument ``forest`` is the word of the coefficient, and its letters are trees. In the series, the
-    coefficient of each word ``w`` is first multiplied by ``scale(w)``. The polynomial relates these scaled
-    coefficients.
+    The argument ``forest`` is the word of the coefficient, and its letters are trees. The polynomial relates
+    scaled coefficients: the coefficient of each word ``w`` is multiplied by ``scale(w)``.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

@@ -74,7 +74,8 @@ class RungeKuttaFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for Butcher tableaux, commutator-free methods and compositions, else None."""
+        """Return this family if the method of ``tableau`` is a Runge-Kutta method, a commutator-free method
+        or a composition of symmetric methods. Otherwise return None."""
         return cls() if isinstance(tableau.method, RungeKutta | CommutatorFree | Composition) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

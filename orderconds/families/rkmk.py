@@ -72,7 +72,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         "does not truncate dexpinv."
     )
     formats = ("rk",)
-    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a Lie group under addition"}
+    implies: ClassVar[Mapping[str, str]] = {
+        "rk": "a vector space is a Lie group; on a vector space, an RKMK method is a Runge-Kutta method"
+    }
     unknowns = "rk"
     minimal_brackets = 6
 
@@ -87,8 +89,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word in the forest ``key``. The forest itself is a word, and the
-        branches at each vertex form a word."""
+        """Return the length of the longest word in the forest ``key``. The letters of a word are trees. The
+        trees of the forest form a word, and the branches at each vertex form a word."""
         assert isinstance(key, bytes)
         return longest_word(key)
 
@@ -133,9 +135,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
             f" Above order {RANKED} the conditions of all Lyndon words are listed." if order > RANKED else ""
         )
         return (
-            f"Lyndon words over ordered trees give {counts} conditions of order 1, 2, ..., "
-            f"which are sufficient for every method on a group. For {self.label()} methods the listed "
-            f"conditions imply all conditions of Lyndon words.{beyond}"
+            f"For the orders 1, 2, ..., Lyndon words over ordered trees give {counts} conditions. These "
+            f"conditions are sufficient for every method on a group. For {self.label()} methods, the "
+            f"conditions in the list above imply the conditions of all Lyndon words.{beyond}"
         )
 
     def highest_order(self, limit: int) -> int:
@@ -214,9 +216,7 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # A term of dexpinv_u(x) is q u^n x u^m. The power u^m acts first and gives the letters before
-                # ``tree``. The factor x gives ``tree``. The power u^n gives the letters after ``tree``. Each
-                # factor u gives one or more letters, and u^0 gives none.
+                # In a term q u^n x u^m of dexpinv, u^m gives the letters before ``tree``.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
                     value = self.exponential(j, trees_of(branches(tree)))

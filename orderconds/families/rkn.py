@@ -8,10 +8,11 @@ for all x and y in B, also [x,[T,y]]. The brackets [x,y] of all x and y in B gen
 algebra. If T is quadratic in p and V depends on q only, every element of the ideal is zero. Therefore the
 part of the local error that lies in the ideal is zero, and this part gives no order conditions.
 
-A functional is a linear combination of words over T and V. Consider the functionals that are zero on the
-ideal. Each element of a basis of these functionals gives one condition. The numbers of independent conditions
-of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151;
-McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+A functional is a linear combination of words over T and V. The value of a functional at an element of the
+free algebra is the same combination of the coefficients of these words. Consider the functionals that are
+zero on the ideal. Each element of a basis of these functionals gives one condition. The numbers of
+independent conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci.
+Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -75,7 +76,8 @@ class NystroemFamily(Family):
             raise InputError(
                 "the splitting has no key rkn",
                 where=f"family {self.name}",
-                expected='rkn = "V", if [V,[V,[V,T]]] = 0 for the parts T and V',
+                expected='a line such as rkn = "V", which states that [V,[V,[V,T]]] = 0 for the parts T and '
+                "V of the splitting",
                 hint="use the family 'splitting'",
             )
 
@@ -138,7 +140,7 @@ class NystroemFamily(Family):
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
-        """Return a splitting T + V with random step sizes."""
+        """Return a splitting of T + V in which the step sizes of all flows are random."""
         return _nystroem(SplittingFamily().random_method(ring, generator, order))
 
     def _condition(self, functional: Functional) -> OrderCondition:

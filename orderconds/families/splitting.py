@@ -63,7 +63,7 @@ class SplittingFamily(WordFamily):
     }
     trees = "letters"
     illustrates = ("letters",)
-    implies: ClassVar[Mapping[str, str]] = {"rkn": "every splitting T + V is a splitting into two fields"}
+    implies: ClassVar[Mapping[str, str]] = {"rkn": "T and V are a special case of two arbitrary fields"}
     unknowns = "splitting"
 
     def __init__(self, parts: int = 2) -> None:

@@ -112,8 +112,7 @@ class SymplecticPartitionedFamily(Family):
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the tableau (a, b) is proved to be symmetric. In this case, the tableau (ahat, bhat)
-        is also symmetric."""
+        """Return True if the tableau (a, b) is proved to be symmetric."""
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:

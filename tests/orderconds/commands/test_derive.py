@@ -54,7 +54,7 @@ def test_counts_of_independent_conditions(family: str, counts: list[int]) -> Non
 
 def test_the_generating_set_of_rkmk_is_named_beside_its_independent_conditions() -> None:
     last = run("rkmk", "--order", "4").stdout.splitlines()[-1]
-    assert last.startswith("Lyndon words over ordered trees give 1, 1, 3, 8 conditions")
+    assert last.startswith("For the orders 1, 2, ..., Lyndon words over ordered trees give 1, 1, 3, 8 ")
 
 
 def test_all_prints_the_condition_of_every_tree() -> None:
