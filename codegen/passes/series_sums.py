@@ -73,8 +73,8 @@ class SeriesSums:
     def _groups(self, assign: Assign) -> list[list[Term]]:
         """Return groups of terms of the sum ``assign``. Each group has two or more terms.
 
-        A term is c f(ad_x) v with a coefficient c and a function f of ad_x. In a group, all x are multiples
-        of one element.
+        A term is c f(ad_x) v with a coefficient c and a function f of ad_x. The elements x of all terms in a
+        group are multiples of one element.
         """
         groups: list[list[Term]] = []
         for c, v in assign.terms:

@@ -1,7 +1,6 @@
 """Compute a sum as the negative of an earlier sum, if possible. A change of sign costs nothing.
 
-The pass is exact. The other passes would replace the negative of a sum by a new sum, in which each term is
-multiplied by -1. Therefore this pass runs last.
+The pass is exact. The pass runs last, because the other passes would undo its changes.
 """
 
 from __future__ import annotations

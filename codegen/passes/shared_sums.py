@@ -67,7 +67,7 @@ def _rule(
 def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations sum_k a_k L(x_k) that should be computed as L(sum_k a_k x_k).
 
-    For each L, the number of combinations must be smaller than the number of values L(x_k).
+    A combination is returned only if the new form needs fewer evaluations of L.
     """
     worthwhile: set[Share] = set()
     for statement in program.body:
@@ -89,9 +89,8 @@ def _worthwhile(program: Program) -> set[Share]:
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
     """Collect the terms a_k L(x_k) of the sum ``assign`` for each linear map L.
 
-    The result is a dictionary. Each key belongs to one map L. The key is the tuple of all pairs
-    (L(x_k), a_k/c), where c is the first of the coefficients a_k. Such a tuple is a :data:`Share`. The value
-    of the key is c.
+    For each L, c denotes the first of the coefficients a_k. The result is a dictionary. The keys are the
+    combinations sum_k (a_k/c) L(x_k) in the form of :data:`Share`, and the values are the numbers c.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:

@@ -20,8 +20,7 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        # Terms are sorted by the first appearance of their values, not by name, because passes introduce new
-        # names.
+        # Terms are sorted, because two sums with the same terms in different order are equal.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:

@@ -27,7 +27,10 @@ LEVELS = {
 
 @dataclass(frozen=True)
 class Text:
-    """The text of a term and its precedence. A line can end after each string in ``segments``."""
+    """The text of a term.
+
+    ``level`` is the precedence of the text. A line can end after each string in ``segments``.
+    """
 
     segments: tuple[str, ...]
     level: int = ATOM
@@ -39,7 +42,6 @@ class Text:
 
     def within(self, level: int) -> tuple[str, ...]:
         """Return the segments. If ``self.level`` is below ``level``, the text gets parentheses."""
-        # ``level = n + 1`` puts parentheses around a text of level n.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")
@@ -58,7 +60,7 @@ SHORT, LONG = 48, 80
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Return the whole text as one segment if its length is at most ``most``, otherwise ``segments``."""
+    """Return the segments joined by spaces, or ``segments`` if the joined text is longer than ``most``."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 

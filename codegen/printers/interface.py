@@ -20,10 +20,10 @@ LATTICE = ("dimension", "workspace")
 """The fields of :class:`Interface` that the manifest contains only for a lattice."""
 
 MODES = ("modes",)
-"""The fields of :class:`Interface` that the manifest contains only for a step on Fourier modes."""
+"""The fields that :meth:`Interface.as_json` omits if ``modes`` is False."""
 
 RUN = ("integrated", "controlled", "events", "dense")
-"""The fields of :class:`Interface` that the manifest contains only for runs to a given end time."""
+"""The fields that :meth:`Interface.as_json` omits if ``integrated`` is False."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class Interface:
 
     def workspace_of(self, sites: int) -> int:
         """Return the number of entries in the workspace of a lattice with ``sites`` sites."""
-        # Rows at power-of-two distances compete for the same cache lines, so each row is padded.
+        # The padding of the rows avoids cache conflicts.
         return self.workspace * padded(sites)
 
     @classmethod

@@ -18,7 +18,7 @@ class Recipe:
 
     - ``facts`` are (word, sentence) pairs, for example ("method", "RKMK on rk4 ..."), in the order of the
       header.
-    - ``left_out`` has one line for each operation or argument that the module does not need.
+    - ``left_out`` are the lines about omitted operations and omitted arguments.
     - ``initial``, ``h`` and ``steps`` are the initial state, step size and number of steps of the usage
       example.
     - ``defaults`` are the values of the run-time parameters in the scene.
@@ -48,7 +48,7 @@ The limit applies to states with more than :data:`LONGEST_STATE` coordinates.
 
 
 IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
-"""If the usage example sets no coordinates, it contains this comment (see :func:`entries_set`)."""
+"""The usage example contains this comment if :func:`entries_set` returns an empty tuple."""
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:

@@ -427,9 +427,9 @@ def _sign(c: Expr) -> int:
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
     """Return the sum of ``total`` and a product: the coefficient of ``term`` times ``entry``.
 
-    If ``total`` is None, return only the product. In the emitted code, the expression ``weight`` has the
-    value of the coefficient of ``term``. If the coefficient of ``term`` is 1 or -1, ``weight`` is None, and
-    only the sign of the coefficient is used.
+    If ``total`` is None, return only the product. ``weight`` is an expression for the coefficient of
+    ``term``. If the coefficient of ``term`` is 1 or -1, ``weight`` is None, and only the sign of the
+    coefficient is used.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

@@ -258,7 +258,10 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that set D to ``self.start``, extended by zeros. None means D = 0."""
+        """Yield the statements that copy ``self.start`` to ``self.target``. Missing rows are zero.
+
+        If ``self.start`` is None, all rows are zero.
+        """
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
         yield from self.loops.statements(Combination(self.target, terms))
@@ -271,17 +274,14 @@ class _Exponential:
         terms, order, factor = count("terms"), count("order"), real("ratio")
         first = self.gram.part(0, 0, m, k)
         entry = loops.entry(self.total, _ROW, _COLUMN)
-        # The current point is X = X_0 + B D. Let G = B^T B. The next statements compute the first m rows of
-        # B^T X = B^T X_0 + G D. The first k columns of B are X_0, so the first k columns of G are B^T X_0.
+        # ``total`` becomes the first m rows of B^T X, where X is the current point.
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
         moved_by = Multiplication(
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # The statements ``displaced`` multiply the first m rows of ``self.gram`` by ``self.target``, and add
-        # the product to ``self.total``. If ``self.start`` is None and ``part`` is 0, ``self.target`` is zero,
-        # so the addition is omitted.
+        # Without ``self.start``, the matrix ``self.target`` is zero in the first part.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (
@@ -296,7 +296,7 @@ class _Exponential:
             For(_PLACE, whole(self.total.size), added),
         )
         yield For(order, terms, series)
-        # The product of ``scale``, the core and the sum ``total`` is added to the displacement.
+        # The displacement increases by ``scale`` times the product of ``core`` and ``total``.
         yield from loops.statements(Multiplication(self.next, self.core, self.total))
         result = loops.array(self.target)
         moved = Assign(result[_PLACE], result[_PLACE] + scale * following[_PLACE])

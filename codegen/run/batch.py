@@ -140,8 +140,8 @@ def complete(name: str) -> str:
     """Return the name of the function that computes ``name`` for arguments of every size.
 
     The result is ``name`` itself, except for the sine and the cosine. The function with the name
-    ``near(name)`` (:func:`near`) may be wrong for large arguments. For an argument near zero, the functions
-    with the names ``complete(name)`` and ``near(name)`` return the same number.
+    ``near(name)`` (:func:`near`) may be wrong for large arguments. For arguments near zero, both functions
+    return the same number.
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')
@@ -177,7 +177,7 @@ def _advance_lanes(plan: Plan) -> Function:
         *loaded,
         *inside,
         *ends,
-        # ``check`` is 0 only if the new state is finite and the lane has not stopped in an earlier step.
+        # The lane advances only if ``check`` is 0, and x - x is 0 only for a finite x.
         Assign(check, paired([x - x for x in (*new, *unread)]) + stopped[_LANE]),
         *(
             # A selection between the new and the old value is used, because a branch would prevent vector

@@ -1,4 +1,4 @@
-"""Find out why the result of a step is not finite: the step size or the state.
+"""Decide whether the step size or the state is the cause of a failed step.
 
 After a failed step, the emitted function ``cause`` tries a step of size zero from the state before the failed
 step. If the step of size zero has a finite result, the failed step was too long, and the status is TOO_FAR.
@@ -52,7 +52,7 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
 
 def step_arguments(plan: Plan) -> tuple[Term, ...]:
     """Return the arguments of a step function, except the state, the time and the step size."""
-    # The step of size zero is only a test, so the statistics of the caller do not count it.
+    # The statistics of the caller do not count the test step of size zero.
     counted = tuple(absent(x) for x in plan.counted)
     # If a step consists of substeps, its function has no argument for an error estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None and not plan.parts else ()

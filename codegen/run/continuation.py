@@ -46,9 +46,10 @@ LARGEST_FACTOR = 4.0
 
 
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return a list with the statement that calls the continuation if a step fails.
+    """Return a list with one ``If`` statement.
 
-    If the steps of ``plan`` have no warm start, the list is empty, and failed steps are not repeated.
+    After a failed step, this statement calls the function CONTINUED. If the steps of ``plan`` have no warm
+    start, the list is empty, and failed steps are not repeated.
     """
     # Steps without a warm start store no solutions.
     if plan.start is None:

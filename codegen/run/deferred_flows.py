@@ -58,7 +58,7 @@ BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
 """The names of three emitted functions.
 
 - BEGIN applies the first flow of a step. BEGIN is not called if the previous step has applied this flow.
-- FINISH applies the flows that commute with all other flows of the method.
+- FINISH applies the deferred flows.
 - COMPLETE applies all flows of one step.
 """
 
@@ -123,12 +123,9 @@ class _Deferring:
     The class attributes represent local variables of the emitted functions.
     """
 
-    # ``lead`` is the duration of the last flow of the step. ``stop`` is True if all deferred flows are
-    # applied at the end of the step. ``begun`` is True if the last flow of the previous step includes the
-    # first flow of this step.
+    # ``begun`` is True if the previous step has already applied the first flow of this step.
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
-    # ``shown`` is True if the new state is written to the trajectory. ``careful`` is True if every step
-    # applies all flows. ``good`` is True if the last complete state is finite.
+    # ``careful`` requires a test of the state after every step, and ``good`` is the result of the last test.
     shown, careful, good, again = flag("shown"), flag("careful"), flag("good"), flag("again")
     # ``asked`` is the number of steps that the current attempt shall make.
     asked = count("asked")
@@ -176,7 +173,7 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
-            # FINISH completes the state after this step.
+            # FINISH applies the deferred flows of this step.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),
@@ -255,7 +252,7 @@ class _Deferring:
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # Without the limit LONGEST, the sine and cosine of a large deferred angle would have few correct
+            # Flows are deferred for at most LONGEST steps, because the sine of a large angle has few correct
             # digits.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]

@@ -49,7 +49,7 @@ class EmittedFloats(FloatDomain):
         half = 0.5 * math.sqrt(allowed)
         sine, cosine = math.sin(half), math.cos(half)
         ratio = sine / half
-        # Because sin(s) = 2 sin(s/2) cos(s/2), c_1 = sin(s)/s is the product of ``ratio`` and ``cosine``.
+        # The values of c_1 and c_2 follow from formulas for the half angle s/2.
         closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
         if 3 in orders:
             # For z up to SWITCH[3], the closed form c_3 = (1 - c_1)/z loses digits.

@@ -66,7 +66,7 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
     """Return the statement that sets the status BAD_EVENT if the buffer for events is too short."""
     if not observation.events:
         return ()
-    # The buffer needs one entry for each event function, because all may have an event at the same time.
+    # All event functions may have events at the same time, and each event needs one entry.
     full = both(STATUS.equals(code(OK)), observation.room < observation.events)
     return (If(full, (Assign(STATUS, code(BAD_EVENT)),)),)
 
@@ -106,7 +106,7 @@ class _Constant:
             If(negated(numbers), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
-            # If ``own_step`` is False, the function ``run`` makes the steps and declares the memory.
+            # If each step calls ``run``, the function ``run`` declares the memory.
             *(own_memory(plan) if self.own_step else []),
             Array(self.trial),
             Array(self.stop, zero=True),

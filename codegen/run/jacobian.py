@@ -143,8 +143,7 @@ class _Jacobian:
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []
         if plan.kernel.carried is not None:
-            # ``vary`` uses the momentum in the space frame, but a substep uses the momentum in the body
-            # frame.
+            # The substep needs the body momentum, so the momentum is converted before and after the substep.
             moving, before = plan.state(MOVING), momentum_before(plan)
             arrays = [Array(moving), Array(before)]
             moved = [

@@ -33,12 +33,12 @@ class Assign:
 class Array:
     """The declaration of an array or record.
 
-    The initial entries are ``values``. Without ``values``, all entries are 0 if ``zero`` is True.
+    The initial entries are ``values``. Without ``values``, all entries are 0 if ``zero`` is True, and
+    undefined otherwise.
     """
 
     name: Term
     values: tuple[Term, ...] = ()
-    # If ``values`` is empty and ``zero`` is False, the entries are undefined until they are assigned.
     zero: bool = False
 
 

@@ -100,7 +100,7 @@ class _Step:
         step = self.step
         self.size = step.argument.size
         self.stored: StoredMatrix = stored_matrix(step.matrix, step.argument.columns, len(step.times))
-        # Each element with commutators has its own function. All other elements use the function PRODUCT.
+        # An element that contains commutators has its own function.
         self.elements: list[Element] = []
         for pair in step.commutators:
             self.elements += [e for e in pair if e.commutators and e not in self.elements]
@@ -235,8 +235,7 @@ class _Step:
             applied,
             self.over(p, scale * work[_PLACE] + weight * state[_PLACE]),
         )
-        # At the end of Horner's rule, ``weight`` is m!, where m is the degree. The Taylor polynomial of
-        # exp(b) y is y + b (p/m!), where b is ``scale`` times X.
+        # All coefficients in Horner's rule have the factor ``weight``, so ``p`` is divided by ``weight``.
         part = (
             Assign(p, state),
             Assign(weight, number(1.0)),

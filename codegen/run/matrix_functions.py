@@ -134,7 +134,7 @@ class _Exponential:
         return array[place + self.one * part if part else place]
 
     def norm(self, array: Term, target: Term) -> Call:
-        """Return the statement that computes the norm of matrix 0 in the jet ``array``."""
+        """Return the statement that computes the norm of the first matrix in ``array``."""
         return Call(f"norm{self.n}", (array.part(0, self.one),), (target,))
 
     def _norm(self) -> Function:
@@ -177,7 +177,7 @@ class _Exponential:
         # The loop below adds the terms in the order of this sum, so the rounding errors are the same.
         if self.n <= UNROLLED:
             return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
-        # Each matrix of the jet has its own variable for the sum.
+        # The entry of the matrix ``part`` is summed in a separate variable.
         value = real(f"total_{part}" if self.level else "total")
         added = tuple(Assign(value, value + x) for x in terms(_TERM))
         loop = For(_TERM, whole(self.n), added)
@@ -237,7 +237,7 @@ class _Exponential:
         # power of the matrix.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
-        # The degree 4 suffices for norms up to ``first``, 8 up to ``second``, and 12 up to ``third``.
+        # The degree of the Taylor polynomial is 4 times ``chosen``.
         first, second, third, _ = self.norms
         chosen = select(
             norm > third, whole(4), select(norm > second, whole(3), select(norm > first, whole(2), whole(1)))
@@ -296,11 +296,11 @@ class _Exponential:
         ]
 
     def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
-        """Return the statements that square the jet ``result``. The number of squarings is ``squarings``.
+        """Return the statements that square ``result`` repeatedly. The number of squarings is ``squarings``.
 
-        ``growth`` is an upper bound of the spectral norm of the first matrix in ``result``. The emitted
-        statements also estimate the relative error. If the estimate exceeds 2^-LEAST_DIGITS, all entries of
-        ``result`` become NaN.
+        ``result`` contains a matrix and its derivatives. ``growth`` is an upper bound of the spectral norm of
+        the matrix. The emitted statements also estimate the relative error. If the estimate exceeds
+        2^-LEAST_DIGITS, all entries of ``result`` become NaN.
         """
         n, unit = self.n, self.precision.unit
         error, bound = real("error_bound"), real("bound")

@@ -1,9 +1,9 @@
 """Conversion of the momentum between the space frame and the body frame.
 
 The caller's state contains the space momentum, but the steps of a run use the body momentum. Rounding makes
-the group element q slightly non-orthogonal, so a conversion has an error. The increase of the space momentum
-during a run is a difference of two converted momenta, and the errors of the two conversions nearly cancel.
-This increase is added to the caller's momentum.
+the group element q slightly non-orthogonal, so a conversion has an error. At the beginning and at the end of
+a run, the body momentum is converted to the space momentum. The errors nearly cancel in the difference of the
+two results. This difference is added to the caller's momentum.
 """
 
 from __future__ import annotations

@@ -114,7 +114,7 @@ class Observation:
 
     @property
     def outputs(self) -> tuple[Term, ...]:
-        """The arguments for output times in calls of the emitted functions."""
+        """The four arguments of the emitted functions that describe the output times and the results."""
         return self.times, self.amount, self.rows, self.written
 
     @property
@@ -177,7 +177,7 @@ class Observation:
         return *inside, self.in_order(), *located, *dense, self.observed()
 
     def inside(self) -> Function:
-        """Return the function that computes a state inside a step."""
+        """Return the function that computes a state between the beginning and the end of a step."""
         plan = self.plan
         state, inner = plan.state(), self.inner
         time = (TIME,) if plan.time else ()
@@ -327,7 +327,7 @@ class Observation:
     def _moved(
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
-        """Return two tuples of statements. An event is enclosed between ``low`` and ``high``.
+        """Return two tuples of statements that shorten the interval from ``low`` to ``high``.
 
         The numbers ``low`` < ``middle`` < ``high`` are fractions of the step. The first tuple sets ``high``
         to ``middle``. The second tuple sets ``low`` to ``middle``.
@@ -461,7 +461,7 @@ class Observation:
         if self.events:
             # If an event ends the run, the function EVENTS sets ``stop`` to the time of this event.
             search = (Call(EVENTS, (*passed, *self.buffers, *self.memory, self.stop), (STATUS,)),)
-        # Output times beyond ``stop``, in the direction of the run, belong to later steps.
+        # In this step, no state after the time ``stop`` is computed.
         beyond = select(self.following > self.now, time > stop, time < stop)
         inside = select(self.following > self.now, time < stop, time > stop)
         good = STATUS.equals(code(OK))

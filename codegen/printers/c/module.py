@@ -209,9 +209,10 @@ def inverted_sizes(kernel: Kernel) -> set[int]:
 
 
 def inverted(kernel: Kernel) -> int:
-    """Return the size of the matrices that a step inverts by elimination, or 0.
+    """Return the common size of all matrices that a step inverts by elimination.
 
-    The result is 0 if the sizes differ or one size exceeds :data:`~codegen.run.sweeps.WIDE`.
+    The result is 0 if there are no such matrices, if the sizes differ, or if one size exceeds
+    :data:`~codegen.run.sweeps.WIDE`.
     """
     sizes = inverted_sizes(kernel)
     # A positive result requires that all matrices inverted by elimination have one common size, and that this
@@ -225,8 +226,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # FRAMES / 2 bytes are added for the emitted function ``invert``. If ``is_looped(plan)`` is true,
-    # FRAMES / 2 bytes are subtracted.
+    # The function ``invert`` needs more stack memory, and a run with an inlined kernel needs less.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],

@@ -92,7 +92,7 @@ class Terms(Infix):
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the texts of a fast test and an exact test.
 
-        If one of the two tests is true, all values are finite.
+        All values are finite if and only if at least one test is true.
         """
         # The first test is fast, but it may fail for finite values, because their sum may overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
@@ -229,7 +229,11 @@ class Terms(Infix):
         return Text(closed_call(name, [self.line(x) for x in term.args]))
 
     def converted(self, term: Term) -> Text:
-        """Return the conversion ``term``: ``wide`` to double, ``narrow`` to the format of the module."""
+        """Return the text of the conversion ``term``.
+
+        The operation ``wide`` converts to double. The operation ``narrow`` converts to the number format of
+        the module.
+        """
         (x,) = term.args
         inner = self.text(x)
         # In double precision all real numbers are doubles, so only integers need a conversion.

@@ -11,7 +11,7 @@ WIDTH = 100
 
 
 def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
-    """Return the text of the maximum of ``terms``, in segments between which a line may break.
+    """Return the text of the maximum of ``terms`` as segments. A line may break between two segments.
 
     The text is a balanced tree of calls ``name(x, y)``.
 
@@ -80,7 +80,7 @@ def fill(
 def together(statements: Sequence[str], width: int = WIDTH) -> list[str]:
     """Return the statements as lines, with as many statements on each line as fit.
 
-    ``width`` limits the length of a line plus 8 characters of indentation.
+    A line with several statements has at most ``width`` - 8 characters.
 
     >>> together(["a = 1;", "b = 2;", "c = 3;"], width=22)
     ['a = 1; b = 2;', 'c = 3;']

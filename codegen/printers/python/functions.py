@@ -170,7 +170,7 @@ class _Body:
                 break
             if group and not (self.follow(group, statement, True) or self.follow(group, statement, False)):
                 break
-            # The first assignment of ``body`` must read or write a list entry.
+            # A group cannot begin with an assignment that neither reads nor writes a list entry.
             if not group and _entry(statement.target) is None and _entry(statement.value) is None:
                 break
             group.append(statement)

@@ -86,7 +86,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 # The helpers ``_phi1`` and ``_bernoulli`` return the limit 1 at 0, instead of 0/0.
 CALLS = {"exp": "np.exp", PHI: "_phi1", BERNOULLI: "_bernoulli"}
-"""The Python names of the functions in the coefficients of a step."""
+"""The Python name of each mathematical function that a step can use."""
 
 
 def _functions(step: ModeStep) -> set[str]:

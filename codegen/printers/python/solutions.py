@@ -26,7 +26,7 @@ def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: flo
     remember, solved = module._remember, dict[int, list[float]]()
 
     def observe(memory: object, solution: Sequence[float]) -> None:
-        # Each substep has its own record ``memory``, so the identity of the record is the key.
+        # Each substep has its own record ``memory``, so ``id(memory)`` distinguishes the substeps.
         solved[id(memory)] = list(solution)
         remember(memory, solution)
 
