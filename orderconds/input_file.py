@@ -72,8 +72,7 @@ def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -
     """
     # The type is tested before the file is opened, because opening a device may have side effects.
     _require_regular(os.stat(path, follow_symlinks=not own), own)
-    # If another process replaces the file by a pipe after the test of the type, O_NONBLOCK keeps ``open``
-    # from blocking.
+    # O_NONBLOCK keeps ``open`` from blocking if another process has replaced the file by a pipe.
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(path, flags | (getattr(os, "O_NOFOLLOW", 0) if own else 0))
     with open(descriptor, "rb") as stream:

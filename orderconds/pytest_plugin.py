@@ -27,7 +27,7 @@ FLAGS = {
     "--orderconds-complete": "like --orderconds; require a claim in every family to which the method "
     "belongs; if the order in a family follows from another family, no claim is needed",
     "--orderconds-certified": "like --orderconds; a test fails if a claimed order is not proved",
-    "--orderconds-execute": "like --orderconds; a Python file is executed, and its arrays are read",
+    "--orderconds-execute": "like --orderconds; also execute each Python file and read its arrays",
 }
 
 SKIPPED = pytest.StashKey[dict[str, str]]()
@@ -43,7 +43,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--orderconds-tolerance",
         type=float,
         metavar="UNITS",
-        help="the uncertainty of a coefficient x that is a binary float, in units of 2^-53 max(1, |x|); "
+        help="a coefficient that is a binary float x has the uncertainty UNITS * 2^-53 * max(1, |x|); "
         "default: 8",
     )
 

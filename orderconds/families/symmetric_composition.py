@@ -145,9 +145,8 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # The step is symmetric, so a word of even weight has the coefficient 0 in
-    # log(S) = sum_m (-1)^(m+1)/m (S - 1)^m, where S is the series of one step. The term with m = 1 is S - 1.
-    # Hence the coefficient in S is minus the sum of the other terms.
+    # In the logarithm of the series, words of even weight have the coefficient zero, because the step is
+    # symmetric.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

@@ -6,7 +6,7 @@ Bernoulli number B_(r+1) is zero, so r and r + 1 define the same method.
 
 Let p be the order of the symplectic partitioned Runge-Kutta method with the same tableau. Let R = r + 1 for
 even r >= 2, and R = r for all other r. The order of the method of ``vrkmk(r)`` is min(p, R + 2). For some r,
-this number is larger than the bound in Theorem 3.5.3 of Bogfjellmo and Marthinsen.
+the order is larger than the lower bound in Theorem 3.5.3 of Bogfjellmo and Marthinsen.
 """
 
 from __future__ import annotations
@@ -66,11 +66,12 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return one condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
+        """Return the condition of the tree ``o(o|L(o ... o))`` with ``order`` vertices. Return None if
+        dexpinv is not truncated. Return None if ``order`` is less than 3.
 
-        The series dexpinv is truncated after the term with ad^r. Let R = r + 1 for even r >= 2, and R = r
-        for all other r. For ``order`` = R + 3, the returned condition contradicts the other conditions of
-        orders 1, ..., R + 3.
+        The series dexpinv is truncated after the term with ad^r. Let R = r + 1 for even r >= 2, and R = r for
+        all other r. No method of the family satisfies both the returned condition of order R + 3 and all
+        other conditions up to this order.
         """
         if self.cutoff is None or order < 3:
             return None

@@ -88,6 +88,5 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None, so that all conditions are evaluated. The result of the base class applies to
-        truncations of dexpinv, not of dexp."""
+        """Return None, so that all conditions are evaluated."""
         return None

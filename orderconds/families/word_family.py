@@ -48,8 +48,8 @@ class WordFamily(Family):
 
     @abstractmethod
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition that ``word`` defines. Both sides of the condition
-        contain the factor ``scale(word)``."""
+        """Return the left-hand side of the condition that ``word`` defines. The result includes the factor
+        ``scale(word)``."""
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -83,8 +83,8 @@ class WordFamily(Family):
         return " ".join(map(str, word))
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Express the coefficient of ``word`` as a polynomial in the coefficients of Lyndon words. All these
-        coefficients belong to the series of one step."""
+        """In the series of one step, express the coefficient of ``word`` as a polynomial in the coefficients
+        of Lyndon words."""
         return {tuple(sorted(monomial)): value for monomial, value in in_lyndon_words(word).items()}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:

@@ -75,7 +75,7 @@ def subscript(written: str, notation: Notation) -> str:
 def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Notation) -> str:
     """Return the text below a summation sign with the summation indices ``indices``.
 
-    Relations are joined to chains: ``i<j`` and ``j<k`` give ``i<j<k``. If i is not a summation index, the
+    The relations ``i<j`` and ``j<k`` are written as the chain ``i<j<k``. If i is not a summation index, the
     chain is reversed to ``k>j>i``, so that the chain starts with a summation index.
 
     >>> chains(["i", "j"], [("i", "<", "j")], TEXT)

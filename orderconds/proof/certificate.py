@@ -91,8 +91,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 
 class _Key:
-    """A key in the cache of proofs. The keys of one tableau object are equal. The keys of two objects are
-    equal if the objects are equal and their files have equal content."""
+    """A key in the cache of proofs. Two keys of the same tableau object are equal. The keys of two objects
+    are equal if the objects are equal and their files have equal content."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -124,8 +124,8 @@ def _certify(key: _Key, least: int) -> Certificate:
     if not proof.unknowns:
         raise NotProved(
             'every decimal is in the list "pins", so no decimal is an unknown; '
-            'remove some names from "pins"; or, if all decimals are exact, remove each "~" and the table '
-            "[proof]"
+            'remove the name of at least one decimal from "pins"; if all decimals are exact, '
+            'remove the table [proof] and the sign "~" after each decimal'
         )
     bits = max(least, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
     system = equations(tableau)
@@ -192,7 +192,8 @@ def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
 
 
 def _decimal(value: fmpq, unit: fmpq) -> str:
-    """Return ``value`` in decimal notation. It is a multiple of ``unit``, a power of ten."""
+    """Return ``value`` in decimal notation. The argument ``value`` must be an integer multiple of ``unit``,
+    and ``unit`` must be a power of ten."""
     places = len(str(unit.q)) - 1
     return f"{Decimal(int((value / unit).p)).scaleb(-places):f}" if places else str(value)
 

@@ -42,9 +42,10 @@ MAX_PRIMES = 24
 """Conditions are evaluated modulo at most this number of primes."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""A map from each dependent condition to a polynomial. Modulo one prime, the polynomial is equal to the
-left-hand side of the condition. A pair (x, y) of residues denotes the coefficient x + y sqrt(d), where
-sqrt(d) is the only square root in the tableau file. If there is no such square root, y is zero."""
+"""A map from each dependent condition to a polynomial. The polynomial expresses the left-hand side of the
+condition through left-hand sides of independent conditions. Let sqrt(d) be the argument ``surd`` of
+:func:`dependences`. A coefficient x + y sqrt(d) of the polynomial is stored as the pair (x, y) of residues
+modulo a prime. If ``surd`` is None, y is zero."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class Dependences:
     """The independent and the dependent conditions of a sub-family.
 
     - ``pivots``: the independent conditions.
-    - ``primes``: the primes of the computation.
+    - ``primes``: the conditions were evaluated modulo these primes.
     - ``residues``: one map :data:`Residues` for each prime.
     """
 
@@ -87,7 +88,9 @@ def dependences(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> Iterator[Dependences]:
-    """Yield the independent and the dependent conditions of a sub-family, computed modulo primes.
+    """Yield the independent and the dependent conditions among ``candidates``.
+
+    The conditions are evaluated modulo primes, for random methods that satisfy the formulas ``symbolic``.
 
     Each yielded object contains the results for all suitable primes so far. A prime is unsuitable if the
     formulas cannot be evaluated modulo this prime, or if a condition is dependent modulo this prime but not
@@ -183,8 +186,8 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """Two products over the conditions in ``factors``, modulo a prime: the product of the left-hand sides,
-    and the product of the right-hand sides.
+    """A product of order conditions modulo a prime. The left-hand sides and the right-hand sides are
+    multiplied separately.
 
     - ``factors``: the conditions.
     - ``members``: a vector with one entry for each method in a list of random methods. The entry is the

@@ -20,7 +20,7 @@ exactly, from the formulas in the file and not from the decimals:
 - ``spelling``: the formulas in the file define a sub-family of methods. In this sub-family, some conditions
   follow from the others (:mod:`orderconds.proof.subfamily`).
 
-The equations for the embedded method of a 2N scheme are the conditions of rooted trees
+For the embedded method of a 2N scheme, all conditions of the family ``rk`` are used
 (docs/explanation/two_registers.md).
 """
 
@@ -50,8 +50,8 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations for the unknowns of ``tableau``. Each rounded decimal approximates one unknown, except
-    the decimals in ``proof.pins``.
+    """The equations for the unknowns of ``tableau``. The unknowns are the exact values of the rounded
+    decimals in the file. The decimals in ``proof.pinned`` count as exact numbers and not as unknowns.
 
     ``facts`` contains the orders that the equations imply, as pairs (family, order).
     """
@@ -60,8 +60,8 @@ class Equations:
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """If the value is an integer s, only conditions for words in the letters 1, ..., s are used. This
-    reduction is for Magnus methods on s Gauss nodes. It requires ``proof.order`` <= 2s."""
+    """If the value is an integer s, only conditions for words in the letters 1, ..., s are used. The value is
+    an integer only for a Magnus method on s Gauss nodes, if ``proof.order`` <= 2s."""
     kept: tuple[OrderCondition, ...] | None = None
     """The conditions that remain after the reduction ``spelling`` or ``low-storage``. The value is None for
     all other reductions."""
@@ -128,8 +128,7 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
-                f"some conditions of order {n} of family {label} depend on other conditions modulo primes, "
-                f"but not over Q"
+                f"some conditions of order {n} of family {label} are dependent modulo primes, but not over Q"
             )
     conditions = [c for n in orders for c in family.conditions(n)]
     return tuple(c for c in conditions if letters is None or max(c.key) <= letters)
@@ -138,8 +137,9 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
 def equations(tableau: Tableau) -> Equations:
     """Return the equations that the ``[proof]`` table of a tableau file specifies.
 
-    Raises :class:`NotProved` if the reduction in the table does not apply, and :class:`InputError` for an
-    unknown family.
+    The key ``reduction`` of the table can name a theorem (see the module docstring). Raises
+    :class:`NotProved` if the theorem does not apply to the method. Raises :class:`InputError` for an unknown
+    family.
 
     >>> from orderconds.tableau import find
     >>> equations(Tableau.load(find("cg4a"))).facts
@@ -269,10 +269,10 @@ def _reached(proof: Proof, order: int) -> int:
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Omit the equations that hold for all values of the unknowns. Return the indices of the other equations.
 
-    ``values`` contains one jet for each equation. Consider the function "left-hand side minus right-hand
-    side" of the equation on a box of values of the unknowns. The jet consists of balls that enclose the
-    values and the partial derivatives of the function on this box. If all balls of an equation contain zero,
-    the equation is tested in exact arithmetic at a random point.
+    ``values`` contains one jet for each equation. Each unknown varies in an interval. The jet consists of
+    balls. The balls enclose the left-hand side minus the right-hand side of the equation, and the partial
+    derivatives of this difference. If all balls of an equation contain zero, the equation is tested in exact
+    arithmetic at a random point.
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

@@ -94,8 +94,8 @@ class ExactMember:
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Return True if a condition holds at this random member. If some other member violates the
-        condition, the result is True only with negligible probability
+        """Return True if a condition holds at this random member. If the result is True, the condition holds
+        at every member of the sub-family, except with negligible probability
         (:mod:`orderconds.tableau.random_member`)."""
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
@@ -166,8 +166,8 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """Converts the numbers in formulas to elements of Q(sqrt(d)). As in :class:`RandomMember`, random numbers
-    replace the rounded decimals and the roots of polynomials."""
+    """Converts the numbers in formulas to elements of Q(sqrt(d)). Rounded decimals and roots of polynomials
+    are replaced by random rational numbers."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd

@@ -27,8 +27,8 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
 
 
 def least_order(facts: Iterable[Fact], family: Family) -> int:
-    """Return a lower bound of the order in ``family`` for all methods with the orders in ``facts``. If
-    ``facts`` imply no order, return 0.
+    """Return a lower bound of the order that a method has in ``family``. A pair (label, n) in ``facts`` means
+    that the method has at least order n in the family with this label. If ``facts`` imply no order, return 0.
 
     >>> least_order([("sprk", 6), ("rk", 6)], families.get("vrkmk(2)"))
     5
@@ -38,8 +38,8 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return a map from the label of a family to a lower bound of the order of a method in this family. The
-    bounds follow from ``facts``, which contains lower bounds for some families.
+    """Return lower bounds of the orders of one method, as a map from labels of families to bounds. The bounds
+    follow from ``facts``, which contains lower bounds for some families.
 
     >>> consequences([("vrkmk(1)", 3)])
     {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}

@@ -96,7 +96,9 @@ def inverse(matrix: arb_mat) -> arb_mat:
     try:
         inverted = matrix.inv()
     except ZeroDivisionError:
-        raise NotProved("the Jacobian of the equations is singular at the given decimals") from None
+        raise NotProved(
+            "the Jacobian of the equations is singular at the decimal values of the unknowns"
+        ) from None
     return inverted.mid()
 
 

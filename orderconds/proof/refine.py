@@ -25,7 +25,8 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""Newton's method fails if an unknown differs from the decimal in the file by ``TOLERANCE`` or more."""
+"""Newton's method is stopped with an error if an unknown differs from its decimal in the tableau file by
+``TOLERANCE`` or more."""
 
 
 @dataclass(frozen=True)
@@ -148,8 +149,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
-    """Return ``text`` with the new digits ``decimals``. The list ``pins`` becomes ``pinned``. The table
-    ``[proof.printed]`` contains the original digits."""
+    """Return the text of the tableau file with the new digits ``decimals``. The key ``pins`` in the table
+    ``[proof]`` gets the value ``pinned``. The table ``[proof.printed]`` contains the original digits."""
     record = dict[str, str]()
     for unknown in proof.unknowns:
         if unknown.name not in decimals:

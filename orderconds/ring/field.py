@@ -367,7 +367,7 @@ class Algebraic:
     def __eq__(self, other: object) -> bool:
         try:
             pair = self._pair(other)
-        except TypeError:  # The fields are in different towers.
+        except TypeError:  # Neither field was constructed as an extension of the other.
             return False
         return pair is not None and bool(pair[0].polynomial == pair[1].polynomial)
 

@@ -59,8 +59,8 @@ class Jets:
         negative = x.value < 0
         if not (x.value > 0 or (negative and index % 2)):
             raise ValueError(
-                "cannot compute a root: for an even index, the enclosure must be positive; "
-                "for an odd index, the enclosure must not contain zero"
+                "cannot compute an n-th root of a number in an interval: for even n, the interval must be "
+                "positive; for odd n, the interval must not contain zero"
             )
         value = -((-x.value).root(index)) if negative else x.value.root(index)
         return Jet(value, x.width, _scaled(x.slopes, value / (x.value * index)))

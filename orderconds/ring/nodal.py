@@ -101,10 +101,10 @@ class NodalAlgebra:
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
         """Return the matrices of two linear maps of this algebra, in the basis 1, z, z^2, ...
 
-        Let v be the vector that a polynomial represents. The first map takes this polynomial to the
-        polynomial that represents (A - e b^T) v. The second map takes this polynomial to the polynomial that
-        represents A v. Here A is the first matrix of the method, b is the vector of the weights, and e is the
-        vector of ones.
+        A polynomial x represents the vector v with the entries x(c_i), where the numbers c_i are the nodes.
+        The first map takes this polynomial to the polynomial that represents (A - e b^T) v. The second map
+        takes this polynomial to the polynomial that represents A v. Here A is the first matrix of the method,
+        b is the vector of the weights, and e is the vector of ones.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))
@@ -127,8 +127,9 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
     - ``ring`` is not a :class:`NumberField`, or its degree is 1.
     - Two nodes are equal.
     - The polynomial M with the roots c_i has an irrational coefficient.
-    - The polynomial with the values (A v)_i at the nodes c_i has an irrational coefficient. Here A is one of
-      ``matrices``, v has the entries c_i^k, and k is below the number of stages.
+    - Let A be one of ``matrices``, and let v be the vector with the entries c_i^k, where k is below the
+      number of stages. The interpolation polynomial with the values (A v)_i at the nodes c_i has an
+      irrational coefficient.
     - A number sum_i b_i c_i^k is irrational.
 
     >>> from orderconds.tableau import Tableau, find

@@ -14,9 +14,9 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
     """Return the indices of the pivot columns of a matrix. A pivot column is not a linear combination of the
     columns to its left.
 
-    Each column contains the values of one function at random points, one point for each row. With a
-    probability of about (number of columns) / prime, there are fewer pivot columns than linearly independent
-    functions.
+    Each column contains the values of one function at random points, one point for each row. Let p be the
+    prime modulus of the values, and let n be the number of columns. With a probability of about n / p, some
+    independent functions seem dependent.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)

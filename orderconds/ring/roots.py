@@ -29,9 +29,9 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
 
 
 def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -> tuple[list[Fraction], int]:
-    """Return a monic irreducible factor of the polynomial ``minpoly``, and the index of the real root of the
-    factor in [near - unit, near + unit]. The factor and ``minpoly`` are lists of coefficients, by ascending
-    powers.
+    """Return the monic irreducible factor of ``minpoly`` that has a real root in the interval [near - unit,
+    near + unit]. Also return the index of this root. The factor and ``minpoly`` are lists of coefficients, by
+    ascending powers.
 
     Raises ValueError if the interval does not contain exactly one real root of ``minpoly``. The real roots of
     the factor are numbered from 0, in ascending order.

@@ -61,7 +61,7 @@ class Tower:
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
         """Return the rational number ``value``.
 
-        Raises TypeError if ``value`` is a rounded decimal with a positive error bound ``unit``.
+        The argument ``unit`` is the error bound of ``value``. Raises TypeError if ``unit`` is positive.
         """
         if unit:
             raise TypeError("a number field cannot represent a rounded decimal")
@@ -193,13 +193,13 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Find an element c that generates an algebra over Q. Return an integer or None, called m, and the
-    :class:`_Relation` of c.
+    """Return a pair (m, relation) for the algebra K[x]/(p), where K is ``field``.
 
-    Let K be ``field``, and let a be the generator of K over Q. Let k be the length of ``powers``. Let p be
-    the polynomial x^k - powers[k-1] x^(k-1) - ... - powers[0]. The algebra is K[x]/(p).
+    Let a be the generator of K over Q, and let k be the length of ``powers``. The polynomial p is
+    x^k - powers[k-1] x^(k-1) - ... - powers[0].
 
-    If m is an integer, c is x + m a. If m is None, c is the product of a and x.
+    The relation describes the algebra by one generator c over Q. If m is an integer, c is x + m a. If m is
+    None, c is the product of a and x.
     """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
@@ -243,8 +243,9 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
 
 
 def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
-    """Return the matrix over Q with one column for each list in ``columns``. Each element of a list
-    contributes ``degree`` rational numbers to the column."""
+    """Return the matrix over Q with one column for each list in ``columns``. Each element of a list is
+    represented by a polynomial with ``degree`` rational coefficients. The column contains the coefficients of
+    all elements."""
     rows = [
         [column[j].polynomial[i] for column in columns] for j in range(len(columns[0])) for i in range(degree)
     ]
@@ -252,8 +253,8 @@ def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
 
 
 def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
-    """Return a monic irreducible factor of ``characteristic``. The balls of ``enclosure`` contain a real root
-    of this factor."""
+    """Return a monic irreducible factor of ``characteristic``. The function ``enclosure`` returns balls that
+    contain one real number, which is a root of this factor."""
     factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
     bits = 64
     while len(factors) > 1:

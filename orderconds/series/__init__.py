@@ -7,5 +7,5 @@ at an order.
 - ``action``: the series of variational methods.
 - ``characters``: the series of the composition of two steps, and of the inverse of a step.
 - ``modified_equations``: the series of the modified equation (backward error analysis).
-- ``substitution``: the series of a step whose vector field is itself a series.
+- ``substitution``: a vector field, given as a series, is inserted into the series of a step.
 """

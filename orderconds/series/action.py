@@ -168,11 +168,11 @@ class ActionSeries(ABC):
         """Return a map from words to their coefficients in the group element of the update. The map contains
         all words with at most ``vertices`` vertices in total.
 
-        Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Each tree t
-        denotes an element of g at the position q0 and the momentum mu1. Let ``F(t)`` be the right-invariant
-        vector field of this element, divided by the order of the symmetry group of t. For every smooth
-        function f on the group, ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all
-        words ``w = t_1 ... t_k``.
+        Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. At (q0, mu1),
+        each tree t denotes an element of g (:mod:`orderconds.series.action_trees`). Let v_t be this element,
+        divided by the order of the symmetry group of t. Let ``F(t)`` be the right-invariant vector field of
+        v_t. For every smooth function f on the group, ``f(q1)`` is the sum of
+        ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words ``w = t_1 ... t_k``.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -214,7 +214,8 @@ class CommutatorFreeSeries(ActionSeries):
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
         """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
-        ``row``. The letter x is an additional term in the expansion of the velocity of stage ``stage``."""
+        ``row``. The letter x is a perturbation of the velocity of stage ``stage``
+        (:meth:`ActionSeries.insertion`)."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -223,8 +224,8 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
-        ``row``. Only the exponent of the exponential with index ``place`` has the additional term x."""
+        """Return the coefficient of the word (``before``, x, ``after``) in the product of the exponentials
+        ``self.rows[row]``. The letter x is added to the exponent with index ``place``."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):

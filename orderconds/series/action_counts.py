@@ -39,14 +39,9 @@ def velocity_count(vertices: int) -> int:
 
 def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in one class
-    if they differ only in the choice of the root.
+    if they differ only in the choice of the root (:mod:`orderconds.series.action_switching`).
 
-    Vertices in a subtree of the form ``L(w)`` cannot be the root.
-
-    The result is the difference R - E. R is the number of g-valued trees with ``vertices`` vertices. E is the
-    number of pairs of one :class:`~orderconds.series.action_trees.Force` and one g-valued tree, where both
-    trees together have ``vertices`` vertices. Otter counts free trees in a
-    similar way (Ann. of Math. 49 (1948) 583).
+    The classes are counted with a variant of Otter's method for free trees (Ann. of Math. 49 (1948) 583).
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
@@ -59,7 +54,8 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Return the numbers of g-valued trees and of g*-valued trees with 0, 1, ..., ``order`` vertices."""
+    """Return two lists. For n = 0, 1, ..., ``order``, entry n of the first list is the number of g-valued
+    trees with n vertices (:mod:`orderconds.series.action_trees`). The second list counts g*-valued trees."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:

@@ -57,7 +57,7 @@ def velocities(vertices: int) -> tuple[Velocity, ...]:
 
 
 def words(vertices: int) -> tuple[Word, ...]:
-    """Return all words with ``vertices`` vertices in total, sorted by cost. A word is a sequence of g-valued
+    """Return all words with ``vertices`` vertices in total, simplest first. A word is a sequence of g-valued
     trees.
 
     >>> words(2)
@@ -159,15 +159,13 @@ def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
 def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
-    """Yield pairs (cost, multiset). The elements of each multiset are g*-valued trees that have ``vertices``
-    vertices in total. The cost of each multiset is at most ``rest``. The list ``_momenta(n, limit)`` contains
-    the g*-valued trees that have n vertices and a cost of at most ``limit``. The elements are taken from the
-    lists with n <= ``largest``. If ``bound`` is an integer, the list with n = ``largest`` is cut off after
-    the entry with the index ``bound``. The lists with n < ``largest`` have no such restriction. The function
-    calls itself to choose the elements of a multiset one by one. An element never has more vertices than the
-    element chosen before. If both elements have equally many vertices, the index of the new element is at
-    most the index of the element chosen before. Hence the elements of a multiset are chosen in only one
-    order, and no multiset is yielded twice."""
+    """Yield pairs (cost, multiset), without repetitions.
+
+    The elements of each multiset are g*-valued trees that have ``vertices`` vertices in total. The cost of a
+    multiset is at most ``rest``. Each element has at most ``largest`` vertices, and its cost is at most
+    ``limit``. If ``bound`` is an integer, elements with ``largest`` vertices are taken only from the first
+    ``bound + 1`` entries of the list ``_momenta(largest, limit)``.
+    """
     if vertices == 0:
         yield 0, ()
         return

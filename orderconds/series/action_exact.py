@@ -3,8 +3,10 @@
 The formulas for numerical methods are given in :mod:`orderconds.series.action`. The formulas for the exact
 flow have a time s in place of the index i of a stage, and integrals over times in place of sums over stages.
 The function :func:`tau` returns ``tau_t(s)`` for a tree t of a velocity. The function :func:`psi` returns
-``psi_p(s)`` for a tree p of a momentum. Such a tree p has the form H(u*v|M) or L(w), where u, v and w are
-words of trees, and M is a multiset of trees. Let w be a word with the letters t_1, ..., t_k:
+``psi_p(s)`` for a tree p of a momentum. There are two kinds of trees p
+(:mod:`orderconds.series.action_trees`). The tree H(u*v|M) consists of two words u and v of trees and a
+multiset M of trees. The tree L(w) consists of one word w of trees. Let w be a word with the letters t_1, ...,
+t_k:
 
 - ``Phi_w(s)`` is the integral of the product ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)`` over all times with 0 <=
   s_1 <= ... <= s_k <= s. The integral of the same product over all times with s <= s_1 <= ... <= s_k <= s' is
@@ -13,9 +15,8 @@ words of trees, and M is a multiset of trees. Let w be a word with the letters t
 - Let ``g(s')`` be the product of ``psi_m(s')`` over all trees m in M. Then ``psi_{H(u*v|M)}(s)`` is the
   integral of the product ``Phi_u(s) Phi_v(s, s') g(s')`` over the times s' from s to 1.
 
-For each k from 0 to the number of letters of v, divide the word v after k letters. Let r_k be the first part
-in reverse order: r_k begins with letter k of v and ends with letter 1 of v. Let v_k be the second part in the
-original order. The integral ``Phi_v(s, s')`` is equal to ``sum_k (-1)^k Phi_{r_k}(s) Phi_{v_k}(s')``.
+Let v be the word t_1 ... t_n. For k = 0, ..., n, let r_k be the word t_k ... t_1, and let v_k be the word
+t_(k+1) ... t_n. The integral ``Phi_v(s, s')`` is equal to ``sum_k (-1)^k Phi_{r_k}(s) Phi_{v_k}(s')``.
 """
 
 from __future__ import annotations
@@ -38,7 +39,8 @@ from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, W
 @cache
 def tau(tree: Velocity) -> UnivariatePolynomial:
     """Return the polynomial tau_t(s) for t = ``tree``. It is the coefficient of t in the expansion of the
-    exact velocity at time s. The example shows s as x.
+    exact velocity at time s. In the texts of polynomials, the variable s is written as x. The module
+    :mod:`orderconds.series.action_trees` defines the notation of trees.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(tau(t)) for t in velocities(2)]  # o(o), o(|f(*)), o(|L(o))

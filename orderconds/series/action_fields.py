@@ -1,5 +1,6 @@
-"""Action trees for a given Hamiltonian H(q, mu): their vectors and covectors, and the local error of a
-method.
+"""Evaluation of action trees for a given Hamiltonian H(q, mu), and the local error of a method. Each action
+tree denotes a vector in the Lie algebra g or a covector in its dual g*
+(:mod:`orderconds.series.action_trees`).
 
 A derivative of H along k directions is computed exactly, by automatic differentiation. The point (q, mu) is
 moved along each direction i by a variable distance eps_i, where eps_i^2 = 0. The derivative is the
@@ -163,8 +164,8 @@ class ActionFields:
         return components
 
     def transported(self, word: Word) -> Coordinates:
-        """Return the coordinates of the covector that maps x to ``<mu, ad xi_1 ... ad xi_k x>``. The vector
-        xi_i is the elementary velocity of letter i of the word."""
+        """Return the coordinates of the covector that maps x to ``<self.mu, ad xi_1 ... ad xi_k x>``. The
+        vector xi_i is the elementary velocity of letter i of the word."""
         values = []
         for unit in self.units:
             x = unit
@@ -179,8 +180,8 @@ class ActionFields:
 
         The results are a matrix and the coordinates of a covector. ``defects`` maps words to numbers. The
         number is the coefficient of the word in the update minus the coefficient in the exact flow.
-        ``defects`` contains all words with p + 1 vertices in total. The number of each word with at most p
-        vertices must be zero.
+        ``defects`` contains all words with p + 1 vertices in total. Words with at most p vertices must be
+        missing or have the value zero.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)

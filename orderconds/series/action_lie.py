@@ -5,11 +5,11 @@ The exponent of stage i is ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``. In the
 b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
-The coefficient of a g*-valued tree (:mod:`orderconds.series.action`) depends on coefficients of words (u, x,
-v). Here u and v are words of trees, and x is a letter that is not a tree. To obtain these coefficients,
-replace the velocity xi_j of one stage j by xi_j + x, and expand the changed group elements. The method
-``insertion`` returns the coefficient of the word (u, x, v) in one changed group element. The argument
-``before`` is u, the argument ``after`` is v, and the argument ``stage`` is j.
+Let x be a letter that is not a tree. The method ``insertion`` replaces the velocity xi_j of one stage j by
+xi_j + x, and expands the group element of a stage or of the update in words. The result is the coefficient of
+a word (u, x, v), where u and v are words of trees. The argument ``before`` is u, the argument ``after`` is v,
+and the argument ``stage`` is j. The coefficients of g*-valued trees are computed from such results
+(:mod:`orderconds.series.action`).
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
 """The terms of dexpinv_X xi. A triple (q, m, n) denotes the term q X^n xi X^m. The rightmost factor of a
-product acts first. Hence X^m acts before xi, and X^n acts after xi. The exponent m precedes n in the triple,
-because X^m acts first."""
+product acts first. Hence X^m acts before xi, and X^n acts after xi."""
 
 Varied = dict[int, Element]
-"""A map from stage indices to coefficients. Each map belongs to one word (u, x, v) and to one series S in the
-stage velocities xi_1, xi_2, .... Here u and v are words of trees, and x is a letter that is not a tree. To
-obtain entry j of the map, replace xi_j by xi_j + x in S, and leave all other velocities unchanged. Entry j is
-the coefficient of the word (u, x, v) in the changed series. If a key is missing, the coefficient is zero."""
+"""A map from stage indices to coefficients. If a key is missing, the coefficient is zero.
+
+The map describes how a series depends on the stage velocities xi_1, xi_2, .... Replace xi_j by xi_j + x in
+the series, where x is a letter that is not a tree. Entry j is the coefficient of a word (u, x, v) in the new
+series, where u and v are fixed words of trees."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -101,9 +101,8 @@ class MuntheKaasActionSeries(ActionSeries):
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
         """Return a list of maps (:data:`Varied`), one map for each group element. If ``update`` is 0, the
         group elements are exp(X_i) for all stages i. If ``update`` is 1, the only group element is exp(Y),
-        the group element of the update. To obtain entry j of a map, replace the velocity xi_j by xi_j + x in
-        the group element. Entry j is the coefficient of the word (``before``, x, ``after``) in the changed
-        group element. The module docstring defines x, X_i and Y."""
+        the group element of the update. The maps contain coefficients of the word (``before``, x, ``after``).
+        The module docstring defines x, X_i and Y."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -131,8 +130,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word (``before``, x, ``after``) in X_i^n for all stages i if
-        ``update`` is 0, or in Y^n if ``update`` is 1. The module docstring defines x, X_i and Y."""
+        """Return a list of maps (:data:`Varied`) for the word (``before``, x, ``after``). If ``update`` is 0,
+        there is one map for the series X_i^n of each stage i. If ``update`` is 1, the only map is for the
+        series Y^n. The module docstring defines x, X_i and Y."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -150,9 +150,7 @@ class MuntheKaasActionSeries(ActionSeries):
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
         """Add the result of :meth:`_varied_power` to ``totals``. The power n must be at least 2."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # The word (before, x, after) is divided after ``cut`` letters. If ``rest`` is negative, x belongs
-            # to the second part. Otherwise, the first part consists of ``before``, x and the first ``rest``
-            # letters of ``after``.
+            # The first factor of the power contributes the first ``cut`` letters of (before, x, after).
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -164,8 +162,8 @@ class MuntheKaasActionSeries(ActionSeries):
                 _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
-        """Return the coefficient of ``word`` in dexpinv_{(r),X_j} xi_j for each stage j. The module docstring
-        defines this series."""
+        """Let X be the exponent and xi the velocity of stage j (see the module docstring). For each stage j,
+        return the coefficient of ``word`` in the truncated series dexpinv_X xi."""
         values = self._summands.get(word)
         if values is None:
             values = [self.ring.zero] * self.stages
@@ -200,10 +198,10 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """For each stage j, return the coefficient of a word in the series dexpinv_{(r),X_j} xi_j (see the
-        module docstring). The word is (``before``, xi_j, ``behind``), and xi_j is one letter. Return None if
-        no term of the series contains a word with ``len(before)`` letters before xi_j and ``len(behind)``
-        letters behind xi_j."""
+        """Let z be a letter, and let X be the exponent X_j of stage j. For each stage j, return the
+        coefficient of the word (``before``, z, ``behind``) in the truncated series dexpinv_X z. The module
+        docstring defines the exponents and the truncation. Return None if no term of the series contains a
+        word with ``len(before)`` letters before z and ``len(behind)`` letters behind z."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -303,8 +301,8 @@ class PadeActionSeries(MuntheKaasActionSeries):
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
     """Return the terms with at most ``most`` factors X in the solution v of the equation dexp_{(r),X} v = xi.
-    The map dexp_{(r),X} is dexp_X truncated after the r-th power of X, where r is ``cutoff``. A triple (q, m,
-    n) represents the term q X^n xi X^m.
+    The map dexp_{(r),X} is dexp_X truncated after the r-th power of X, where r is ``cutoff``. The term q X^n
+    xi X^m is returned as the triple (q, m, n).
 
     Let S(z) be the sum of z^j/(j+1)! for j = 0, ..., r, and let q_k be the coefficient of z^k in the power
     series of 1/S(z). Then q = (-1)^m comb(k, m) q_k for k = m + n. Terms with q = 0 are omitted.
