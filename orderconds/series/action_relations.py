@@ -38,10 +38,10 @@ multiplied by the left-hand sides of the order conditions of these trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a map from trees to polynomials. Let n be the length of ``independent``. The map contains each
-    tree that has n vertices and is not in ``independent``. The variables of each polynomial are the left-hand
-    sides of the order conditions of the trees in ``independent``. For each method of the family, the
-    polynomial of a tree is equal to the left-hand side of the order condition of this tree.
+    """Return a map from trees to polynomials. Let n be the length of ``independent``. The keys of the map are
+    the trees that have n vertices and do not occur in ``independent[-1]``. The variables of each polynomial
+    are the left-hand sides of the order conditions of the trees in ``independent``. For each method of the
+    family, the polynomial of a tree is equal to the left-hand side of the order condition of this tree.
 
     ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
     ..., n. The polynomials are wrong with a probability of about 10^-8.
@@ -93,14 +93,14 @@ def hold_over_rationals(
     series: Callable[[RandomRing, np.random.Generator], ActionSeries],
     polynomials: Mapping[Velocity, Polynomial],
 ) -> bool:
-    """Return True if ``polynomials`` are correct for the exact flow and for one method with random rational
-    coefficients.
+    """Return True if certain relations hold for the exact flow and for one method with random rational
+    coefficients. There is one relation for each tree in ``polynomials``: the left-hand side of the order
+    condition of the tree is equal to ``polynomials[tree]``.
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
-    ``ring``. Each polynomial states a relation: the left-hand side of the order condition of a tree is equal
-    to the polynomial. Let d be the degree of such a relation in the coefficients of the method. If the
-    relation is false for some method of the family, the random method satisfies the relation with a
-    probability below d/2^60.
+    ``ring``. Assume that a relation is false for some method of the family. Then the relation holds for the
+    random method with a probability below d/2^60. Here d is the degree of the relation, written as a
+    polynomial equation for the coefficients of the method.
 
     >>> from functools import partial
     >>> from orderconds.families import get

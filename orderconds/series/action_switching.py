@@ -8,10 +8,10 @@ and the multiset N. The symbol ``*`` marks a position between u and v. The trees
 - B: ``o(u o(w | M) v | N)``.
 
 The vertex H is a neighbour of the root of A. The tree B is the result of moving the root of A to the vertex
-H. In B, the tree ``o(w | M)``, which contains the old root, is inserted at the position of ``*``. The outer
-``o`` in B is the vertex H of A, and the inner ``o`` in B is the root of A. The left-hand sides of the
-conditions of A and B are double sums over the stages of a method, which differ only in the order of
-summation. The right-hand sides of the two conditions are equal, too.
+H. In B, the tree ``o(w | M)``, which contains the old root, is inserted at the position of ``*``. The vertex
+H becomes the root of B, and is written ``o`` in B. The left-hand sides of the conditions of A and B are the
+same double sum over the stages of a method, in two different orders of summation. The right-hand sides of the
+two conditions are equal, too.
 """
 
 from __future__ import annotations

@@ -6,13 +6,13 @@ The elements of a multiset are always g*-valued trees. Each element of g, and th
 right-invariant vector field on G. There are three kinds of trees:
 
 - A :class:`Velocity` is a g-valued tree with a word w and a multiset M, written (w, M) or ``o(w | M)``. The
-  tree denotes a mixed derivative of the vector dH/dmu. To differentiate in q, move q along the field of the
-  first letter of w, then along the field of the second letter, and so on. The directions in mu are the
-  covectors of the trees in M.
+  tree denotes a mixed derivative of the vector dH/dmu. Let t_1, ..., t_k be the letters of w. For the
+  derivatives in q, replace q by exp(e_k t_k) ... exp(e_1 t_1) q, and differentiate once with respect to each
+  of the numbers e_1, ..., e_k at zero. The directions in mu are the covectors of the trees in M.
 - A :class:`Force` is a g*-valued tree with two words u and v and a multiset M, written ``H(u * v | M)`` or
-  ``f(u * v | M)``. The tree denotes a covector, which maps an element x of g to a mixed derivative of H. To
-  differentiate in q, move q along the fields of the letters of u, then along the field of x, and finally
-  along the fields of the letters of v. The directions in mu are the covectors of the trees in M.
+  ``f(u * v | M)``. The tree denotes a covector. The value of the covector at an element x of g is a mixed
+  derivative of H. The derivatives in q are defined as for a :class:`Velocity` whose word consists of the
+  letters of u, the element x, and the letters of v. The directions in mu are the covectors of the trees in M.
 - A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. The tree denotes the covector that
   maps an element x of g to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here
   ``<mu, y>`` is the pairing of mu with y.
@@ -182,8 +182,8 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of the :class:`Force` with the words ``before`` and ``after`` and an empty multiset.
-    The cost measures the difficulty of reading an order condition with this ``Force``.
+    """Return the cost of the :class:`Force` with the words ``before`` and ``after`` and an empty multiset. If
+    the cost is low, an order condition with this ``Force`` is easy to read.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)
@@ -193,8 +193,8 @@ def force_cost(before: Word, after: Word) -> int:
 
 
 def transport_cost(word: Word) -> int:
-    """Return the cost of the :class:`Transport` with the word ``word``. The cost measures the difficulty of
-    reading an order condition with this ``Transport``.
+    """Return the cost of the :class:`Transport` with the word ``word``. If the cost is low, an order
+    condition with this ``Transport`` is easy to read.
 
     >>> transport_cost((velocity(), velocity()))
     10

@@ -135,8 +135,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """The triple (k, j, weight_j) at index n - 1 defines the partial sum s_n = s_k + weight_j x_j. The
-        sum s_0 is zero."""
+        """The partial sums s_1, s_2, ... of the products weight_j x_j, as one triple (k, j, weight_j) for
+        each partial sum. The triple of s_n means that s_n = s_k + weight_j x_j. The sum s_0 is zero."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

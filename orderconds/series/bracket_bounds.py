@@ -8,10 +8,9 @@ q_(i-1) are called new, and the letters q_1, ..., q_(m-1) are called old. Let N 
 new letters in a program for u_1, ..., u_i.
 
 First bound: for each of the arguments u_1, ..., u_i, form the sum of the terms that have at least two letters
-and contain a new letter. Each argument is a linear combination of letters and brackets. A term that has at
-least two letters and contains a new letter cannot come from a single letter, and cannot come from a bracket
-of old letters. Hence only the N brackets with new letters contribute to these sums. Therefore N is at least
-the dimension of the space that the sums span.
+and contain a new letter. Each argument is a linear combination of letters and brackets. Only the N brackets
+with new letters contribute to these sums. Therefore N is at least the dimension of the space that the sums
+span.
 
 Second bound: for each argument, form the sum of the terms that have at least two letters and exactly one new
 letter. This sum is called the linear part of the argument. Let ad_q be the operator with ad_q y = [q, y]. To
@@ -25,16 +24,16 @@ The linear part of a bracket is defined in the same way. The linear part of each
 combination of the linear parts of the N brackets. Hence N is at least d.
 
 Improvement of the second bound: a Lie element in the old letters is a linear combination of old letters and
-of (nested) brackets of old letters. Let L be the set of all sums sum_n ad_(P_n) q_n over the new letters q_n,
-where every P_n is a Lie element in the old letters. Assume that d > 0, and that zero is the only common
-element of S and L. Consider the first of the N brackets that the program computes. The linear part of this
-bracket is an element of L, because no earlier bracket contains a new letter. If N were equal to d, the linear
-parts of the N brackets would be a basis of S, and the linear part of the first bracket would be a nonzero
-common element of S and L. Hence N is at least d + 1.
+of (nested) brackets of old letters. Let L be the space of the linear parts sum_n ad_(P_n) q_n in which every
+P_n is a Lie element in the old letters. Assume that d > 0, and that zero is the only common element of S and
+L. Consider the first of the N brackets that the program computes. Each factor of this bracket is a Lie
+element in the old letters plus a linear combination of new letters. Hence the linear part of this bracket is
+an element of L. If N were equal to d, the linear parts of the N brackets would be a basis of S, and the
+linear part of the first bracket would be a nonzero common element of S and L. Hence N is at least d + 1.
 
-The number of brackets without new letters is at least the lower bound for a program that computes u_1, ...,
-u_m. The sum of this lower bound and the lower bound for N is a lower bound for the number of all brackets in
-a program for u_1, ..., u_i.
+The arguments u_1, ..., u_m are computed from brackets without new letters. A lower bound for the number of
+these brackets plus a lower bound for N is a lower bound for the number of all brackets in a program for u_1,
+..., u_i.
 """
 
 from __future__ import annotations
@@ -49,8 +48,8 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
     """Write the linear part of x as ``sum_n ad_(P_n) q_n``, and return a map from n to P_n. The module
     docstring defines the linear part and the polynomials P_n.
 
-    The polynomial x must be a sum of letters and brackets. In a word, the index n denotes the letter q_n. The
-    letters with n >= ``first`` are the new letters.
+    The polynomial x must be a sum of letters and brackets. A word is a tuple of indices, and the index n
+    denotes the letter q_n. The letters with n >= ``first`` are the new letters.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -99,9 +98,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # The polynomials in ``known`` have no terms of grade ``algebra.largest``. In ``arguments[last]``,
-        # terms of grade ``algebra.largest`` affect the order of the method. If i is ``last``, the polynomial
-        # ``arguments[last]`` with the terms of grade ``algebra.largest`` is added to ``spans``.
+        # Terms of grade ``algebra.largest`` affect the order of the method only in the last argument.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))
@@ -110,7 +107,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
     """Return a lower bound for the number of brackets in every program that computes the elements of
-    ``span``. Only brackets with a letter of index ``first`` or higher are counted."""
+    ``span``. A bracket is counted only if it contains at least one letter with an index of at least
+    ``first``."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)

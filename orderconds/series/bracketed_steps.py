@@ -36,8 +36,8 @@ class BracketedSeries:
         return self.stage(len(self._rows) - 1, forest)
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the coefficient of a forest in exp(u_i), where u_i is the argument of stage i. If i is the
-        number of stages, u_i is the argument of the step."""
+        """Return the coefficient of a forest in exp(u_i), the exponential of stage i. If i is the number of
+        stages, exp(u_i) is the exponential of the step."""
         result = self._ring.zero if forest else self._ring.one
         for n in range(1, forest.count(0) + 1):
             result = result + self._power(i, n, forest) * self._ring.rational(1, factorial(n))

@@ -45,7 +45,8 @@ class BracketProgram:
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program that computes the arguments.
-    - ``grades``: the grades of the linear combinations q_1, q_2, ... in the module docstring.
+    - ``grades``: the grades of q_1, q_2, .... The module docstring defines the linear combinations q_j and
+      their grades.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -76,7 +77,7 @@ def fewest_brackets(
     """Return a program with few brackets for the Runge-Kutta-Munthe-Kaas method (RKMK) of an explicit tableau
     (A, b). The program has the same order as the RKMK method.
 
-    The order of the Runge-Kutta method (A, b) must be ``order``. The ring must have division and decide
+    The order of the Runge-Kutta method (A, b) must be ``order``. The ring must support division and a test
     whether an element is zero.
 
     The search tries increasing numbers of brackets. It uses at most ``attempts`` random seeds for each
@@ -144,8 +145,8 @@ def _graded_bases(
 def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
-    """Return the arguments u_1, ..., u_s and u in :class:`BracketProgram`, as polynomials in the elements h
-    q_j (module docstring)."""
+    """Return the arguments of the exponentials: one for each stage, and one for the step. In these
+    polynomials, the letter j denotes the element h q_(j+1). The module docstring defines q_1, q_2, ...."""
     ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
@@ -162,15 +163,11 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return a map from stages to lists of polynomials. The arguments u_1, u_2, ... of the stages are
-    polynomials in the elements q_1, q_2, ... (module docstring).
+    """Return a map from stages to lists of polynomials. The polynomials are candidates for intermediate
+    results of a program that computes all arguments.
 
-    Each polynomial in the list of stage i has the form d = u_j - c u_i - w. Here j is a stage with j > i, c
-    is a number, and w is a linear combination of the elements q_1, q_2, .... The list of stage i contains at
-    most one polynomial d for each j.
-
-    Each d is a candidate for an intermediate result of a program that computes all arguments. The computation
-    of d may need fewer brackets than the computation of u_i, and fewer brackets than the computation of u_j.
+    Let u_i be the argument of stage i. Each polynomial in the list of stage i is u_j - c u_i for a later
+    stage j and a number c, up to a linear combination of letters.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -196,8 +193,8 @@ class _Shape:
     - ``inner``: the number k of nested brackets C_1, ..., C_k. The bracket C_n is [q_1, z_n + C_(n+1)], where
       C_(k+1) is zero.
     - ``outer``: True if there is a bracket [q_1 + x, y + C_1].
-    - ``leading``: if False, x is zero. If True, x is unknown, and the second pool element has the coefficient
-      1 in y.
+    - ``leading``: if False, x is zero. If True, x is unknown, and the coefficient of the second pool element
+      in y is 1. This value is True only if ``outer`` is True.
     - ``extra``: indices of pool elements, counted from 0. For each index n in ``extra``, there is a bracket
       [e_n, w_n], where e_n is the pool element with the index n.
     """
@@ -215,7 +212,7 @@ class _Shape:
 
 def _shapes(pool: int) -> Iterator[_Shape]:
     """Yield infinitely many shapes (:class:`_Shape`), sorted by the number of brackets. ``pool`` is the
-    number of pool elements."""
+    length of the pool that :class:`_Shape` defines."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -269,12 +266,12 @@ class _Search:
         return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
-        """Write ``argument`` up to grade ``limit`` as a linear combination of pool elements and new brackets.
-        ``shape`` describes the new brackets. Return the row of the argument, or None if no suitable brackets
-        are found.
+        """Return a row that represents ``argument`` up to grade ``limit``, or None if no row is found. A row
+        is a linear combination of stage values and brackets (:class:`BracketProgram`). ``shape`` describes
+        the brackets that are added.
 
-        The equations contain products of the unknowns x and y of :class:`_Shape`, and are solved by
-        iteration."""
+        The equations for the added brackets contain products of the unknowns x and y of :class:`_Shape`, and
+        are solved by iteration."""
         if shape.leading and len(self.pool) < 3:
             return None
         for fixed_left in (False, True) if shape.leading else (False,):
@@ -301,7 +298,8 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Consider the pool elements with indices n > 1. Return the indices of those with least grade."""
+        """Return the indices of the pool elements with the least grade. The first two pool elements are
+        ignored."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 

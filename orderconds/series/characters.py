@@ -70,7 +70,7 @@ class Character:
 
     def then(self, other: Character) -> Character:
         """Return the composition of two steps of size h: this step acts first, and the step ``other`` acts
-        second (HLW III.1.4, Theorem 1.10).
+        second (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.1.4, Theorem 1.10).
 
         For ordered forests, left admissible cuts are used (Munthe-Kaas and Wright 2008, Theorem 5).
         """
@@ -114,9 +114,10 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Return a sum over the admissible cuts of a tree or forest (:mod:`orderconds.series.cuts`). Each
-        cut removes components and leaves a rest. The summand is ``other(rest)``, multiplied by
-        ``self(component)`` for all components. If ``whole`` is false, omit the cut that removes nothing."""
+        """Return a sum over the admissible cuts of a tree or forest (:mod:`orderconds.series.cuts`). Each cut
+        removes components and leaves a rest. The summand is ``other(rest)``, multiplied by
+        ``self(component)`` for all components. If ``whole`` is false, the cut without components is
+        omitted."""
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):
             if components or whole:

@@ -5,8 +5,8 @@ is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=
 x = [u, x]. The numbers B_k are the Bernoulli numbers with B_1 = -1/2 (Hairer, Lubich and Wanner, *Geometric
 Numerical Integration*, IV.8.3).
 
-In a word of ordered trees, the leftmost letter acts first. In a product of series, the rightmost factor acts
-first.
+A Lie-Butcher series has a coefficient for each word of ordered trees. The leftmost tree of a word acts first.
+In a product of series, the rightmost factor acts first.
 """
 
 from __future__ import annotations
@@ -65,8 +65,9 @@ class DexpinvSeries:
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word`` in exp(u_i) for each stage i if ``step`` is 0. If ``step`` is 1,
-        return a list with the coefficient in exp(u), where y1 = exp(u) y0."""
+        """Return a list of coefficients of ``word``. If ``step`` is 0, the list contains the coefficient in
+        exp(u_i) for each stage i, where u_i is the argument of stage i. If ``step`` is 1, the list contains
+        only the coefficient in exp(u), where u is the argument of the step."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -79,10 +80,9 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return a list of coefficients of ``word``. The method computes the value k_i = f(exp(u_i) y0) of
-        each stage i and the result y1 = exp(u) y0. If ``step`` is 0, the list contains the coefficient of
-        ``word`` in u_i^n for each stage i. If ``step`` is 1, the list contains only the coefficient of
-        ``word`` in u^n."""
+        """Return a list of coefficients of ``word``. If ``step`` is 0, the list contains the coefficient in
+        u_i^n for each stage i, where u_i is the argument of stage i. If ``step`` is 1, the list contains only
+        the coefficient in u^n, where u is the argument of the step."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -151,7 +151,8 @@ class DexpinvSeries:
 
 @lru_cache(maxsize=64)
 def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
-    """Return the terms q u^n x u^m of dexpinv_u x with m + n <= ``longest``, as triples (q, m, n).
+    """Return the terms q u^n x u^m of dexpinv_u x with m + n <= ``longest``. A triple (q, m, n) contains the
+    coefficient, the right exponent m, and the left exponent n.
 
     The coefficient is q = (-1)^m B_{m+n} / (m! n!) with the Bernoulli numbers B_k. Terms with q = 0 are
     omitted.

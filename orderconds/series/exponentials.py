@@ -66,7 +66,8 @@ class ProductOfExponentials:
         return values
 
     def _letters(self, k: int) -> list[Element | None]:
-        """Return ``self._letter(J, k)`` for J = 0, ..., ``self._count`` - 1."""
+        """Return the coefficients of letter k in the exponents X_0, X_1, .... A coefficient is None if the
+        exponent does not contain letter k."""
         coefficients = self._known.get(k)
         if coefficients is None:
             coefficients = self._known[k] = [self._letter(J, k) for J in range(self._count)]

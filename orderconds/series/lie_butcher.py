@@ -112,18 +112,18 @@ class ExponentialsSeries:
         return way[::-1]
 
     def _word(self, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word`` in each partial product of exponentials. Entry p of the list
-        belongs to product p in ``self._places``."""
+        """Return the coefficient of ``word`` in each partial product of exponentials. The partial products
+        are numbered as in ``self._places``."""
         values = self._words.get(word)
         if values is None:
             values = self._words[word] = self._along(word, self._places)
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return a list of coefficients of the non-empty word ``word``. The first number p in each triple of
-        ``places`` is the index of a partial product of exponentials. For each of these numbers p, entry p of
-        the list is the coefficient of ``word`` in partial product p. All entries of the list that are not
-        computed are set to zero."""
+        """Return the coefficients of the non-empty word ``word`` in partial products of exponentials. The
+        first number in each triple of ``places`` is the index of a partial product. The coefficient in
+        partial product p is entry p of the list. All entries of the list that are not computed are set to
+        zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # The list ``heads[r - 1]`` contains the coefficients of the word that remains if the last r trees of
@@ -145,8 +145,9 @@ class ExponentialsSeries:
         return values
 
     def _letter(self, tree: Tree) -> list[Element | None]:
-        """Return the coefficient of ``tree`` in the series of each exponent in ``self._rows``. A coefficient
-        is None if it is proved to be zero."""
+        """Each row in ``self._rows`` defines an exponent, which is a linear combination of stage values.
+        Return the coefficient of ``tree`` in the Lie-Butcher series of each exponent. A coefficient is None
+        if it is proved to be zero."""
         coefficients = self._letters.get(tree)
         if coefficients is None:
             values, zero = self.stage_values(tree), self._ring.zero

@@ -1,4 +1,4 @@
-"""Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
+"""Backward error analysis: modified vector fields and modified Hamiltonians of numerical methods.
 
 One step of size h of a method equals the flow of a modified vector field f~ = f + h f_2 + ... over time h. A
 tree t has the coefficient a(t) in the step and the coefficient b(t) in f~. If an edge of t is removed, two
@@ -64,8 +64,8 @@ class VectorField:
 
     def beyond_first(self, forest: bytes) -> Element:
         """Return the difference of two coefficients of a tree or forest: the coefficient in the flow minus
-        the coefficient in the vector field. The difference depends only on the coefficients of
-        smaller trees or forests in the vector field."""
+        the coefficient in the vector field. The computation of the difference uses only coefficients of
+        smaller trees or forests."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))
@@ -73,8 +73,9 @@ class VectorField:
 
     def _power(self, n: int, forest: bytes) -> Element:
         """Return (L^(n-1) b)(forest), where b(forest) is the coefficient of ``forest`` in this vector field.
-        The operator L maps a function c to L c, where (L c)(forest) is the sum of b(component) c(rest). The
-        sum is over all cuts of ``forest`` with one component and a non-empty rest."""
+        A cut divides ``forest`` into components and a rest. For a function c of forests, the function L c is
+        defined by a sum over all cuts with one component and a non-empty rest: (L c)(forest) is the sum of
+        b(component) c(rest)."""
         if n == 1:
             return self(forest)
         if n > len(forest):

@@ -7,10 +7,10 @@ of the quotient tree in the series of the step, multiplied by the coefficients o
 (Chartier, Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
 
 For Lie-Butcher series, a forest becomes a linear combination of forests, called its image. For a tree, the
-root is removed, and the image of the remaining forest is computed. Each forest of this image is grafted onto
-each forest in the series of g. The image of the tree is the sum of the resulting forests, weighted by the
-products of the coefficients of the two forests. The image of a forest is the concatenation of the images of
-its trees (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+root is removed, and the image of the remaining forest is computed. Each forest u in this image is grafted
+onto each forest v in the series of g. The image of the tree is the sum of the resulting forests, multiplied
+by the coefficients of u and v. The image of a forest is the concatenation of the images of its trees
+(Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -125,7 +125,7 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
     """Remove edge k of a tree if ``cut[k]`` is true. The edges are numbered in preorder. ``cut`` may contain
     more flags than the tree has edges. Return the component of the root, the other components, the quotient
-    tree, and the unused flags."""
+    tree, and the unused flags. In the quotient tree, each component becomes one vertex."""
     attached: list[Tree] = []
     components: list[Tree] = []
     skeletons: list[Tree] = []

@@ -80,8 +80,8 @@ def on_group(word: str) -> dict[Forest, int]:
 
 
 def on_vector_space(word: str) -> dict[Forest, int]:
-    """Return the coefficients of forests in an operator on a vector space. The operator is a word in the
-    letters K (kick) and D (drift).
+    """Return a word in the letters K (kick) and D (drift) as an operator on a vector space: a map from
+    forests to coefficients.
 
     The branches and trees of each forest are sorted by :func:`unordered`.
 
@@ -147,9 +147,10 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
     """Return formulas for the Lie-Butcher series of two-register (2N) schemes: one formula for the
     coefficient of each ordered forest with ``order`` vertices.
 
-    The value of a rooted forest is the product of the elementary weights of its trees. Each formula is a
-    linear combination of values, as a map from rooted forests to numbers. The result is valid for every 2N
-    scheme and for the exact flow. Raises ValueError if a coefficient is not a linear combination of values.
+    The value of a rooted forest is the product of the elementary weights of its trees. A formula is a map
+    from rooted forests u to numbers x_u. The formula denotes the sum of x_u times the value of u. The result
+    is valid for every 2N scheme and for the exact flow. Raises ValueError if a coefficient is not a linear
+    combination of values.
 
     >>> from orderconds.trees.levels import text
     >>> {text(w): {text(u): str(x) for u, x in row.items()} for w, row in in_rooted_forests(2).items()}
@@ -168,13 +169,13 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
         if place >= len(rooted):
             if any(pivot >= len(rooted) for pivot, _ in rest):
                 raise ValueError(
-                    f"a coefficient of order {order} is not a linear combination of products of elementary"
+                    f"a Lie-Butcher coefficient of order {order} is not a polynomial in the elementary"
                     " weights"
                 )
             relations[ordered[place - len(rooted)]] = {rooted[p]: -x / _symmetry(rooted[p]) for p, x in rest}
     if len(relations) < len(ordered):
         raise ValueError(
-            f"only {len(relations)} of {len(ordered)} coefficients are linear combinations of products of"
+            f"only {len(relations)} of {len(ordered)} Lie-Butcher coefficients are polynomials in the"
             " elementary weights"
         )
     return {forest: relations[forest] for forest in ordered}
@@ -201,7 +202,7 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Apply the operator D (drift) to a product of derivatives by the product rule."""
+    """Use the product rule to apply the operator D (drift) to ``product`` (:data:`Operator`)."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -219,8 +220,8 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Apply ``act`` to ``product`` by the product rule, and treat each factor None of ``product`` as a
-    constant."""
+    """Return the sum of all products in which ``act`` is applied to one factor of ``product``. Factors that
+    are None are skipped."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

@@ -112,7 +112,8 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
             component = [row if x == column else x for x in component]
     if len(kept) != 2 * s - 1:
         raise InputError(
-            "the free entries of A do not connect all rows and columns (a_ij connects row i and column j)",
+            "the bipartite graph of the free entries of A is not connected"
+            " (edge a_ij joins row i and column j)",
             where=WHERE,
             expected="more free entries",
         )
@@ -127,7 +128,7 @@ def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
                 return (*entry, by_row)
     raise InputError(
-        "the free entries of A form a cycle (a_ij connects row i and column j)",
+        "the bipartite graph of the free entries of A has a cycle (edge a_ij joins row i and column j)",
         where=WHERE,
         expected="a graph without cycles",
     )

@@ -1,8 +1,9 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
-Undetermined coefficients are rounded to short decimals. Lattice reduction tries to find closed forms of all
-other coefficients in one number field. If exact arithmetic does not prove the order, interval arithmetic
-proves that a solution of the order conditions exists near the decimals in the file.
+Coefficients that the order conditions do not determine are rounded to short decimals. Lattice reduction tries
+to find closed forms of all other coefficients in one number field. If exact arithmetic does not prove the
+order, interval arithmetic proves that a solution of the order conditions exists near the decimals in the
+file.
 """
 
 from __future__ import annotations

@@ -162,8 +162,7 @@ def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
         rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
     reduced = fmpz_mat(rows).lll()
     shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
-    # The integers in ``shortest`` are accepted only if they have few bits. If the values are linearly
-    # independent over Q, the integers have about ``known / len(values)`` bits, and the result is None.
+    # A relation with large integers can hold by chance, up to rounding errors.
     longest = max(abs(c) for c in shortest).bit_length()
     if 2 * longest * (len(values) + 1) > known:
         return None
@@ -175,9 +174,9 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Let u + v sqrt(n) be the roots of a quadratic polynomial p, with an integer n and rational numbers u
-    and v. Return three values: the number sqrt(n), the text of sqrt(n), and an empty tuple. The empty tuple
-    means that a tableau file needs no lines that define sqrt(n)."""
+    """The roots of a quadratic polynomial p are u + v sqrt(n) and u - v sqrt(n), where n is an integer, and u
+    and v are rational numbers. Return the number sqrt(n), the text of sqrt(n), and an empty tuple. The tuple
+    is empty because no lines of a tableau file are needed to define sqrt(n)."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():

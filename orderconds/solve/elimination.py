@@ -40,7 +40,7 @@ MAX_UNKNOWNS, MAX_ORDER = 16, 5
 limits keep the number of terms in the polynomials small."""
 
 MAX_DEGREE = 8
-"""Elimination multiplies equations by polynomials whose degree is below MAX_DEGREE."""
+"""Elimination multiplies equations by polynomials of the degrees 0, ..., MAX_DEGREE - 1."""
 
 
 @dataclass(frozen=True)
@@ -74,8 +74,8 @@ class Infeasible:
             return f"{self.consequence} = 0 is false"
         if self.weight:
             return (
-                f"{self.consequence} = 0 implies {self.weight} = 0 for real {self.weight} (Sturm), but "
-                f"the formulas of the family divide by {self.weight}"
+                f"{self.weight} = 0 is the only real root of {self.consequence} = 0 (Sturm), but "
+                f"{self.weight} must not be zero: the formulas of the family divide by {self.weight}"
             )
         return f"{self.consequence} = 0 has no real root (Sturm)"
 
@@ -178,11 +178,10 @@ def _consequence(
     nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
     """Return a polynomial in the ideal of ``members``, and a name. The polynomial has at most one variable.
-    If the name is empty, the polynomial has no real root. If the name is not empty, the name is an element of
-    ``nonzero``, which contains the names of weights that must not be zero. The weight with this name is the
-    variable of the polynomial, and zero is the only real root of the polynomial. In both cases, the
-    polynomials in ``members`` have no common real zero at which all weights in ``nonzero`` are different from
-    zero."""
+    ``nonzero`` contains the names of weights that must not be zero. If the returned name is empty, the
+    polynomial has no real root. Otherwise, the polynomial has only the real root zero, and its variable is
+    the weight with the returned name. In both cases, the polynomials in ``members`` have no common real zero
+    at which all weights in ``nonzero`` are different from zero."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]

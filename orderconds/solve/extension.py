@@ -1,9 +1,10 @@
 """Continuous extensions (dense output) of Runge-Kutta methods, from linear equations.
 
 The extension approximates the solution at the time t_0 + theta h within a step from t_0 to t_0 + h. The
-weights of the extension are polynomials in theta: b_i(theta) = sum_p beta_{p,i} theta^p for stage i. Let |t|
-be the number of nodes of a tree t, gamma(t) its density, and sum_i b_i Phi_i(t) its elementary weight. The
-extension has order q if the following equations hold for all trees t with at most q nodes:
+weights of the extension are polynomials in theta: b_i(theta) = sum_p beta_{p,i} theta^p for stage i. A tree t
+has |t| nodes and the density gamma(t). The elementary weight of t is sum_i b_i Phi_i(t), where Phi_i(t)
+depends only on the matrix A. The extension has order q if the following equations hold for all trees t with
+at most q nodes:
 
 - sum_i beta_{p,i} Phi_i(t) = 1/gamma(t) for p = |t|
 - sum_i beta_{p,i} Phi_i(t) = 0 for all other p

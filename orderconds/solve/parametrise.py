@@ -193,7 +193,7 @@ def _abscissae(
             raise InputError(
                 f"{name} = {spell(elimination.cell(name))}",
                 where=WHERE,
-                expected="no constraint on coefficients of stages",
+                expected="stage coefficients without constraints",
             )
     A = [[named("a", i, j) for j in every] for i in every]
     b = [named("b", i) for i in every]
@@ -238,8 +238,8 @@ def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for coefficients of a symmetric method. With these formulas, the three abscissae of
-    each stage i are equal: c_i = chat_i = m_i (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for coefficients of a symmetric method. With these formulas, c_i = chat_i = m_i for
+    each stage i. The module :mod:`orderconds.solve.abscissae` defines these abscissae."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -254,7 +254,7 @@ def _symmetric_abscissae(
             raise InputError(
                 f"{name} = {spell(elimination.cell(name))}",
                 where=WHERE,
-                expected="no constraint on coefficients of stages",
+                expected="stage coefficients without constraints",
             )
     middle: list[str] = []
     extra = commutator_free_times(written, b)

@@ -25,8 +25,8 @@ from orderconds.solve.spec import Spec
 
 Path = list[list[str]]
 Paths = tuple[list[Path], Path, list[str], list[Constraint]]
-"""A parametrised method: the stages, the update, the names of all coefficients, and the constraints. The
-first exponential of a stage or of the update acts first."""
+"""A parametrised method: the stages, the update, the names of all coefficients, and the constraints. In each
+list of exponentials, the exponential with index 0 acts first."""
 
 
 def full_paths(spec: Spec) -> Paths:
@@ -88,7 +88,7 @@ def symmetric_paths(spec: Spec) -> Paths:
             half = [named("a", i, whole + 1, j) for j in every]
             names += half
             constraints += [
-                equal("two equal halves of the middle exponential", (2, x), (-1, y))
+                equal("that the middle exponential has two equal halves", (2, x), (-1, y))
                 for x, y in zip(half, update[whole], strict=True)
             ]
             path = [*path, half]

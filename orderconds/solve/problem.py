@@ -54,7 +54,7 @@ class Problem:
     def measured(self) -> Family:
         """Return the family in which the principal error is computed.
 
-        In a search for low-storage schemes, this family can differ from :attr:`family`.
+        A search for low-storage schemes may solve the order conditions of another family (:attr:`family`).
         """
         return families.get(self.ansatz.measured or self.ansatz.family)
 

@@ -137,7 +137,11 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         seen.append(batch)
         outcome.best = min(outcome.best, batch.best)
         least = min((s for b in seen for s, _ in b.solutions), default=None)
-        shown = f", least score of a solution {least:.4g}" if least is not None else ""
+        shown = (
+            f", least score of a solution (principal error or largest coefficient) {least:.4g}"
+            if least is not None
+            else ""
+        )
         done = f"structure {structure}: {len(seen) * BATCH} of {count * BATCH} random starts completed"
         report(f"{done}, least residual norm {outcome.best:.1e}{shown}")
         if order.minimised:

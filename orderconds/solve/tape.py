@@ -36,7 +36,7 @@ class _Level:
     left: Places
     right: Places
     index: Places
-    """The degrees n of the n-th roots, for operations of the kind ROOT."""
+    """The index n of the n-th root in each operation. Only operations of the kind ROOT use it."""
 
 
 class Tape:
@@ -140,8 +140,8 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
-    """Return the indices of all inputs and of the operations on which the outputs ``wanted`` depend. The
-    indices are sorted by the level and the kind of the operations."""
+    """Return the indices of all inputs, and the indices of all operations on which the outputs ``wanted``
+    depend. The indices are sorted by the level and the kind of the operations."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

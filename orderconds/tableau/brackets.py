@@ -3,7 +3,7 @@
 The number i denotes the vector field at node i of a quadrature formula. A name denotes an element whose
 definition precedes it in the file. The commutator ``[x,y]`` is the product ``x*y`` minus the product ``y*x``.
 The last factor of a product acts first. Products such as ``S*S`` are allowed only if the method uses the
-Cayley map. Every argument of the Cayley map must be in the Lie algebra, also if it contains products.
+Cayley map. Arguments of the Cayley map may contain products, but must be elements of the Lie algebra.
 """
 
 from __future__ import annotations
@@ -109,10 +109,10 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function that maps a term to a lower and an upper bound of the degrees of its products.
+    """Return a function that maps a term to a lower and an upper bound of the degrees in its expansion.
 
-    Each term expands to a sum of products of vector fields. The degree of a product is the number of its
-    factors. ``elements`` contains the definition of each name in the terms.
+    The expansion of a term is a sum of products of vector fields. The degree of a product is the number of
+    its factors. ``elements`` contains the definition of each name in the terms.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)

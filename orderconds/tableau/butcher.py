@@ -47,7 +47,7 @@ def tableau_latex(tableau: Tableau) -> str:
 
 def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> str | None:
     """Return a Butcher array in LaTeX, with the rows of the stages (``above``) and of the weights
-    (``below``). Return None if the array is too wide, or if a coefficient contains a named number."""
+    (``below``). Return None if the array is too wide, or if a coefficient contains a name, such as ``g``."""
     rows = [*above, *below]
     if any(has_name(x) for row in rows for x in row):
         return None

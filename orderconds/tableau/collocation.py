@@ -15,9 +15,9 @@ mean          A is the mean of two matrices (Lobatto IIID: of IIIC and IIIC*; Lo
 Here C(s - 1) is Butcher's simplifying assumption: row i of A integrates polynomials of degree below s - 1
 from 0 to c_i exactly.
 
-Radau IIA and Lobatto IIIA with at least three stages have an embedded method for step-size control. For Radau
-IIA, the embedded method omits the last node. For Lobatto IIIA, it omits the middle node, or the first of the
-two middle nodes.
+With at least three stages, both the Radau IIA method and the Lobatto IIIA method have an embedded method for
+step-size control. For Radau IIA, the embedded method omits the last node. For Lobatto IIIA, it omits the
+middle node, or the first of the two middle nodes.
 
 Sources: Hairer and Wanner, *Solving Ordinary Differential Equations II*, Section IV.5; Jay, *Lobatto
 methods*, Encyclopedia of Applied and Computational Mathematics, 2015.
@@ -113,8 +113,8 @@ class Nodes:
     def column(self, k: int, value: Algebraic) -> Matrix:
         """Return a matrix A that satisfies the assumption C(s - 1). All entries of column k are ``value``.
 
-        Each row of A is a row of the matrix :meth:`rows` plus a multiple of (e_1, ..., e_s). Here e_j is the
-        leading coefficient of the Lagrange polynomial of node j.
+        Let e_j be the leading coefficient of the Lagrange polynomial of node j. Row i of A is row i of the
+        matrix :meth:`rows` plus a multiple of (e_1, ..., e_s).
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [
@@ -255,15 +255,14 @@ def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:
 
 
 def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
-    """Return the roots of a polynomial that has only real roots. Where possible, the roots are expressed by
-    square roots.
+    """Return the roots of a polynomial that has only real roots. For each irreducible factor, there are three
+    cases:
 
-    If square roots do not suffice for an irreducible factor, its roots get the names c1, c2, ... in ascending
-    order. The largest root gets no name: the sum of all roots is known from the coefficients of the factor,
-    and the largest root is this sum minus the named roots. The rule for names has one exception. If the roots
-    of the factor are symmetric about their mean m, the roots form pairs m + sqrt(x) and m - sqrt(x), with one
-    number x for each pair. The roots of such a factor get no names. The numbers x are the roots of a
-    polynomial g of half the degree. The numbers x are computed by ``roots(g, tower)``.
+    - The degree of the factor is one or two. The roots are expressed by square roots.
+    - The roots are symmetric about their mean m. Each pair of roots is m + sqrt(x) and m - sqrt(x), where x
+      is a root of a polynomial g of half the degree. The numbers x are computed by ``roots(g, tower)``.
+    - In all other cases, the roots except the largest get the names c1, c2, ... in ascending order. The
+      largest root is expressed in terms of the named roots.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

@@ -73,7 +73,8 @@ def test_a_weight_that_may_be_zero_in_the_equation_is_named_in_the_reason() -> N
     proof = _certificate([k], [(condition, member)], consequence, weight, plain)
     assert proof is not None
     assert proof.reason == (
-        "b1^3 + b1 = 0 implies b1 = 0 for real b1 (Sturm), but the formulas of the family divide by b1"
+        "b1 = 0 is the only real root of b1^3 + b1 = 0 (Sturm), but "
+        "b1 must not be zero: the formulas of the family divide by b1"
     )
 
 
