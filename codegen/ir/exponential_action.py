@@ -114,9 +114,7 @@ class ExponentialAction(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The estimated numbers of additions and multiplications in one call. The estimate assumes a Taylor
-        polynomial of degree 18, and no halvings of A.
-        """
+        """The estimated numbers of additions and multiplications in one call."""
         products = 18 * (len(self.places) + self.n)
         return {"add": products, "mul": products}
 
@@ -250,7 +248,7 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # If the constant terms form a nilpotent matrix, the series ends before this term.
+        # A finite series has at most ``longest`` terms.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)

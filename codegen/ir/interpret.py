@@ -178,7 +178,7 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # If the iteration is done, ``env`` keeps the values that were computed from ``old``.
+        # If ``done`` is true, the unknowns keep their old values.
         done, size = domain.settled(old, new, size)
         if done:
             return

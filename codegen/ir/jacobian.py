@@ -47,7 +47,7 @@ class _Graph:
     """The graph of the expressions. Both ``before[v][u]`` and ``after[u][v]`` contain the label of the edge
     from u to v.
 
-    A vertex is a number: the node number of a variable or of an inner node, or -1, -2, ... for the results.
+    The vertex -1 - i is the result i. Every other vertex u is the expression with ``id`` u.
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:

@@ -101,7 +101,7 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """The number of steps between two inversions of the matrix, or 0 if ``residuals`` is false."""
+        """If ``residuals`` is true, the number of steps between two inversions of the matrix, otherwise 0."""
         # The inversion of an n x n matrix costs O(n^3) operations. If one inversion serves n/2 steps of the
         # integrator, the cost of inversions is only O(n^2) operations in each step.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
@@ -186,9 +186,9 @@ class Start:
 
     A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then the
     step size grows to h. Each solution provides the first values for the next larger step size. After a
-    successful step size s < h, the next step size is s times a growth factor, but at most h. The continuation
-    fails after ``TRIES`` attempts. After the first successful attempt, each failed attempt reduces the growth
-    factor. If the growth factor becomes 1 + ``SHORTEST`` or less, the continuation fails, too.
+    successful step size s < h, the next step size is s times a growth factor, but at most h. If the longer
+    step fails, a smaller growth factor is tried. The continuation fails after ``TRIES`` attempts, or if the
+    growth factor becomes 1 + ``SHORTEST`` or less.
     """
 
     unknowns: tuple[str, ...]
@@ -200,7 +200,7 @@ class Start:
     ROUGH: ClassVar[float] = 0.5
     # Successful continuations need far fewer than 100 attempts.
     TRIES: ClassVar[int] = 100
-    # Nine failed attempts reduce the growth factor from 4 to less than 1 + ``SHORTEST``.
+    # With a smaller growth factor, the step size would hardly grow.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -366,7 +366,8 @@ class Kernel:
     - ``inputs`` are the names of functions of time that the caller supplies. ``samples`` contains the times
       at which these functions are evaluated.
     - ``vary`` is the kernel of the variational equation.
-    - ``substeps`` are the substeps of a composition method. The kernel is called once for each substep.
+    - ``substeps`` are the substeps of a composition method. If there are substeps, ``body`` is executed once
+      for each substep.
     - ``outlined`` are functions. The expressions in ``body`` and ``outputs`` may contain calls of these
       functions.
     - ``carried`` contains the conversions between the space momentum of the caller and the body momentum of

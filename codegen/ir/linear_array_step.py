@@ -78,8 +78,8 @@ class TimeMatrix:
 class Element:
     """A linear combination of matrices h A(t_i) and of commutators, for example an exponent.
 
-    ``letter`` is the index of the combination of the matrices h A(t_i) in :attr:`LinearArrayStep.letters`, or
-    None if there are no such matrices. ``commutators`` contains pairs of a coefficient and an index in
+    ``letter`` is an index in :attr:`LinearArrayStep.letters`. If the element contains only commutators,
+    ``letter`` is None. ``commutators`` contains pairs of a coefficient and an index in
     :attr:`LinearArrayStep.commutators`.
     """
 

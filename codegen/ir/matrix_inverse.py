@@ -29,7 +29,7 @@ def inverse(
         rows[k], rows[pivot] = rows[pivot], rows[k]
         factor = one / rows[k][k]
         rows[k] = [x * factor for x in rows[k]]
-        # Column k is stored in place: it now belongs to the inverse matrix.
+        # The inverse matrix overwrites ``rows``, one column in each pass.
         rows[k][k] = factor
         for i in range(n):
             if i != k:

@@ -85,7 +85,7 @@ class Multiplier:
             # At 0, POWER has the value 0, EXP has the value 1, and PHI and BERNOULLI have the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # The number ``scale`` is stored as a coefficient, so that equal multipliers have equal terms.
+            # All multiples of z must have the same monomial, so ``scale`` is the coefficient.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -217,7 +217,7 @@ class Nonlinearity:
 
     - ``inner`` contains a pair (order, name) for each x-derivative of u on which the functions f_j depend.
       Order 0 is u itself.
-    - ``outer`` lists the orders of the x-derivatives of f_1, f_2, ... in the sum.
+    - In term j of the sum, f_j is differentiated ``outer[j]`` times with respect to x.
     - ``formulas`` computes the values of all f_j at one point x. The kernel inputs are: the derivatives in
       ``inner``; x; t; the parameters.
     - ``kept`` is the fraction of the Fourier modes of N that the step uses. The modes with the highest wave
@@ -238,7 +238,8 @@ class ModeStep:
     - ``evaluations`` contains the evaluations of the nonlinear part N, in the order of execution.
     - ``result`` contains the terms whose sum is the new state.
     - ``nonlinearity`` is the nonlinear part N.
-    - ``wave`` and ``space`` are the names of two variables: the wave number and x.
+    - ``wave`` is the name of the symbol for the wave number.
+    - ``space`` is the name of the symbol for x.
     - ``symbol`` computes the eigenvalue lambda of L from the wave number. The outputs are the real part and,
       if L may have eigenvalues that are not real, the imaginary part.
     - ``length`` computes the length of the periodic interval.
@@ -335,7 +336,7 @@ class ModeStep:
             return "some contain exp(-c z) with c > 0 and grow exponentially, so short steps are required"
         if self.growth > 0:
             power = "|z|" if self.growth == 1 else f"|z|^{self.growth}"
-            return f"some grow like {power}, which may limit the step size"
+            return f"some coefficients grow like {power}, which may limit the step size"
         return "all are bounded"
 
     def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:

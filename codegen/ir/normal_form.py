@@ -146,7 +146,7 @@ class NormalForms:
 
     def _sum(self, terms: Mapping[Monomial, Number]) -> Expr:
         total = self.space.zero
-        # Sorting makes the order of the additions independent of the order of insertion.
+        # Equal polynomials must give the same expression, so the terms are sorted.
         for monomial, c in sorted(terms.items()):
             product = self.space.const(c)
             for atom, n in monomial:

@@ -151,7 +151,6 @@ class Linear(Operation):
 
         All vectors are assumed to be in the Lie algebra.
         """
-        # The method :meth:`accepts` also permits vectors in the dual of the Lie algebra.
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
@@ -335,7 +334,7 @@ class Adjoint(OfGroup):
         return G + own, own
 
     def opposite(self) -> Adjoint:
-        """Return the inverse of this operation, as an operation with the same argument g."""
+        """Return the inverse operation. Both operations use the same group element g."""
         # The inverse of Ad_g is Ad_{g^-1}, and the inverse of Ad*_g is Ad*_{g^-1}.
         return Adjoint(self.dual, not self.inverse)
 
@@ -386,7 +385,7 @@ class InverseDexp(Operation):
 
     @property
     def word(self) -> Word:
-        """A tuple with one element that represents the truncated series of dexp^{-1}."""
+        """A tuple whose only element is the truncated series of dexp^{-1}."""
         # If two functions of the same ad_x are applied one after the other, a compiler pass replaces the two
         # operations by one :class:`AdSeries`.
         return (Factor("dexpinv", UNIT, self.order),)
@@ -441,9 +440,9 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """A tuple of functions f such that dexp*_x is the product of the operators f(ad*_x).
+        """A tuple whose only element is the function f(t) = (e^t - 1)/t.
 
-        Here ad*_x is the transpose of ad_x. The tuple has one element: the function f(t) = (e^t - 1)/t.
+        The operator dexp*_x is f(ad*_x), where ad*_x is the transpose of ad_x.
         """
         return (Factor("dexp", UNIT),)
 
@@ -475,7 +474,7 @@ class AdSeries(Operation):
         return A + own, own
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if ``word`` is not empty and :meth:`signature` is (``arguments``, ``results``)."""
+        """Return True if ``self.word`` is not empty and :meth:`signature` is (``arguments``, ``results``)."""
         # An empty product is the identity map, which needs no operation.
         return bool(self.word) and super().accepts(arguments, results)
 

@@ -46,8 +46,8 @@ class Precision:
         return 1 + math.ceil(self.bits * math.log10(2))
 
     def scaled(self, tolerance: float) -> float:
-        """Convert ``tolerance`` from doubles to this format. The factor is the unit roundoff of this format
-        divided by the unit roundoff of doubles.
+        """Return ``tolerance`` times u/v. Here u is the unit roundoff of this format, and v is the unit
+        roundoff of doubles.
 
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True
@@ -100,12 +100,11 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     # Zero has no leading bit, so no exponent can be computed.
     if exact == 0:
         return 0.0
-    # Rounding to a double first could give a wrong result: the double may lie exactly between two numbers of
-    # the format.
+    # The exact value is rounded only once, because two roundings can give a wrong result.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
     # Here ``exponent`` is correct or too small by one.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
-    # The last bit of the result has at least the exponent of the smallest positive number.
+    # Subnormal numbers have fewer than ``bits`` significant bits.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
         # Python rounds a Fraction with ties to even, as IEEE 754 does by default.

@@ -96,7 +96,7 @@ class BodyForce(OfScene):
 class Legendre(OfGroup):
     """The momentum P as a function of the velocity W, both in the body frame."""
 
-    # The momentum is a constant matrix times the velocity. The matrix does not depend on time.
+    # The momentum is a constant matrix times the velocity.
     name = "legendre"
     takes, gives = A, D
     noun = "Legendre transform{s}"
@@ -254,7 +254,6 @@ class FlowOf(Operation):
         return problem.flow(domain, self.part, self.duration.evaluate(domain), args)
 
 
-# The interpreter evaluates a program for one site of a lattice, so it cannot evaluate this operation.
 @dataclass(frozen=True)
 class SiteFlowOf(Operation):
     """The state of a lattice after the exact flow of one part of the vector field, for a fixed duration.

@@ -36,8 +36,8 @@ def selects(function: str) -> bool:
 def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign) -> Scalar:
     """Return the value of ``choose``, ``fabs`` or a piecewise polynomial for the arguments ``args``.
 
-    ``sign`` returns the sign of a scalar: -1, 0, 1, or None for a NaN. If the sign of the first argument is
-    None, the result is the first argument.
+    ``sign`` returns the sign of a scalar: -1, 0, 1, or None for a NaN. If the first argument is a NaN, the
+    result is the first argument.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):

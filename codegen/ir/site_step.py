@@ -154,7 +154,7 @@ class SiteNewton:
         # The matrix of a periodic chain is not block-tridiagonal, because the last site is a neighbour of the
         # first site.
         if periodic:
-            # The unknowns of the last site need n additional solutions of linear systems.
+            # Each of the n columns for the last site is an additional right-hand side.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written

@@ -29,7 +29,6 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
 
     If an argument of a selection contains another selection, the inner selection comes first.
     """
-    # ``walk`` yields the arguments of a node before the node itself.
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
 
 

@@ -72,8 +72,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
     The scalars of ``recurrence`` must be expressions of ``space``, and ``recurrence.scale`` must be 1.
     """
-    # ``_Loop.constant`` needs the coefficients 1, ..., ``PROBED`` - 1, although ``start`` contains only
-    # coefficient 1.
+    # The method ``_Loop.constant`` later reads the coefficients 1, ..., ``PROBED`` - 1.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
     # Coefficient n + 1 of a coordinate is 1/(n + 1) times coefficient n of the derivative of the coordinate.
@@ -264,7 +263,7 @@ class _Loop:
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
-                # The term of ``slopes[0]`` is added, and the term of ``slopes[1]`` is subtracted.
+                # The mean that belongs to ``slopes[1]`` has a minus sign, as above.
                 (mean,) = means
                 return space.sym(INVERSE) * (mean if self.known[id(slopes[0])] is not None else -mean)
             case Antiderivative(slope=slope, rate=rate):

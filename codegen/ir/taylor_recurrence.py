@@ -82,7 +82,7 @@ class _Builder:
         if base is not node:
             return (base,)
         if node.op == "div":
-            # The series of the quotient needs only the series of the base of the monomial.
+            # The divisor is rewritten as c x^e, so only the series of x is needed.
             _, divisor, _ = self.monomial(node.args[1])
             return node.args[0], divisor
         return node.args
