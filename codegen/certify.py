@@ -35,8 +35,8 @@ class CertifiedOrder:
       checked.
     - ``classical`` is the name of the classical family whose conditions were checked, or ''. These
       conditions are used only on abelian groups.
-    - ``radius`` is the uncertainty of the coefficients, if it exceeds the rounding error of a double. The
-      certificate is then "none".
+    - ``radius`` is '' if the coefficients are accurate to the rounding error of a double. Otherwise,
+      ``radius`` is the uncertainty of the coefficients, and the certificate is "none".
     """
 
     order: int

@@ -26,7 +26,7 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""Orders are measured with the step sizes h and RATIO h, where h = T 10^(-SMALLEST / (p + 2)).
+"""The smaller step size h of :func:`is_blind` satisfies (h/T)^(p + 2) = 10^-SMALLEST.
 
 Here T is the length of the time span of the scene, and p is the order of the method.
 """

@@ -31,8 +31,8 @@ SINGLE_IS = (
 NOT_SMOOTH = "the stated order requires a vector field that is smooth along the whole step"
 """The header of an emitted module contains this remark if the vector field of the scene is not smooth."""
 
-COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
-COUNTED = "; the numbers of sweeps under 'solved by' were counted in double precision"
+COMPENSATED = "compensated: the second half of the state contains correction terms, initially zero"
+COUNTED = "; the numbers of sweeps in this header are for double precision"
 """A remark in the header of a module in single precision. A sweep is one iteration for implicit equations."""
 
 
@@ -80,15 +80,15 @@ def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
     extension = None if kernel.observed is None else kernel.observed.extension
     if extension is None:
         return ()
-    text = f"the continuous extension of the tableau has order {extension.order} and gives states inside"
-    return (("output", f"{text} steps; its weights are polynomials of degree {extension.degree}"),)
+    text = f"continuous extension of the tableau: order {extension.order}"
+    return (("output", f"{text}, polynomial weights of degree {extension.degree}"),)
 
 
 def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     """Return the header line about the memory of a step, if the method has a low-storage scheme."""
     text = lowering(compiled.method.family).storage(compiled.method)
     if text and compiled.kernel.sites is not None:
-        text = f"{text}; each site also stores two more states, because its neighbours read its old state"
+        text = f"{text}; each site of the lattice stores two additional states"
     return (("storage", text),) if text else ()
 
 
@@ -149,8 +149,8 @@ def steps_of(kernel: Kernel) -> str:
 
 def substeps_of(kernel: Kernel) -> str:
     """Return the text of the header line about the substeps of a step."""
-    each = ", ".join(f"{float(step.fraction):.6g}" for step in kernel.substeps)
-    return f"{len(kernel.substeps)} calls of one function; the step sizes are these multiples of h: {each}"
+    each = ", ".join(f"{float(step.fraction):.6g} h" for step in kernel.substeps)
+    return f"{len(kernel.substeps)} calls of one function with the step sizes {each}"
 
 
 def left_out(compiled: Compiled) -> tuple[str, ...]:
@@ -165,9 +165,9 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
         lines.append(f"arguments for constant parameters: {', '.join(folded)}")
     closed = [name for name in scene.signals if name not in scene.inputs]
     if closed:
-        lines.append(f"run-time inputs for {', '.join(closed)}: the scene contains formulas instead")
+        lines.append(f"inputs for {', '.join(closed)} are not needed: the scene contains formulas")
     if TIME not in kernel.used_scalars():
-        lines.append("the time: the scene does not depend on it")
+        lines.append("the time is not needed: no formula depends on the time")
     if not any(isinstance(s, Loop) for s in kernel.body):
         lines.append("a solver for implicit equations: all stages are explicit")
     return tuple(lines)

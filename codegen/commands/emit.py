@@ -75,7 +75,8 @@ if TYPE_CHECKING:
     "--dense",
     is_flag=True,
     help="Compute the states at output times with the continuous extension of the tableau. By default, "
-    "shorter steps compute these states. This option implies --integrate.",
+    "each state is computed by a separate step that ends at the output time. This option implies "
+    "--integrate.",
 )
 @click.option(
     "--events",

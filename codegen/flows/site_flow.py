@@ -62,8 +62,8 @@ class SiteFlow(Flow):
 def site_flows(scene: Problem) -> list[Part]:
     """Return the parts of a lattice scene and their exact flows.
 
-    For a Hamiltonian lattice, the last part is the total potential energy. For another lattice, the list
-    contains the parts of the field:
+    For a Hamiltonian lattice, each part is a term of the Hamiltonian, and the potential energy is the last
+    part. For another lattice, the list contains the parts of the field:
 
     - The parts that couple no sites are first in the list.
     - Each part that couples neighbours along an axis is split into two parts, one for the even pairs and one

@@ -255,8 +255,7 @@ class CayleyMap(LieGroup):
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return the product x y x = 4 y - 2 [x, y] - 4 dcay^{-1}_x y.
 
-        For small x, this formula loses digits by cancellation. A subclass may override this method by a more
-        accurate formula.
+        For small x, this formula loses digits by cancellation.
         """
         terms = zip(y, self.ad(d, x, y), self.dcayinv(d, x, y), strict=True)
         four, two = d.rational(4), d.rational(2)
@@ -444,10 +443,7 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return tuples of indices. :meth:`complete` can compute the coordinates with these indices from all
-        other coordinates.
-
-        """
+        """Return the tuples of indices that :meth:`complete` accepts as ``missing``."""
 
     @abstractmethod
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:

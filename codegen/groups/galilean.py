@@ -43,11 +43,11 @@ class _Events(MatrixColumns):
         return (*(a for row in rows for a in row), zero, zero, zero, one)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return (dexp_w p + r psi(w) b, r), the translation of exp(x, u).
+        """Return the translation of exp(x, u) for x = (w, b) and u = (p, r).
 
-        Here x = (w, b) and u = (p, r) with vectors w, b, p and a number r. Let z = |w|^2, and let c_2 and c_3
-        be Stumpff functions. The matrix psi(w) is I/2 + c_3(z) W + (c_2'(z) + c_3(z)/2) W^2. Here I is the
-        identity matrix, and W a = w cross a for all vectors a.
+        Here w, b and p are vectors, and r is a number. Let W be the matrix with W a = w cross a for all
+        vectors a. Let z = |w|^2, and let c_2 and c_3 be Stumpff functions. The result is
+        (dexp_w p + r M b, r), where M is the matrix I/2 + c_3(z) W + (c_2'(z) + c_3(z)/2) W^2.
         """
         w, b, position, time = x[:3], x[3:], u[:3], u[3]
         z, half = dot(w, w), d.rational(1, 2)

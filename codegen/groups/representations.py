@@ -138,9 +138,8 @@ class Representation(ABC):
 class AlgebraVectors(Representation):
     """One or more copies of the Lie algebra. The group acts on each copy by Ad.
 
-    For this representation, x.v is the bracket [x, v]. A pair (x, u) (see ``Pair``) is
-    represented by the vector x + u e of dual numbers, where e^2 = 0. The bracket of the pairs (x, u) and
-    (y, w) is [x + u e, y + w e].
+    For this representation, x.v is the bracket [x, v]. Let e be a symbol with e^2 = 0. The bracket of two
+    pairs (x, u) and (y, w) is computed as [x + u e, y + w e] with dual numbers.
     """
 
     of_algebra = True

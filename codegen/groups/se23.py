@@ -27,7 +27,7 @@ class SE23(Semidirect):
         named = attitude.name == SO3.name
         name = "SE_2(3)" if named else f"SE_2(3) over {attitude.name}"
         super().__init__(attitude, AlgebraVectors(2), name)
-        self.layout = f": the attitude in {attitude.name}{attitude.layout}, the velocity, the position"
+        self.layout = f": attitude in {attitude.name}{attitude.layout}; velocity; position"
 
     def with_linear(self, linear: LieGroup) -> SE23:
         """Return SE_2(3) with the attitude in the group ``linear``."""

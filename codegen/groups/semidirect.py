@@ -65,8 +65,8 @@ class Semidirect(
     """
 
     covering_formula = (
-        "the covering map of the linear factor, applied to the first coordinates of q; the other coordinates "
-        "are copied"
+        "the components of the vector are copied; the covering map of the linear factor is applied to the "
+        "other coordinates of q"
     )
 
     def __init__(self, linear: LieGroup, representation: Representation, name: str = "") -> None:
@@ -222,7 +222,7 @@ class Semidirect(
         return self.linear.ad(d, a, b) + turned
 
     def _difference(self, d: Domain, a: Vector[S], v: Vector[S], b: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return a.v - b.u for one copy (see :class:`Semidirect`). Here a.v is the action of a on v."""
+        """Return a.v - b.u, where a.v is the action of a on v."""
         velocity = self.representation.velocity
         pairs = zip(velocity(d, self.linear, a, v), velocity(d, self.linear, b, u), strict=True)
         return tuple(p - q for p, q in pairs)
@@ -286,8 +286,9 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        Let J be the momentum map, and let t = phi(y) u (see :meth:`exp`). Let f(y, u) = <p, t>. The result
-        is (dexp*_y (m - J(t, p)) + D_y f, D_u f) with the partial derivatives D_y f and D_u f.
+        Let exp(x) = (exp y, t), and let J be the momentum map. The result is
+        (dexp*_y (m - J(t, p)) + D_y <p, t>, D_u <p, t>). Here D_y and D_u denote gradients with respect to y
+        and u.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -401,7 +402,7 @@ class Semidirect(
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return the matrix [[Y, U], [0, 0]] for x = (y, u), where Y is the matrix of y.
 
-        The columns of U are the copies in the vector u (see :class:`Semidirect`).
+        The vector u consists of the columns of U, one after the other.
         """
         y, u = self._split(x)
         return self._bordered(d, self._matrices().hat(d, y), u, d.rational(0))
@@ -450,7 +451,7 @@ class Semidirect(
         return self._covered().covering(d, g) + a
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Replace r in q = (r, a) by its projection, then return the image of q under :meth:`covering`."""
+        """Return (s, a) for q = (r, a), where s is the projected covering of r in the linear factor."""
         g, a = self._over(q)
         return self._covered().projected_covering(d, g) + a
 

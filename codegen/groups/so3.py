@@ -60,10 +60,7 @@ class SO3(
         self.dependent = dependent
 
     def variants(self) -> Sequence[SO3]:
-        """Return this implementation, and one implementation for each choice of the dependent column.
-
-        A dependent column is computed as the cross product of the other two columns.
-        """
+        """Return this object, followed by SO3(k) for the columns k = 0, 1, 2 (see :class:`SO3`)."""
         return (self, *(SO3(column) for column in range(3)))
 
     def identity(self, d: Domain) -> Vector[S]:
@@ -157,7 +154,7 @@ class SO3(
         return tuple(m - c2 * p + c3 * q for m, p, q in zip(mu, v, w, strict=True))
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return W v, where W is the product of the functions of ad_x in ``word``. If ``dual`` is true,
+        """Return W(ad_x) v, where W(t) is the product of the factors in ``word``. If ``dual`` is true,
         ad*_x = -ad_x replaces ad_x.
         """
         b, c = ad_polynomial(d, word, dot(x, x))

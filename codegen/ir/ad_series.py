@@ -71,7 +71,7 @@ def simplified(word: Word) -> Word:
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
-            # The new factor already contains the factor exp(-s t).
+            # The factor dexp(-s t) replaces both factors, so no exponential factor remains.
             rate = Fraction(0)
     # Sorting makes the result independent of the order of the factors in ``word``.
     factors = [Factor("exp", rate)] if rate else []

@@ -327,8 +327,6 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
-            # The number ``a`` is C[row, column], and M is ``matrix``. For the product C M, the number
-            # C[row, column] M[column, b] is added to target[row, b].
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values

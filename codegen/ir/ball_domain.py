@@ -233,7 +233,6 @@ class BallDomain:
             raise NotConverged("an iteration computed a number that is not finite")
         # The factor 4096 = 2^12 allows for the accumulated rounding errors of an iteration.
         small = change <= 4096 * self.eps * max(arb(1), *(abs(a.mid()) for a in old))
-        # A small change consists of rounding errors if it no longer decreases.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: arb) -> arb:

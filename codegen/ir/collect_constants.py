@@ -59,7 +59,7 @@ def _bare(node: Expr) -> Expr:
 
 def _operations(roots: Sequence[Expr], still: set[int]) -> int:
     nodes = [node for node in walk(roots, stop=lambda n: n.id in still) if node.id not in still]
-    # A negation is not counted, because it usually turns a sum into a difference.
+    # A negation usually costs nothing, because a - b replaces a + (-b).
     products = sum(int(node.payload) - 1 for node in nodes if node.op == "pow")
     return products + sum(node.op not in ("const", "sym", "neg", "pow") for node in nodes)
 
@@ -178,8 +178,7 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # An atom must not be a linear combination. A simplified expression could be a linear combination, so
-        # the atom is made by ``Space._make``, which does not simplify.
+        # An atom must not be a linear combination, so it is made without simplification.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 

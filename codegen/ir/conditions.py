@@ -35,7 +35,6 @@ def negation(condition: Condition) -> Condition:
 
 def both(a: Condition, b: Condition) -> Condition:
     """Return the conjunction of the conditions a and b."""
-    # If a is true, b selects ``yes`` or ``no``. If a is false, the result is ``no``.
     return lambda yes, no: a(b(yes, no), no)
 
 
@@ -68,7 +67,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
         # The order of the operands in sympy depends on hashes.
         for part in sorted(condition.args, key=sympy.default_sort_key):
             total = both(total, inner(part) if joins_all else negation(inner(part)))
-        # For Or, the operands were negated, so the result is the negation of ``total`` (De Morgan's rule).
+        # By De Morgan's rule, (a or b) = not (not a and not b).
         return total if joins_all else negation(total)
     if not isinstance(condition, sympy.core.relational.Relational):
         raise SceneError(f"{condition} is not a condition", where=where, expected=EXPECTED)

@@ -424,7 +424,6 @@ class SeriesDomain:
         """Return the series a/b, or 0 if b = 0. If a/b has a pole at h = 0, ArithmeticError is raised."""
         # ``power`` is the exponent of the lowest power of h in b.
         power = self.ring.valuation(b)
-        # In this case, all known coefficients of b are zero.
         if power > self.order:
             return self.ring.zero
         if self.ring.valuation(a) < power:
@@ -448,7 +447,6 @@ class SeriesDomain:
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return (True, None) if ``old`` and ``new`` are equal, otherwise (False, None)."""
-        # The iteration ends, because each sweep gives one more correct coefficient.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
@@ -486,7 +484,7 @@ class ExprDomain:
         """Return a dictionary from the function names ``names`` to symbols. The symbols denote the values of
         the functions at the time t.
         """
-        # Stages at equal times use the same symbols, so each function is evaluated once for each time.
+        # For equal times, all calls must return the same symbols.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}

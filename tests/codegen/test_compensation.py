@@ -90,7 +90,9 @@ def test_the_header_states_the_layout_and_the_command() -> None:
     made = compile_method("free_rigid_body", "cf:cf4", compensate=True)
     emission = emit_compiled(made, "c")
     (text,) = (text for name, text in emission.files.items() if name.endswith(".c"))
-    assert "the second half of the state contains rounding errors" in " ".join(text.replace("*", " ").split())
+    assert "the second half of the state contains correction terms" in " ".join(
+        text.replace("*", " ").split()
+    )
     assert "--compensate" in emission.manifest["command"]
     plain = emit_compiled(compile_method("free_rigid_body", "cf:cf4"), "c")
     assert not any("carry" in text or "compensate" in text for text in plain.files.values())

@@ -47,7 +47,7 @@ class SecondKind(CoordinateMap):
         """Return the solution v of the linear system dtau_x v = y."""
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # Both sides of the system are multiplied by Ad_g^-1 for g = exp(x_1 e_1) to simplify the columns.
+        # The solved system is Ad_g^-1 dtau_x v = Ad_g^-1 y with g = exp(x_1 e_1).
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]
