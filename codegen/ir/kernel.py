@@ -336,7 +336,7 @@ class Observed:
     """The properties of the emitted function that integrates to a given end time.
 
     ``events`` is the number of event functions. The ``extension`` (dense output) computes the states at
-    output times. If ``extension`` is None, steps are shortened to end at the output times.
+    output times. If ``extension`` is None, a separate step computes each of these states.
     """
 
     events: int = 0
