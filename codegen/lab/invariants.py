@@ -88,7 +88,6 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
         case "neg":
             return sizes[0]
         case "div":
-            # ``sizes[1]`` would be too large if terms of the divisor cancel.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)

@@ -1,4 +1,4 @@
-"""Vector fields that are only piecewise smooth, for the reference solution of a scene.
+"""Vector fields that are only piecewise smooth.
 
 A selection (:mod:`codegen.ir.smoothness`) is an operation with several cases (*sides*), for example an
 absolute value. The margins of a selection are functions of the state and the time that are positive while the
@@ -52,7 +52,7 @@ SUBSTEPS = 24
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that :meth:`PiecewiseField.beyond` returns."""
+"""The largest number that :meth:`PiecewiseField.beyond` returns as the smoothness of a field."""
 
 
 @dataclass(frozen=True)
@@ -113,11 +113,11 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the cases after an event at (y, t), and the smoothness of the field at (y, t).
+        """Return the cases that apply after an event at (y, t), and the smoothness of the field at (y, t).
 
-        ``sides`` contains the cases before the event: one case for each operation with several cases, such as
-        abs(x). The smoothness is the number of continuous derivatives of the field, or -1 if the field is
-        discontinuous.
+        An operation such as abs(x) has several cases. ``sides`` contains, for each such operation, the case
+        that applies before the event. The smoothness is the number of continuous derivatives of the field, or
+        -1 if the field is discontinuous.
         Raises :class:`SceneError` if the solution slides along a discontinuity of the field.
         """
         before, _ = self.on(sides)
@@ -168,11 +168,7 @@ class Sided:
         self.sides, self.least = self.fields.sides_at(y, t), least
 
     def __call__(self, y: Vector, t: Scalar) -> Vector:
-        """Return the value of the field at the state y and the time t, and add (y, t) to ``points``.
-
-        An operation such as abs(x) has several cases. ``sides`` contains the case that is used for each
-        operation.
-        """
+        """Return the value of the field at the state y and the time t, and add (y, t) to ``points``."""
         self.points.append((y, t))
         return self.fields.on(self.sides)[0](y, t)
 
@@ -195,11 +191,11 @@ class Sided:
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Find the first event in a step from (y, t), and set ``sides`` to the formulas that are valid after
-        the event.
+        """Find the first event in a step from (y, t), and set ``sides`` to the cases that apply after the
+        event.
 
         At an event, a margin is zero (:meth:`margins`). The result is the time and the state of the event, or
-        None if the caller must try a shorter step.
+        None if no event was found. After the result None, the caller must try a shorter step.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)

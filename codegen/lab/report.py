@@ -50,7 +50,7 @@ class Request:
     processes: int | None = None
 
     def names(self) -> tuple[str, ...]:
-        """Return the names of the scenes without repetitions."""
+        """Return the names of the scenes, each name once."""
         return tuple(dict.fromkeys(self.scenes or REPORT_SCENES))
 
     def together(self) -> int:

@@ -112,7 +112,7 @@ class Interpreted:
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
-    """Return a dictionary: the name of each component (for example a momentum), and its coordinates."""
+    """Return a dictionary that maps the name of each state component to the coordinates of the component."""
     fields: dict[str, Vector] = {}
     start = 0
     for field in problem.state:

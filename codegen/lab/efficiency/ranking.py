@@ -18,8 +18,8 @@ class Place:
     """The fastest and the second fastest candidate for an error of 10^-``decade``.
 
     - ``winner``, ``seconds``: the label and the CPU time of the fastest candidate.
-    - ``second``, ``behind``: the label and the CPU time of the second fastest candidate. If only one
-      candidate reaches the error, ``second`` is '' and ``behind`` is None.
+    - ``second``: the label of the second fastest candidate, or '' if only one candidate reaches the error.
+    - ``behind``: the CPU time of the second fastest candidate, or None.
 
     If the scene has several forms of the equations, a label ends with the name of the form.
     """

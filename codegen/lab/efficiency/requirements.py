@@ -1,6 +1,7 @@
-"""The requirements and the errors in the table of recommended methods.
+"""Defines the table of recommended methods in the report.
 
-The table has one column for each requirement and one row for each error. The report contains the table.
+Each column belongs to a requirement on the methods, for example that they are explicit. Each row belongs to
+an upper bound of the error.
 """
 
 from __future__ import annotations

@@ -52,7 +52,7 @@ On stiff scenes, a time that is predicted from equal steps can be a hundred time
 """
 
 ROUND = 6
-"""The largest number of recipes that are emitted between two corrections of the predicted times."""
+"""The largest number of recipes that :meth:`Search._next` returns."""
 
 GROUP = 50
 """The number of predictions between two progress messages."""

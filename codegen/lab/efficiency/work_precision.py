@@ -33,7 +33,7 @@ NEAR_ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Row:
-    """The measured data of a method or of another integrator for one tolerance or number of steps.
+    """The measured data of an integrator for one value of ``control``.
 
     - ``control``: the requested tolerance or number of steps.
     - ``h``: the mean step size.
@@ -181,7 +181,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield one arbitrary number, so that :func:`measure_rows` returns a row with the reason."""
+        """Yield the number 0."""
         yield 0.0
 
     def prepare(self) -> None:

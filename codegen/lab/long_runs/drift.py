@@ -13,8 +13,8 @@ A slope different from zero can have three causes:
 Only systematic growth is called a drift. The slope counts as a drift only if both of the following conditions
 hold:
 
-- The means over five consecutive sections of the record are monotone. If the deviation only varies slowly,
-  these means are usually not monotone.
+- The record is cut into five sections, and the means of the five sections are monotone. If the deviation
+  only varies slowly, these means are usually not monotone.
 - At least one of two tests shows that the deviation is not a random walk. The limits of the tests are
   :data:`STRAIGHT` and :data:`STEADY`. The test with :data:`STRAIGHT` is due to J. D. Sargan and A. Bhargava,
   Econometrica 51 (1983) 153.
@@ -35,10 +35,7 @@ FEWEST = 2 * BLOCKS
 
 CONFIDENCE = 0.95
 PARTS = 5
-"""The number of sections of a record.
-
-The slope counts as a drift only if the means over the sections are monotone.
-"""
+"""The number of sections of a record."""
 
 LOST = 1.0
 """A conserved quantity counts as lost if its relative deviation is at least LOST."""
@@ -113,7 +110,7 @@ for k = FAR. If a record has too few blocks for k = FAR, a smaller k is used.
 
 @dataclass(frozen=True)
 class Drift:
-    """The results of the tests for a drift of a conserved quantity. The verdict is :attr:`law`.
+    """The results of the tests for a drift of a conserved quantity.
 
     - ``slope``: the slope of the fitted line per unit of time, or NaN if too few deviations are finite.
     - ``half_width``: the half width of the 95 % confidence interval of the slope.
@@ -124,7 +121,8 @@ class Drift:
     - ``later``: the growth factor that is defined at :data:`LATE`.
     - ``ratios``: two variance ratios (:data:`WALKING`), both about 1 for a random walk.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
-    - ``unlike_walk``: True if :data:`STRAIGHT` or :data:`STEADY` shows that the record is no random walk.
+    - ``unlike_walk``: True if the scatter about a line is below :data:`STRAIGHT`, or if the steadiness is
+      above :data:`STEADY`.
     - ``until``: the time at which the deviation saturates, or None.
     """
 
@@ -172,7 +170,6 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # If the deviation grows fast, ``exponent`` is large, even if the fitted line has no slope.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -233,7 +230,6 @@ def fit(
         return Drift(math.nan, math.nan, largest, math.nan, rounding)
     least = numpy.abs(y) if lows is None else numpy.array(lows, dtype=float)
     signs = numpy.sign(y)
-    # If the sign has changed since the previous sample, the smallest absolute deviation is zero.
     least[1:][signs[1:] * signs[:-1] < 0] = 0.0
     level = None if count < len(t) else saturation(size, least)
     until = None if level is None else float(t[level])
@@ -285,7 +281,7 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the scatter as defined at :data:`CONFINED` (degree 0) or at :data:`STRAIGHT` (degree 1)."""
+    """Return the scatter. See :data:`CONFINED` for degree 0, and :data:`STRAIGHT` for degree 1."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())

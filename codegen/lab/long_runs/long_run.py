@@ -195,11 +195,7 @@ def _kept(
 def _before_saturation(
     name: str, whole: Drift, trajectory: Trajectory, early: Callable[[int], Trajectory]
 ) -> Drift:
-    """Return the drift of a quantity, fitted to the samples before the deviation saturates.
-
-    If these samples are too few, the steps before the deviation saturates are repeated with dense samples
-    (``early``).
-    """
+    """Return the drift of a quantity, fitted to the samples before the deviation saturates."""
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0
     if level > FEWEST:

@@ -76,7 +76,6 @@ def reversal(compiled: Compiled, h: float) -> float | None:
     runner, start = Emitted(compiled), problem.initial(domain)
     t = domain.context.mpf(float(compiled.scene.span[0]))
     try:
-        # The test begins at ``first``, because an asymmetric method may return to ``start`` by chance.
         first = solved_step(compiled, runner, start, t, h)
         after = solved_step(compiled, runner, first, t + h, h)
         back = solved_step(compiled, runner, after, t + 2 * h, -h)

@@ -50,9 +50,9 @@ The change in a single step may be zero by chance.
 """
 
 NEARLY = 1e-14
-"""A bound that replaces :data:`EXACT` if the state before the step contains rounding errors.
+"""A bound for the relative change of a quantity in one step from a state with rounding errors.
 
-A state with rounding errors is not exactly on the manifold.
+Such a state is not exactly on the manifold. Therefore NEARLY replaces :data:`EXACT`.
 """
 
 

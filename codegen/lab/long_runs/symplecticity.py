@@ -116,7 +116,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # This call refines ``solution``, from which Newton's method starts in the later calls of step().
+        # This call replaces the entries of ``solution`` by more accurate numbers.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

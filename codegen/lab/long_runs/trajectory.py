@@ -162,8 +162,10 @@ def array_functions(
     """Return a dictionary from the names of quantities to functions that evaluate them at many states.
 
     ``kept`` contains the expressions of each quantity, by default those of the conserved quantities of the
-    scene. The functions return infinity in place of values that are not finite. The symbols in ``swept`` are
-    parameters. For each parameter, the first argument of the functions has an additional row at the end.
+    scene. The functions return infinity in place of values that are not finite.
+
+    The arguments of each function are an array y and an array of times. Each column of y contains the
+    coordinates of a state, followed by the values of the parameters ``swept``.
     """
     symbols = (*scene.symbols, *swept)
 

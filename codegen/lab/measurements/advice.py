@@ -141,8 +141,7 @@ class Advice(Measurement[Recommendations]):
         if not choices:
             return ""
         return (
-            "Of the emitted methods, the least CPU time is needed by "
-            f"{enumeration(choices[:: max(1, len(choices) - 1)])}."
+            f"In CPU time, the fastest emitted method is {enumeration(choices[:: max(1, len(choices) - 1)])}."
         )
 
     def section(self, result: Recommendations, subject: Subject) -> Section:
@@ -216,7 +215,7 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return a copy of ``line`` in which faster methods for smaller errors replace slower methods.
+    """Return a copy of ``line`` in which a smaller error never takes less CPU time than a larger error.
 
     For each error 10^-k, ``line.best`` contains a method or None. A method that reaches a smaller error also
     reaches the error 10^-k. The function changes the entries one after the other, from the smallest error to

@@ -112,11 +112,7 @@ class Conditions(Measurement[ConditionTables]):
 
 
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
-    """Return pairs (family, n). The report shows the conditions of the family for the orders 1 to n.
-
-    The number n is the highest order that the order conditions prove for a method of the family, but at most
-    DEEPEST.
-    """
+    """Return pairs (family, n). The report shows the conditions of the family for the orders 1 to n."""
     highest: dict[str, int] = {}
     for each in study:
         label = each.method.family_label

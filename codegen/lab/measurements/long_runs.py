@@ -60,10 +60,10 @@ class LongRuns(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence that lists the methods for each law of growth (for example ``bounded``).
+        """Return a sentence that says for each method how the deviation of the energy grows.
 
-        The law describes the deviation of the energy. If the scene has no energy, the law describes the first
-        invariant. If there is no invariant, the law describes the residual of the manifold equations.
+        If the scene has no energy, the first invariant replaces the energy. If there is no invariant, the
+        residual of the manifold equations replaces the energy.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}

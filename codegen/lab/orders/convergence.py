@@ -55,7 +55,7 @@ class Convergence:
 
     @property
     def observed(self) -> float | None:
-        """The observed order, or None if there is no slope.
+        """The observed order, or None if fewer than two runs are usable.
 
         If :attr:`limit` is below the stated order, the observed order is the slope between the first and the
         last usable run. Otherwise, the observed order is the last slope.

@@ -85,10 +85,9 @@ class FrozenFields:
     def tree(self, tree: Tree) -> Vector:
         """Return the elementary differential F(t) of a tree t.
 
-        F(t) is a derivative of the field f. For a branch b of t, let x be the value of F(b) at the initial
-        point. The vector field of b is y -> x.y, the action of x on the point y. For a function g, let D_j g
-        be the derivative of g along the vector field of the j-th branch. Let m be the number of branches.
-        F(t) is the value of D_1(D_2(...(D_m f)...)) at the initial point.
+        Let b_1, ..., b_m be the branches of t, and let x_j = F(b_j). The action of x_j defines a vector field
+        y -> x_j.y. Let D_j be the derivative along this vector field. Then F(t) is the value of
+        D_1(D_2(...(D_m f)...)) at the initial point, where f is the field of the scene.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))

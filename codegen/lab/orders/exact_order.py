@@ -102,10 +102,7 @@ class NotExact:
         return f"{self.verdict}: {self.failure}"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object that ``orderconds localerror`` prints.
-
-        The entries ``stated_order`` and ``order`` are None.
-        """
+        """Return the JSON object that ``orderconds localerror`` prints."""
         return {
             "scene": self.scene,
             "method": self.method,

@@ -154,10 +154,10 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
     """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
 
-    No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as the slopes
-    have settled. A run is excluded if the run fails, or if the error of the run is too small to be measured.
-    The doubling of the number of steps ends at a run whose error is too small to be measured, unless all runs
-    so far are excluded.
+    No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as
+    :attr:`Refinement.settled` is True. A run is excluded if the run fails, or if the error of the run is too
+    small to be measured. Let R be the first run that is not excluded. The doubling ends at the first run
+    after R whose error is too small to be measured.
 
     The usable runs are the runs in :attr:`Refinement.clean`. After the doubling, the function adds runs if
     all of the following three conditions hold: the slopes have not settled, the last run is excluded, and at

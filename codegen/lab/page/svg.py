@@ -156,7 +156,7 @@ def standalone(svg: str) -> str:
 
 
 def key(style: Style) -> Markup:
-    """Return a small SVG element for a row of a table: a line and a marker in the style of a curve."""
+    """Return a small SVG element that shows a line and a marker in the given style."""
     dash = f";stroke-dasharray:{' '.join(f'{1.4 * x:g}' for x in style.dash)}" if style.dash else ""
     fill = "var(--paper)" if style.hollow else style.colour
     return Markup(

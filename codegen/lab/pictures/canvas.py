@@ -165,10 +165,7 @@ class Canvas:
 
 
 def styles(figure: Figure) -> dict[str, Style]:
-    """Return a dictionary that maps the name of each run of a figure to the style of the run.
-
-    If all methods differ, a style depends on the method. Otherwise a style depends on the name of the run.
-    """
+    """Return a dictionary that maps the name of each run of a figure to the style of the run."""
     runs = figure.runs
     chosen = Styles([run.method for run in runs])
     if len({run.method for run in runs}) == len(runs):

@@ -23,8 +23,8 @@ GROWS = 1.02
 """A constant that limits the number of points of a curve.
 
 The curve shows the largest deviation up to the time t as a function of t. The levels of the deviation are the
-numbers LEAST * GROWS**k with k = 0, 1, 2, and so on. A point of the curve is drawn only if the largest
-deviation reaches a level that was not reached at earlier times. The last point is always drawn.
+numbers LEAST * GROWS**k with k = 0, 1, 2, and so on. For each level, the first point that reaches the level
+is drawn. The last point is always drawn. All other points are omitted.
 """
 
 

@@ -199,9 +199,8 @@ def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, un
     """Return the SVG transform that turns a horizontal line into the picture of a bar at the time with index
     ``k``.
 
-    The horizontal line begins at the origin. The length of the line is the maximum over all times of the
-    length of the projected bar. ``turn`` is the angle of the projected bar in degrees. If ``unit`` is ``px``,
-    the result is a CSS transform.
+    The horizontal line begins at the origin and is as long as the longest projection of the bar. ``turn``
+    is the angle of the projected bar in degrees. If ``unit`` is ``px``, the result is a CSS transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"
@@ -225,7 +224,6 @@ def _moving(name: str, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> I
 
 
 def _keyframes(name: str, seconds: float, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> str:
-    """Return the style element with a CSS animation of ``seconds`` seconds for each bar."""
     rules = []
     for number, bar in enumerate(bars):
         turns = _turns(bar)
