@@ -24,7 +24,7 @@ from codegen.ir.selection import CHOOSE
 from codegen.ir.table import PiecewisePolynomial
 
 Coefficient: TypeAlias = Scalar
-"""A scalar, or None for a coefficient that is identically zero."""
+"""A coefficient of a Taylor series: a scalar, or None if the coefficient is identically zero."""
 
 
 class Series(ABC):

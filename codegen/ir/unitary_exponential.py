@@ -147,7 +147,6 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
 def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
     """Return the entries of A, then the entries of B, for a matrix with the block rows (A, -B) and (B, A)."""
     width = 2 * ROWS
-    # The first three columns of ``matrix`` contain A, and B below A.
     return tuple(matrix[width * i + j] for i in range(width) for j in range(ROWS))
 
 

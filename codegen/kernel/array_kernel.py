@@ -310,7 +310,7 @@ class _Builder:
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
         """Return ``statement`` at the time ``t``. The values of the fixed parameters are inserted, too."""
         values = {**self.scene.scalars(self.domain, t)}
-        # The symbols ROW and COLUMN are not replaced, because they are loop variables in the emitted code.
+        # ROW and COLUMN must remain symbols, because the emitted loops use these variables.
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
 
         def now(root: Expr) -> Expr:
@@ -325,7 +325,6 @@ class _Builder:
             case Apply(constant=constant):
 
                 def entry(given: Entry) -> Entry:
-                    # If ``given`` is a tuple, its entries are numbers, so ``given`` is not changed.
                     return given if isinstance(given, tuple) else now(given)
 
                 diagonals = tuple(replace(d, entry=entry(d.entry)) for d in constant.diagonals)

@@ -75,10 +75,9 @@ class Assignments:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # Only the simplified Newton method computes the matrix before the values of the loop body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # A sweep computes the values of the loop body from the old unknowns, and changes the unknowns
-            # afterwards. If ``recomputed`` is true, the values of the body are computed again after the loop.
+            # If ``recomputed`` is true, the code after the loop computes the values of the loop body again,
+            # from the final unknowns.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -131,8 +130,8 @@ class Assignments:
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("the initial guess of an iteration depends on unknowns")
         for node in walk(values):
-            # A step with a warm start skips the statement that is built here, but it needs the subexpressions
-            # in ``later``. So they are assigned before this statement.
+            # Subexpressions in ``later`` are assigned before the start statement, because a warm start skips
+            # the start statement.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []

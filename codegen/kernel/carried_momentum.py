@@ -66,8 +66,8 @@ class Frames:
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
         """Return ``new`` with the momentum converted to the frame of ``state``.
 
-        ``state`` and ``start`` are the same state before the step, and ``new`` is a state after the step.
-        The momenta in ``start`` and ``new`` are in the frame of the program.
+        ``state`` is the state before the step. ``start`` is the result of :meth:`begin` for this state.
+        ``new`` is the state after the step, with the momentum in the frame of the program.
         """
         # An empty ``new`` represents a missing embedded solution.
         if self._alike or not new:

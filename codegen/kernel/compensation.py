@@ -38,7 +38,6 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
             expected="a scene with a formula for each coordinate",
             hint="leave out --compensate",
         )
-    # A kernel with deferred flows is replaced by the kernel of the complete step.
     if kernel.deferred is not None:
         kernel = to_kernel(program, problem)
     if kernel.carried is not None:
@@ -131,7 +130,6 @@ class Increments:
 
     def _of(self, e: Expr, name: str) -> Expr | None:
         if e.op == "sym":
-            # If e is another symbol, the expression assigned to this symbol is examined.
             if e.payload == name:
                 return self.space.zero
             return self.of(self.values[e.payload], name) if e.payload in self.values else None

@@ -1,7 +1,7 @@
 """Shorten the critical path of a step, the longest chain of dependent operations.
 
-For example, let c_1 and c_2 be slow trigonometric functions, and let k, m, g, d, v and w be known earlier.
-Then
+For example, let c_1 and c_2 be values of slow trigonometric functions. All other variables are known before
+c_1 and c_2. Then
 
     k (m - g (d + c_1 v + c_2 w)) becomes k (m - g d) - c_1 (k g v) - c_2 (k g w).
 
@@ -149,7 +149,7 @@ class _Chains:
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return the ids of nodes on long chains that :meth:`rewritten` may expand to sums of products."""
+        """Return the ids of nodes that may be expanded to sums of products."""
         ends = set()
         for node in self.nodes:
             for arg in node.args:
@@ -159,18 +159,16 @@ class _Chains:
                 # For a square ``arg * arg``, ``others`` is empty.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # If ``linear`` is false, the expansion of ``arg`` cannot continue in ``node``.
+                # If ``linear`` is true, a sum of products for ``arg`` gives a sum of products for ``node``.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # ``arg`` is added if it depends on a slow operation and its expansion does not continue in
-                # ``node``.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return ``node`` as a :data:`Sum`. The factors with the level ``level`` count as late."""
+        """Return ``node`` as a :data:`Sum`. A factor f is late if ``self.level[f.id]`` is ``level``."""
         # The expression ``self.new[node.id]`` replaces ``node``. A sum stored in ``self.sums`` may contain
         # this expression. Later, a different expression may be assigned to ``self.new[node.id]``. After this
         # assignment, the stored sum must not be used. Therefore the key contains the id of
@@ -182,7 +180,6 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # If the level of ``node`` is below ``level``, ``node`` contains no late factor.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
@@ -206,16 +203,16 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # All other nodes remain one factor.
+        # The result is a single product, and ``node`` is the only factor.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Return the sum of ``a`` and ``b``, the values for one key in two dictionaries (:data:`Sum`).
+        """Combine two products c x and c y with the same late factor c into one product c (x + y).
 
-        The result is the value for this key in the sum of both dictionaries.
+        The arguments and the result are values of a :data:`Sum`.
         """
         x, y = self._product(*a[1:]), self._product(*b[1:])
-        # The factors 1 or -1 in ``a[0]`` and ``b[0]`` are the signs of the two products.
+        # The signs ``a[0]`` and ``b[0]`` are 1 or -1.
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
     def _product(self, steps: Expr, rest: Expr) -> Expr:

@@ -60,11 +60,10 @@ def part(program: Program, scene: Problem) -> Parted | None:
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # Nothing remains in the loop over steps, or nothing can be moved out of it.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # The durations are the same for all entries of ``joined``, so the first entry is used.
+    # All entries of ``joined`` contain the same two durations.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     # ``heads`` and ``tails`` are the indices of joined flows at the beginning and at the end of a step.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}

@@ -23,8 +23,7 @@ from codegen.passes.rewrite import uses
 MANY = 12
 """The largest number of unknowns for which all products of sums in Newton's matrix are expanded.
 
-Without the expansion, the iteration needs more registers. For vcf:cf4 on dipole (12 unknowns), the expansion
-increases the number of assignments from 439 to 472.
+For vcf:cf4 on dipole (12 unknowns), the expansion increases the number of assignments from 439 to 472.
 """
 
 LONGEST_MATRIX = 1500

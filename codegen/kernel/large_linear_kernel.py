@@ -142,7 +142,6 @@ class _Builder:
             for var in _needed(x, statements):
                 self.run(statements[var])
             value = self.values[x]
-            # The matrix exponential is applied only to matrices without a power of h.
             if value.power:
                 raise AssertionError(value.power)
             if not value.is_zero:
@@ -181,7 +180,7 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # The matrix A(t) is stored as the quotient of h A(t) and h^1 (:class:`_Value`).
+            # For A(t) = (h A(t))/h, the exponent p in :class:`_Value` is 1.
             case Field():
                 # An autonomous matrix A is constant, so any time gives the same value.
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
@@ -277,7 +276,6 @@ class _Builder:
         values |= {index: space.sym(index) for index in (ROW, COLUMN)}
 
         def now(entry: Entry) -> Entry:
-            # An entry that is a tuple contains only numbers and no parameters.
             if isinstance(entry, tuple):
                 return entry
             (root,) = evaluate([entry], self.domain, values)

@@ -181,7 +181,6 @@ class _Execution:
                 # Times are in units of h, and the step begins at time 0.
                 self.times[var] = ZERO
             else:
-                # As a linear combination, the initial point is the old state with the coefficient 1.
                 self.points[var] = {STATE: _constant(ONE)}
         for assign in program.assigns():
             self._execute(assign)
@@ -220,7 +219,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
-                # For the zero vector field, the exponent of h is arbitrary.
+                # The exponent 1 of h is arbitrary, because the vector field is zero.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)
@@ -268,8 +267,7 @@ class _Execution:
         """Record an evaluation of the nonlinearity N at ``point`` and ``time``."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # The result represents the vector field u -> lambda u + N_j, where the index j belongs to this
-        # evaluation.
+        # The result is the vector field u -> lambda u + N_j, where N_j is the value of the new evaluation.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:

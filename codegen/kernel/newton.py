@@ -78,7 +78,7 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
 
 
 class _AtZero(ExprDomain):
-    """An expression domain for h = 0. A call f(0) becomes a number if f is in :data:`AT_ZERO`."""
+    """An expression domain for h = 0."""
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return the value in :data:`AT_ZERO` if the first argument is zero, otherwise a call node."""

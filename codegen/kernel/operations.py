@@ -42,7 +42,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     The inversion of a Newton matrix, changes of sign, comparisons, extrapolation and the stopping rule are
     not counted.
     """
-    # ``inside`` maps the name of an outlined function to the operations of one call.
+    # ``inside`` maps the name of an outlined function to the operation counts for one call.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
@@ -90,7 +90,6 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     if kernel.modes is not None:
         return {STEP: {"transform": kernel.modes.transforms}}
     expansion = kernel.expansion
-    # A kernel without outputs is described by its Taylor polynomial.
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))
     total = operations(arrange(expansion.coefficients))[STEP]
@@ -111,7 +110,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 
 
 def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
-    """Count the operations for one site by name.
+    """Return the operation counts for one site of a lattice.
 
     The keys are the labels of the blocks, the keys of the Newton matrices, and ``step``.
     """
@@ -158,7 +157,7 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # The space momentum at the end of a run needs one addition and one subtraction for each component.
+        # The final momentum is mu + (b - a). The initial momentum is mu, and ``outward`` computes a and b.
         added = {"add": 2 * len(turned[1].outputs)}
         # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]

@@ -1,7 +1,6 @@
 """Outlined functions: if a step contains a tree of operations repeatedly, the tree becomes a function.
 
-The function returns results of the last operation in the tree. The arguments of the function are the inputs
-of the tree and the coefficients of its linear combinations.
+The arguments of the function are the inputs of the tree and the coefficients of its linear combinations.
 """
 
 from __future__ import annotations
@@ -59,9 +58,9 @@ def function(
     """Return the outlined function for a tree, and two lists.
 
     The first list contains the indices of the tree inputs that the function needs. The second list contains
-    the names of the scene parameters that the function needs. ``read`` contains the indices of the results
-    that the function returns. ``fixed`` has one entry for each input of the tree: the constant that all calls
-    pass for this input, or None.
+    the names of the scene parameters that the function needs. The function returns result k of the tree if
+    ``read`` contains k. ``fixed`` has one entry for each input of the tree: the constant that all calls pass
+    for this input, or None.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
@@ -91,7 +90,7 @@ def function(
             # In ``numbers``, the coefficients of this sum begin at the index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
-            # The function itself multiplies by the power of h of a coefficient.
+            # For a coefficient c = a h^p, the symbol or constant x represents the number a.
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [
@@ -197,7 +196,7 @@ def rewritten(
                 waiting.pop()
                 continue
             call = calls.get(node.id)
-            # A call reads the arguments of the call, and not the operands of ``node``.
+            # If a call replaces ``node``, the arguments of the call are used instead of ``node.args``.
             below = node.args if call is None else call[2]
             missing = [a for a in below if a.id not in new]
             if missing:

@@ -121,13 +121,12 @@ class Outline:
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
-                    # A result of several trees is computed by the call for the first of them.
+                    # If several trees have the same result, the call for the first of these trees is used.
                     calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # Simplification can remove operands and results of assignments from ``roots``, so they are added
-        # here.
+        # After simplification, ``roots`` may not contain all arguments and results of assignments.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):

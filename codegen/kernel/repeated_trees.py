@@ -33,7 +33,7 @@ Key = Hashable
 """A description of a tree. Trees with equal keys can share one outlined function."""
 
 PairKey = tuple[Key, Key, Key]
-"""The keys of two trees, and the key of the joined tree."""
+"""The keys of two trees, and the key of the tree with all assignments of the two trees."""
 
 
 @dataclass(frozen=True)
@@ -174,13 +174,13 @@ class Trees:
                     owner[member] = j
 
     def _gain(self, key: PairKey, places: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
-        """Estimate how many lines of code are saved if each pair of trees in ``places`` becomes one tree."""
+        """Estimate how many lines of emitted code are saved if all pairs in ``places`` are joined."""
         first, second, _ = key
         k = len(places)
         if k < 2:
             return 0
         i, j = places[0]
-        # A tree that also occurs outside the pairs still needs a separate function.
+        # Trees with the key ``first`` or ``second`` that remain separate still need a function.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # Each joined pair saves a call, which is about three lines.
         return k * 3 - copies
@@ -265,7 +265,7 @@ class Trees:
         return tuple(shape)
 
     def useful(self, tree: Tree) -> bool:
-        """Return True if a function for ``tree`` is long enough to save lines of code."""
+        """Return True if the code for ``tree`` is longer than a function call."""
         results = self.results(tree)
         # The inputs are computed outside the function, so their operations are not counted.
         stop = {x.id for x in self.inputs(tree)}
