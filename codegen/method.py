@@ -165,7 +165,8 @@ class Method:
             )
         if self.kind.minimal_brackets and self.cutoff is None:
             raise MethodError(
-                f"no error estimate for {self.label}: without a cut-off, the stages depend on the weights",
+                f"no error estimate for {self.label}: the embedded method requires a cut-off of the series "
+                "of dexp^{-1}",
                 expected="a method with a cut-off",
                 hint=f"write rkmk(3):{self.tableau.name}",
             )
@@ -388,12 +389,12 @@ def parse(text: str, families: Sequence[str]) -> Method:
     If the family needs a cut-off and the text contains none, the cut-off with the highest claimed order is
     chosen. Among cut-offs of equal order, the smallest is chosen.
 
-    A method of the family ``rkmk`` may have no cut-off if the tableau is explicit. The compiler then searches
-    for the fewest brackets that preserve the order.
+    There is one exception: for some explicit tableaux, the family ``rkmk`` is used without a cut-off. The
+    compiler then searches for the fewest brackets that preserve the order.
 
     :class:`MethodError` is raised if the text cannot be read, or if the scene or the tableau does not fit the
-    family. MethodError is also raised if a family or a cut-off must be chosen, but the tableau claims no
-    order in a suitable family. :class:`orderconds.errors.UnknownName` is raised for an unknown tableau.
+    family. MethodError is also raised if no family or no cut-off can be chosen.
+    :class:`orderconds.errors.UnknownName` is raised for an unknown tableau.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -432,7 +433,7 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"no cut-off, or one of the families with a cut-off ({' or '.join(cutting)})",
         )
-    # If a commutator-free tableau states an order for the family rk, this family must not be chosen.
+    # A commutator-free tableau must not be used as a Runge-Kutta tableau.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

@@ -24,7 +24,7 @@ LONG = 0.2
 LEAST_STEPS, RESOLVED = 200, 1e-4
 """Runs that take less than RESOLVED seconds are extended to several time spans (:func:`spans`).
 
-No run is extended to more than LEAST_STEPS steps. RESOLVED is about a hundred times the overhead of a call.
+RESOLVED is about a hundred times the overhead of a call.
 """
 
 CONFIRMED, MOST = 0.03, 21
@@ -38,19 +38,13 @@ SHORT = 1e-3
 """A run shorter than SHORT seconds is measured again if its relative uncertainty exceeds RESOLUTION."""
 
 RESOLUTION = 0.1
-"""The largest accepted uncertainty of a time, relative to the time without the overhead.
-
-The uncertainty is estimated from the two least measured times of the run and of the overhead.
-"""
+"""The largest accepted uncertainty of a time, relative to the time without the overhead."""
 
 AGAIN = 3
 """The largest number of repeated measurements of a run whose time is too uncertain."""
 
 LEAST_SHARE = 0.1
-"""The overhead is subtracted from each measured time.
-
-The result is never below LEAST_SHARE times the measured time.
-"""
+"""The smallest time that :func:`net_times` returns, as a fraction of the measured time."""
 
 
 @dataclass(frozen=True)

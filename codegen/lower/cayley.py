@@ -26,7 +26,7 @@ class CayleyLowering(LinearLowering):
 
         The family accepts a scene if the equation has the form y' = A(t).y and the group has a Cayley map.
         """
-        # The equation must be linear: y' = A(t).y. Otherwise, the base class returns a reason.
+        # The base class accepts only equations of the form y' = A(t).y.
         linear = super().objection(scene)
         group = scene.as_field().group
         if linear is not None or group.offers(CayleyMap) is not None:

@@ -58,9 +58,9 @@ STORAGE = (
 
 
 STORAGE_OF_PAIR = (
-    "three registers: the state Y, and two elements K and E of the Lie algebra; stage i computes K <- A_i K "
-    "+ f(Y) and E <- E + D_i f(Y), then Y <- exp(h B_i K).Y, where A_i, B_i and D_i are coefficients; the "
-    "last Y is the new state, and exp(h E) applied to the new state is the embedded solution"
+    "three registers: the state Y, and two elements K and E of the Lie algebra; with coefficients A_i, B_i "
+    "and D_i, stage i computes K <- A_i K + f(Y) and E <- E + D_i f(Y), then Y <- exp(h B_i K).Y; after the "
+    "last stage, Y is the new state, and exp(h E).Y is the embedded solution"
 )
 
 

@@ -70,7 +70,7 @@ class DiscreteGradient(FieldLowering):
         where the field is not zero. The error is also raised if the force at an open boundary is not
         conservative.
         """
-        # The energy of a single site is not constant, because neighbours exchange energy.
+        # A small lattice is used, because a single site does not conserve energy.
         if not _agrees(problem if problem.sites is None else small(problem)):
             if problem.sites is not None and problem.sites.outside:
                 raise MethodError(

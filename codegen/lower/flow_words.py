@@ -149,8 +149,8 @@ class FlowLowering(Lowering):
     def read(self, scene: Problem, method: Method) -> Reading:
         """Return the flows of one step for a scene whose Hamiltonian is a sum of parts.
 
-        :class:`codegen.errors.MethodError` is raised if a part has no exact flow, if the tableau does not fit
-        the scene, or if all parts depend on time.
+        :class:`codegen.errors.MethodError` is raised if a part has no exact flow, or if the tableau does not
+        fit the scene. MethodError is also raised if every part depends on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
@@ -249,7 +249,6 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
 
 
 def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
-    """Join neighbouring flows of one summand in ``word``, and yield the resulting flows."""
     joined: Word = []
     for summand, x in word:
         # A flow of duration zero is dropped, so that the flows before and after it can be joined.
@@ -272,7 +271,7 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The order of accuracy is the same for each choice, so the first summand without t is chosen.
+        # Every summand without t gives the same order of accuracy.
         if not summand.timed:
             return summand
     raise MethodError(

@@ -131,7 +131,6 @@ class LinearLowering(FieldLowering):
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder
 
-        # The order is an attribute of the step in ``scene.steps``.
         if scene is None:
             raise MethodError(
                 f"the order of {method.label} is unknown without a scene",

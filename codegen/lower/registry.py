@@ -59,7 +59,7 @@ def _built_in() -> tuple[type[Lowering], ...]:
 
 
 def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
-    """Register a lowering for all commands, and return its class.
+    """Register the class ``lowering`` for its family, and return this class.
 
     The argument ``family`` is a class with order conditions. If ``family`` is given, it is registered by
     :func:`orderconds.families.register`.
@@ -77,9 +77,9 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
     # A second call with the same class is harmless, so only another class is an error.
     if known is not None and type(known) is not lowering:
         raise MethodError(
-            f"the family {lowering.family} already has a lowering",
+            f"another class is registered for the family {lowering.family}",
             where=lowering.__name__,
-            expected="the name of a family that has no lowering",
+            expected="the name of a family that has no registered class",
         )
     if family is not None:
         families.register(family)
@@ -140,8 +140,6 @@ def families_for(scene: Problem) -> tuple[str, ...]:
 
 def _lowerings() -> dict[str, Lowering]:
     """Return the lowerings of all families, with the names of the families as keys."""
-    # An import of the built-in lowerings at the top of this file would be circular, so the first call adds
-    # them.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())
     return _registered

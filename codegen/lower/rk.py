@@ -22,7 +22,7 @@ class RungeKuttaLowering(FieldLowering):
         # On R^n, every group element acts as a translation: exp(u).y = y + u.
         if group.abelian:
             return None
-        hint = "use rkmk, cg or cf, or use ambient if the steps may leave the manifold"
+        hint = "use rkmk, cg or cf, or use ambient, which does not preserve the manifold"
         return Objection(f", whose group is {group.name}", "R^n", hint)
 
     def extension(self, problem: Problem, method: Method) -> Program | None:

@@ -47,7 +47,7 @@ class MuntheKaas(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step."""
-        # The cut-off truncates the series of dexp^{-1}, so it has no effect on other coordinate maps.
+        # If ``problem.coordinates`` is None, the coordinate map is exp.
         if problem.coordinates is not None:
             return in_coordinates(problem, method)
         # Without a cut-off, a search finds the brackets that are needed for the order of the tableau.
@@ -81,7 +81,6 @@ class MuntheKaas(FieldLowering):
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The order conditions must contain the brackets that the emitted code computes.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:

@@ -61,7 +61,7 @@ class SplittingLowering(FlowLowering):
             f"the tableau is for {len(tableau.parts)} parts, but the scene has {len(chosen)}",
             where=parts.where,
             expected="a tableau with as many parts as the scene, or with two parts if the scene has more",
-            hint=f"every term of {', '.join(inexact)} is counted as one part of the scene" if inexact else "",
+            hint=f"the terms of {', '.join(inexact)} count as separate parts of the scene" if inexact else "",
         )
 
 
@@ -112,7 +112,6 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
 
 
 def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
-    """Return True if all parts are polynomials of degree two or less in the momentum of each site."""
     # A polynomial has degree two or less if and only if all its third derivatives vanish.
     mus = scene.state[1].symbols
     slopes = [scene.parts[part.name] for part in parts]
@@ -126,7 +125,6 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
 
     Each pair (beta_i, alpha_i) contains the durations of Phi* and Phi in units of the step size.
     """
-    # In the composition, neighbouring flows of the same part are one flow, for example B_{beta_1 + alpha_1}.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:

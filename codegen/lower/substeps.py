@@ -30,8 +30,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     """Return the base method of a composition, and the substeps of one step.
 
     The result is None if the tableau is not a composition of implicit substeps, or if the step also computes
-    an embedded solution. The attribute ``repeats_substeps`` of the family's :class:`codegen.lower.Lowering`
-    must be True.
+    an embedded solution.
 
     >>> from codegen.method import parse
     >>> base, steps = substeps(parse("vcg:suzuki4", ("vcg",)))
@@ -84,8 +83,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # Objects of the class Number can be compared by ==, even if their values are intervals.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is an index k: the step can be divided between stage k - 1 and stage k. The first cut is 0, and
-    # the last cut is the number of stages. The cuts divide the stages into pieces. A group consists of
+    # The indices in ``cuts`` divide the stages into the smallest possible pieces. A group consists of
     # ``wide`` successive pieces.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # The loop begins with the smallest groups of stages. Smaller groups give more substeps.

@@ -33,7 +33,10 @@ from codegen.method import Method
 from codegen.scene.problem import Problem
 
 Rows = tuple[tuple[Number, ...], ...]
-"""The coefficients in a product of exponentials: one row for each exponent. The first factor acts first."""
+"""The coefficients in a product of exponentials: one row for each exponent.
+
+The first row gives the rightmost factor.
+"""
 
 
 @dataclass(frozen=True)

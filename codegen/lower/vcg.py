@@ -10,9 +10,7 @@ products of j factors (e^0 = E_i^0 = 1). E_i is E_i^s. The equations are
           - h sum_j (b_j a_ji/b_i) dexp*_{-h a_ji xi_i} Ad*_{(E_j^{i-1})^-1} nu_j,
     q1 = e^s q0,   mu1 = Ad*_{(e^s)^-1} (mu0 + h sum_j b_j nu_j).
 
-The equation for M_i follows from (3.19) and the identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. In a composition
-of substeps, the terms with nu_j in the equation for M_i cancel if stage j is in a later substep than stage i
-(Lemma 3.5.4 of Bogfjellmo and Marthinsen).
+The equation for M_i follows from (3.19) and the identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x}.
 """
 
 from __future__ import annotations

@@ -48,7 +48,6 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # forces[i] is n_i, and slopes[i] is P*_(r)(X_i, xi_i) m_i (see the docstring of this module).
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}
 

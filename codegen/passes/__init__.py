@@ -89,7 +89,7 @@ class Optimiser:
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # The passes above must not change the results of :meth:`plain`.
+        # The result of :meth:`plain` must be the same before and after this call.
         self.program, self.reports = plain, reports
         return outcome
 
@@ -174,7 +174,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # The pass "functions of ad" may leave an operation Ad_{exp x} unchanged if another operation reads
         # exp(x). The pass "rows of products" removes operations that read exp(x). For this reason, the pass
         # "rows of products" comes before the pass "functions of ad".
-        Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
+        Pass("rows of products", "q exp(x) is computed from q and x", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # This pass uses operations that the pass "functions of ad" creates.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
@@ -192,6 +192,6 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         ),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
-        # This pass replaces a sum by -1 times an earlier sum. The other passes would undo this change.
+        # This pass comes last, because other passes would undo its changes.
         Pass("negatives of sums", "a sum is the negative of another sum", shared_negatives.run),
     ]

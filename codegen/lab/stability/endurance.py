@@ -15,9 +15,9 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The approximate limit on the CPU time of the steps in one direction, in seconds.
+"""The approximate limit on the CPU time of all steps forward in time, in seconds.
 
-If the steps in one direction would take longer than the limit, the number of steps is reduced.
+If the steps forward would take longer than the limit, the number of steps is reduced.
 """
 
 TRIAL = 1000
@@ -49,14 +49,7 @@ class Endurance:
 
     @property
     def held(self) -> bool:
-        """True if the run passes the test.
-
-        A run that ends with an error message passes. A run without an error message passes if two conditions
-        hold:
-
-        - ``defect`` is None or at most 64 * ``steps`` * 2^-53.
-        - ``returned`` is None or finite.
-        """
+        """True if the run passes the test that the docstring of the class describes."""
         explained = self.defect is None or self.defect <= 64 * self.steps * 2.0**-53
         return bool(self.failure) or (explained and math.isfinite(self.returned or 0.0))
 

@@ -96,8 +96,8 @@ class Answer:
 
     ``verdict`` is ``accurate``, or a text that begins with ``status``, ``undetermined`` or ``WRONG``.
     ``error`` is the largest relative error of a component (for example a momentum) of the state.
-    ``determined`` is the number of decimal digits that can be correct in spite of rounding errors. If the
-    result is not compared with an exact result, ``error`` and ``determined`` are None.
+    The steps with simulated rounding errors agree with the exact result to about ``determined`` decimal
+    digits. If the result is not compared with an exact result, ``error`` and ``determined`` are None.
     """
 
     case: Case
@@ -291,11 +291,9 @@ class Rounding(BallDomain):
     implicit method evaluates each operation repeatedly. One random sign is used for all evaluations of an
     operation. With a new random sign in each evaluation, the equations would change during the iteration.
 
-    In a system of implicit equations, each right-hand side gets two errors. The first error is proportional
-    to the right-hand side itself, and is zero if the right-hand side is zero. For this reason, a second error
-    is added, which is proportional to the next right-hand side of the system. The last right-hand side gets
-    an error proportional to the first right-hand side. Even a right-hand side that is zero can thus get an
-    error.
+    In a system of two or more implicit equations, each right-hand side gets two errors. The first error is
+    proportional to the right-hand side itself. The second error is proportional to another right-hand side.
+    Even a right-hand side that is zero can thus get an error.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
