@@ -37,7 +37,6 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # The import of networkx takes time, and only programs with blocks need it.
     import networkx
 
-    # If a start value is an unknown of an earlier block, ``names`` contains the variable that replaces it.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
     # The nodes are the indices of the assignments. Sets of integers have a reproducible order.
@@ -66,7 +65,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
         ]
         kept = set(own)
         renamed = [_rename(a, names, image, kept) for a in assigns]
-        # A component without unknowns contains no implicit equation.
+        # If ``own`` is empty, the assignments in ``renamed`` need no iteration.
         if not own:
             result += renamed
             continue
@@ -94,8 +93,8 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
-        # ``kept`` contains the unknowns of the new block. These unknowns remain in the new block. Every other
-        # unknown is replaced by the right-hand side of its equation.
+        # ``kept`` contains the unknowns of the new block. Every other unknown is replaced by the right-hand
+        # side of its equation.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

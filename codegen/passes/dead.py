@@ -31,7 +31,7 @@ def run(program: Program) -> Program:
 
 
 def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
-    """Return ``block`` without dead code. The variables that the result reads are added to ``live``."""
+    """Return ``block`` without dead code, and add all needed variables to ``live``."""
     image = dict(zip(block.unknowns, block.images, strict=True))
     # The tuple ``residuals`` is either empty or as long as ``unknowns``.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))

@@ -172,8 +172,7 @@ class Reference:
                 yield result
 
     def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
-        """Return an arithmetic with ``digits`` decimal digits in which the step size is h, and the state at
-        the start.
+        """Return a domain with step size ``h`` and ``digits`` decimal digits, and the state before a step.
 
         The state is the initial state of the scene, or a nearby state if ``moved`` is True.
         """
@@ -313,7 +312,6 @@ class Reference:
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
-                # After a tiny step, the difference is compared with the change of the state.
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
@@ -356,10 +354,10 @@ def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     for block in scene.state:
         value = start[first : first + len(block.symbols)]
         first += len(block.symbols)
-        # A new position must lie on the manifold.
         if moved and block.kind is Kind.DUAL:
             value = tuple(a + b for a, b in zip(value, covector, strict=True))
         elif moved:
+            # The action of exp(x) maps the manifold of positions to itself.
             value = tuple(scene.action.actexp(domain, scene.group, x, value))
         state[block.name] = value
     return state

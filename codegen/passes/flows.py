@@ -113,7 +113,6 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # A test at sample points on the manifold of states is enough.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)

@@ -25,7 +25,6 @@ from codegen.scene.problem import Problem
 
 def run(program: Program, scene: Problem) -> Program:
     """Combine successive functions of ad_x, if the group has closed forms for products of such functions."""
-    # Without a closed form, combining f and g would not save Lie brackets.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
@@ -43,7 +42,6 @@ def rows(program: Program, scene: Problem) -> Program:
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
     # For a matrix group, ``names`` are the symbols of the matrix entries, row by row.
     side = round(len(names) ** 0.5)
-    # The formulas of velocity and force must not contain entries of two rows of the position matrix.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
         return program
     fields = {a.args[0] for a in program.assigns() if isinstance(a.operation, BodyVelocity | BodyForce)}
@@ -122,8 +120,8 @@ def _distributed(
 
     Each entry of ``parts`` is a tuple (s, (y, W, v)). In this tuple, s is a rational number, y and v are
     variables, and W is a function, given by its factors. Let F be the function whose factors are in ``word``.
-    The term for the entry is c F(s ad_y) W(ad_y) v, where c is the coefficient of the same term in ``total``.
-    The result is the variable of the new sum.
+    Let c be the k-th coefficient of the sum ``total``. The k-th entry has the term c F(s ad_y) W(ad_y) v. The
+    result is the variable of the new sum.
     """
     terms = []
     for scale, (y, inner, v) in parts:

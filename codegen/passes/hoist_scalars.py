@@ -1,7 +1,7 @@
-"""Take numbers out of linear maps, L(c x) = c L(x), and expand sums that are nested in sums.
+"""Take numbers out of linear maps, and expand sums that are nested in sums.
 
-The pass is exact. If several sums of a block contain multiples of one linear combination, this combination is
-computed once.
+If c is a number and L is a linear map, L(c x) is replaced by c L(x). The pass is exact. If several sums of a
+block contain multiples of one linear combination, this combination is computed once.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def run(program: Program) -> Program:
     computed once.
     """
     while True:
-        # The next round counts uses, so unused sums are removed.
+        # Dead code is removed, because :func:`_flat` tests how often the program reads a sum.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)

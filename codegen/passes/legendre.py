@@ -6,7 +6,7 @@ matrix W. A block of implicit equations computes an unknown v of the stage in th
 2. The velocity is w = W P.
 3. Further invertible linear maps compute v from w.
 
-The pass adds assignments that compute w, P and M from v by the inverse maps.
+The pass adds assignments that compute w from v, P from w, and M from P.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Path:
 
     @property
     def base(self) -> Var:
-        """The momentum from which the assignments compute the unknown."""
+        """The variable of the momentum from which ``unknown`` is computed."""
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 
@@ -70,7 +70,7 @@ def run(program: Program, scene: Problem) -> Program:
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # Later statements read the unknown, because it equals its image at the solution.
+        # In later statements, the unknown replaces the right-hand side of its equation.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -113,10 +113,10 @@ def path(block: Solve, unknown: Var) -> Path | None:
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Find a value u from which invertible linear maps compute ``var``. Return these maps, and the assignment
-    of u or None.
+    """Write ``var`` as A_n ... A_1 u with as many invertible linear maps A_k as possible.
 
-    The maps are in order of application.
+    Return the assignments of A_1, ..., A_n, and the assignment of u. If ``maker`` contains no assignment of
+    u, the second result is None.
     """
     maps: list[Assign] = []
     while True:
@@ -153,7 +153,7 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     The maps of ``route`` compute ``route.unknown`` from ``route.base``. The new assignments apply the
     inverses of these maps, in reverse order.
 
-    The first result maps each variable of ``route`` to a variable that has the same value at the solution.
+    The first result maps each variable x of ``route`` to the variable that replaces x.
     The second result is the new variable for ``route.base``.
     """
     replaced: dict[Var, Var] = {}
@@ -178,7 +178,6 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     :func:`_values` computes n from the unknown.
     """
     replaced, computed = _values(build, route)
-    # The residual is the momentum ``given`` minus the same momentum, computed from the unknown.
     given = route.base
     # In this case, the inverses of the maps in ``route.inward`` are not needed.
     if _function_of_one(block, route):
@@ -189,10 +188,9 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if ``route.inward`` is a single map that can be combined with each term of its argument.
+    """Return True if ``route.inward`` is a single map Ad*_{exp x} and its argument is a sum of certain terms.
 
-    The map must be Ad*_{exp x}, and the argument must be a sum. Each term must be the value of a function of
-    ad*_y, where y is a rational multiple of x.
+    Each term must be f(ad*_y) v with a function f, where x = s y for a rational number s.
     """
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
@@ -209,14 +207,10 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return ``block`` with the assignments that :func:`_values` appends.
-
-    Assignments outside ``route`` read the new variables in place of the old variables.
-    """
+    """Return ``block`` with assignments that compute ``route.base`` from ``route.unknown``."""
     # A later pass removes the new variables that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # In this case, assignments outside ``route`` still read the old variable ``route.base``.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # The assignments of ``route`` keep their old arguments.

@@ -346,7 +346,7 @@ class _Compiler:
         return lambda env: env[identifier]
 
     def constant(self, term: Term) -> Value:
-        """Return the closure that evaluates a constant term. The value of a flag or count is an integer."""
+        """Return the closure that evaluates a constant term."""
         value: Any = None
         if term.op == "status":
             value = STATUSES.index(term.text)

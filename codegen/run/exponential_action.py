@@ -26,7 +26,6 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     norm, scale, weight = real("norm"), real("scale"), real("weight")
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
-    # The degree is the first of ``sizes`` whose bound is at least the norm, or the last of ``sizes``.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))

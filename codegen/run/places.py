@@ -40,6 +40,5 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
-        # The variation is last, so no later element reads this ``start``.
         start += n
     return tuple(result)

@@ -148,7 +148,6 @@ class _Scopes:
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
-            # Only a While loop with ``at_least_once`` certainly executes its body.
             if isinstance(statement, While) and statement.at_least_once:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):

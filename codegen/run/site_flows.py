@@ -102,8 +102,7 @@ class _Kick:
         # In the kernel of a kick, the symbol h denotes the duration of the kick.
         given = {STEP.text: duration, TIME.text: moment}
         scalars = tuple(given.get(x.text, x) for x in self.loop.scalars)
-        # The first flow of a step has written the new state to the array RESULT, and the kick changes this
-        # array.
+        # A kick is never the first flow of a step, so it changes the new state in place.
         return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 
@@ -123,7 +122,7 @@ class _Part:
 
     @property
     def special(self) -> bool:
-        """True if the flow has the function ``whole_K`` in addition to ``flow_K``."""
+        """True if the emitted code contains the function ``whole_K`` for K = ``index``."""
         _, inside, _ = split(self.own.kernel, set())
         # The functions ``sqrt``, ``fabs`` and ``choose`` never have branches, so they need no fast variant.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
@@ -184,8 +183,7 @@ class _Part:
             # Adjacent indices allow compilers to load both sites of a pair with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # Only flows of single sites test for infinities and NaNs, because the last flow of each step is one
-        # of them.
+        # Flows of pairs need no test, because each step ends with a flow of single sites.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
@@ -197,7 +195,7 @@ class _Part:
         parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
         about = f"Consecutive sites: {self.own.about}."
         if self.paired:
-            about = f"Pairs of neighbours, each site in at most one pair: {self.own.about}."
+            about = f"Loop over disjoint pairs of neighbours: {self.own.about}."
         return self._function(f"{name}_{self.index}", about, parameters, [*before, loop], near)
 
     @property
@@ -219,10 +217,10 @@ class _Part:
         return body
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
-        """Return the call that applies the flow to all sites, or to all pairs of the colour ``flow.colour``.
+        """Return the call of the function ``part_K`` for K = ``flow.sweep``.
 
-        If ``first`` is True, a flow of single sites reads the old state and writes the new state. All other
-        flows change the new state in place.
+        If ``first`` is True, the function reads the old state and writes the new state. Otherwise, the
+        function changes the new state in place. For a flow of pairs, ``first`` must be False.
         """
         old, new = ARRAYS[STATE], ARRAYS[RESULT]
         # In the kernel of a flow, the symbol h denotes the duration of the flow.
@@ -230,7 +228,7 @@ class _Part:
         if self.paired:
             given = (WHOLE, shape_of(self.step), whole(flow.colour), SITES, new, *scalars)
             return Call(f"part_{flow.sweep}", given)
-        # Each flow may overwrite BAD, because the last flow of a step tests the whole new state.
+        # Each call overwrites the counter BAD. The last call of a step tests all sites.
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
@@ -300,13 +298,13 @@ class _Part:
         for e in range(last - 1, -1, -1):
             mine = e == self.own.axis
             loop = For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))
-            # No site belongs to two of these pairs, so the loop can be parallel.
+            # No two iterations change the same site, so the outermost loop can be parallel.
             body = [loop if e else distributed(loop)]
         parameters = (WHOLE, shape, _COLOUR, SITES, *self.arrays, *self.scalars)
         first = [Assign(COLUMNS, shape[last])]
         about = (
-            f"Pairs of sites: {self.own.about}. With colour 0, the first site of each pair has an even "
-            "index, with colour 1 an odd index."
+            f"Pairs of sites: {self.own.about}. Along this axis, the first site of each pair has an even "
+            "index for colour 0 and an odd index for colour 1."
         )
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 

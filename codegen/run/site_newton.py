@@ -9,11 +9,10 @@ Block elimination (the Thomas algorithm) visits the sites from left to right. Th
 D_i = B_i - A_i D_{i-1}^{-1} C_{i-1}. D_i^{-1} A_i overwrites A_i, D_i^{-1} overwrites B_i, and D_i^{-1} C_i
 overwrites C_i. Rows are exchanged only within a pivot block.
 
-In a periodic chain, the border consists of the coefficients of the last site's unknowns in the equations of
-all other sites. The border has one column for each of these unknowns. First, the equations of all other sites
-are solved with each column of the border as right-hand side. Next, the same equations are solved with the
-residuals as right-hand side. Then the equations of the last site give its unknowns, and the unknowns of all
-other sites follow.
+For a periodic chain, let x be Newton's correction at the last site, and let y be the correction at all other
+sites. The linear equations are T y + E x = r and F y + G x = s. The matrix T is block-tridiagonal, and the
+vectors r and s are residuals. The matrix E is called the border. Block elimination computes T^{-1} E and
+T^{-1} r. The equation (G - F T^{-1} E) x = s - F T^{-1} r determines x. Then y = T^{-1} r - T^{-1} E x.
 """
 
 from __future__ import annotations
@@ -115,8 +114,7 @@ class ChainSolver:
 
         This entry is the coefficient of unknown ``j`` of the last site.
         """
-        # The emitted function ``substitute`` accepts residuals or a column of the border, so both have the
-        # same layout.
+        # Each column must have the same layout as the residuals, because ``substitute`` reads both.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
@@ -191,7 +189,6 @@ class ChainSolver:
         )
         # Each new component needs all old components, so the new components are first stored in ``value``.
         taken = For(_I, whole(n), (Assign(x(_SITE, _I), value[_I]),))
-        # Back substitution needs no array ``value``, because it does not combine components of one site.
         right = self.cell(_SITE, RIGHT, _I, _K) * x(_SITE + 1, _K)
         backward = For(
             _I,
@@ -204,8 +201,8 @@ class ChainSolver:
             For(_SITE, _INNER - 1, (backward,), reverse=True),
         ]
         about = (
-            "Solve the equations of the first 'inner' sites by forward and back substitution. The solution "
-            "overwrites the right-hand side."
+            "Solve the equations of the sites 0, ..., inner - 1 by forward and back substitution. The "
+            "solution overwrites the right-hand side."
         )
         return Function(self.name("substitute"), about, (_INNER, SITES, self.work, _FIRST), tuple(body))
 
@@ -257,12 +254,12 @@ class ChainSolver:
         return For(_I, whole(self.n), (For(_J, whole(self.n), body),))
 
     def border_columns(self) -> list[Statement]:
-        """Return the statements that copy the columns for the unknowns of the last site (:meth:`border`)."""
+        """Return the statements that compute all entries of the border (:meth:`border`)."""
         # In a periodic chain, the last site is a neighbour of two sites: site 0 and the last but one.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # In a chain of two sites, both blocks belong to site 0, so they are added.
+            # In a chain of two sites, the blocks LEFT and RIGHT of site 0 are added.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -320,8 +317,8 @@ class ChainSolver:
             For(PLACE, SITES, tuple(inner)),
             *(Assign(MEASURED[k], x) for k, x in enumerate((most, largest, moves))),
         ]
-        about = "Solve the linear equations, and add the solution to the unknowns. Compute the largest "
-        about += "absolute change, the largest absolute old unknown, and the sum of all absolute changes."
+        about = "Solve the linear equations, and add the solution to the unknowns. Compute the maximum "
+        about += "norm of the solution, the maximum norm of the old unknowns, and the 1-norm of the solution."
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:

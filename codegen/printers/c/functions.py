@@ -287,7 +287,7 @@ class _Body:
             for operation in dict.fromkeys(name for name, _ in loop.reductions):
                 reduced = [self.identifiers.of(x) for name, x in loop.reductions if name == operation]
                 clauses.append(f"reduction({operation}:{', '.join(reduced)})")
-            # A short loop runs on one processor, because the start of several threads takes longer.
+            # For a short loop, starting threads would take longer than the loop itself.
             if loop.when is not None:
                 clauses.append(f"if({self.terms.line(loop.when)})")
             # A backslash continues a long directive on the next line.

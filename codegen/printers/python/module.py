@@ -144,7 +144,6 @@ class _Module:
         If the recipe has default values for all parameters, the argument list contains these values.
         """
         known = self.recipe.defaults
-        # If one parameter has no default value, no parameter gets one.
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
         pairs = zip(self.interface.parameters, self.parameters, strict=True)
