@@ -249,7 +249,6 @@ def _iteration(
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
-        # If ``leading`` is true, Newton's matrix is computed before the loop, and otherwise in the loop.
         entering, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
     return Iteration(loop, number, starts, tuple(body), images, kept, entering, matrix)
 
@@ -282,7 +281,7 @@ class _Scope:
     """Rewrites the expressions of one block of statements, for example the body of a loop.
 
     - ``known`` maps the id of each node to the expression that replaces the node.
-    - ``orders`` maps the id of each argument of Stumpff functions c_k to the sorted indices k.
+    - ``orders`` maps the id of x to the sorted indices k of all calls c_k(x) of Stumpff functions.
     - ``pending`` contains new statements, to be placed before the next statement.
     """
 
@@ -393,7 +392,7 @@ class _Scope:
         self.pending.append(call)
         for k, name in enumerate(call.names):
             self.results[name] = k
-            # ``_make`` returns the same node for equal calls, so all equal calls are replaced.
+            # Equal expressions have one id, so ``name`` replaces every expression equal to ``whole``.
             whole = node.space._make("call", node.args, f"{function}.{k}")
             self.known[whole.id] = node.space.sym(name)
 

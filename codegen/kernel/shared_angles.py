@@ -18,7 +18,7 @@ LONGEST = 64
 arguments of earlier calls.
 
 In the methods of the gallery, arguments that are equal to an earlier argument have 12 to 42 nodes. For nine
-methods of the gallery, the limits 64, 128 and 256 give the same kernels. The limit 32 changes one of them.
+methods of the gallery, the limits 64, 128 and 256 give the same kernels.
 """
 
 
@@ -39,7 +39,6 @@ class SharedArguments(ExprDomain):
 
         Two calls of a Stumpff function with equal arguments give one expression.
         """
-        # Only arguments of Stumpff functions are compared, because these functions are expensive.
         if function.startswith("stumpff"):
             args = (self._first(args[0]),)
         return super().call(function, *args)

@@ -186,8 +186,7 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # New symbols are needed if the same symbols would get two different ghosts (values outside the
-        # lattice).
+        # A symbol can have only one ghost, so a different ghost requires a new symbol.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}

@@ -57,7 +57,8 @@ class Linearisation:
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
         """Return the matrix of Newton's method for the equations ``solve``.
 
-        ``places`` contains the attributes ``size``, ``residual``, ``border`` and ``matrix`` of the result.
+        ``places`` contains the values of the attributes ``size``, ``residual``, ``border`` and ``matrix`` of
+        the result, in this order.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if the equations contain
         nested evaluations of the field.
@@ -71,9 +72,7 @@ class Linearisation:
                 hint="use the option --solver fixed-point",
             )
         self.taken = {*self.problem.symbols, *self.problem.runtime, "h", TIME}
-        # The variables in ``inside`` are computed in each iteration, and can depend on the unknowns u.
-        # Newton's matrix contains derivatives with respect to u. Therefore :meth:`value` returns a formula
-        # for each variable in ``inside``, and never a symbol for a stored number.
+        # The variables in ``inside`` are differentiated, so their values must not be read from memory.
         self.inside = {t for assign in solve.body for t in assign.targets}
         # ``images`` contains the expressions g(u) at one site.
         images = [x for v in solve.images for x in flatten(v.kind, self.value(v, OWN))]
@@ -165,7 +164,8 @@ class Linearisation:
         # result of another evaluation.
         if site != OWN:
             raise MethodError(
-                "on a chain, Newton's method cannot solve equations with nested evaluations of the field",
+                "Newton's method for a chain of sites cannot solve equations with nested evaluations of the "
+                "field",
                 where=self.problem.name,
                 expected="a method whose implicit equations contain no nested evaluations of the field",
                 hint="use the option --solver fixed-point",

@@ -121,15 +121,15 @@ class Planner:
     def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
         """Return the step with a Newton matrix for each system of implicit equations.
 
-        ``count`` is the number of rows of the workspace in which ``step`` stores variables. MethodError is
-        raised if the equations contain sums over all sites.
+        The variables of ``step`` occupy the first ``count`` rows of the workspace. MethodError is raised if
+        the equations contain sums over all sites.
         """
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
         # The rows of the workspace contain, in this order: variables, residuals, ``border`` and ``matrix``
         # (:class:`codegen.ir.site_step.SiteNewton`).
         border = count + most
-        # A periodic chain needs ``most * most`` more rows, because its first and last sites are coupled.
+        # ``border`` needs rows only on a periodic chain, which couples the first and last sites.
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):
@@ -199,7 +199,6 @@ class Planner:
             least = last + 1
 
     def _without_renamed(self, solve: Solve) -> Solve:
-        """Return ``solve`` with the solutions u of earlier systems u = g(u) in place of the values g(u)."""
         starts = tuple(self.renamed.get(v, v) for v in solve.starts)
         return replace(solve, starts=starts, body=tuple(map(self._rename, solve.body)))
 

@@ -28,9 +28,8 @@ from codegen.scene.sites import Sites, offset_text
 SHORT = 3
 """An expression with at most SHORT operations is not stored. Each sweep computes it again.
 
-The limit 10 can be much slower than the limits 1 and 3. With the limit 1 or 3, a step of taylor(8) on 4000
-pendulums takes 24 ns for each pendulum. With the limit 10, the time is 117 ns. On a chain of spins, the times
-with the limits 1, 3 and 10 differ by at most 3 per cent.
+If SHORT is 1 or 3, a step of taylor(8) on 4000 pendulums takes 24 ns for each pendulum. If SHORT is 10, the
+time is 117 ns. On a chain of spins, the times for SHORT = 1, 3 and 10 differ by at most 3 per cent.
 """
 
 CALL = 10
@@ -125,11 +124,9 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return ``terms``, possibly with zeros in place of None.
+        """Replace None by zero expressions if later sweeps may read nonzero values outside the lattice.
 
-        None represents a coefficient that is zero at all sites. At a neighbour outside the lattice, however,
-        a given formula defines the coefficient. If the value of the formula may be nonzero, zeros replace
-        None.
+        In ``terms``, None represents a coefficient that is zero at all sites.
         """
         if degree == self.degree:
             return terms
@@ -162,7 +159,7 @@ class TaylorSweeps:
         ]
         names = [*own, *(s for column in around for s in column)]
         sym = self.domain.space.sym
-        # In later sweeps, the symbols in ``names`` denote this coefficient.
+        # Coefficients of higher degree are expressions in these symbols.
         self.recurrence.append([sym(s) if s else None for s in names])
         self.coefficients.append([sym(s) if s else None for s in own])
         self._load(every, own, around, degree)
@@ -247,10 +244,6 @@ class TaylorSweeps:
     def _sweeps(
         self, ends: Sequence[Sequence[Expr]], stores: Sequence[Sequence[Row]], stored: _Stored
     ) -> list[Sweep]:
-        """Return the sweeps.
-
-        Sweep n outputs the expressions ``ends[n]``, and the expressions that ``stored`` assigns to sweep n.
-        """
         rows: dict[int, Row] = {}
         names: dict[int, str] = {}
         free: list[int] = []

@@ -51,7 +51,7 @@ AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
 """Four ways to treat the critical path (the longest chain of dependent operations).
 
 - AS_WRITTEN leaves the operations unchanged.
-- COMBINED first multiplies the factors that are constant in a run (for example, the step size).
+- COMBINED changes c1 (c2 x) into (c1 c2) x if c1 and c2 are constant in a run, and x is not.
 - ORDERED sorts the assignments by the estimated time at which each value is available.
 - SHORTENED does what COMBINED and ORDERED do, and rewrites the longest chains
   (:mod:`codegen.kernel.critical_path`).
@@ -122,13 +122,12 @@ class _Translation:
         # ``inside`` is true while the equations of a block are translated.
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
-        # In a kernel for variations, each step converts the momentum if the frames differ.
         self.frames = Frames(scene, program, whole or variations is not None)
 
     def name(self, base: str) -> str:
         """Return a new name, and add it to ``taken``. The name is ``base`` if possible."""
         candidate = base if base not in self.taken else base + "_"
-        # An underscore is appended, because a number would look like the index of a component.
+        # Names such as ``xi_0`` denote components, so a number must not be appended.
         while candidate in self.taken:
             candidate += "_"
         self.taken.add(candidate)
@@ -186,17 +185,13 @@ class _Translation:
 
     def solve(self, statement: Solve) -> None:
         """Add a block of implicit equations to ``blocks``."""
-        # While ``inside`` is true, ``run`` records each assignment as part of this block. Outlining never
-        # mixes these assignments with other assignments in one function.
+        # While ``inside`` is true, ``run`` records each assignment as part of this block.
         self.inside = True
         entered = self.enter(statement)
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # ``entered`` contains the expressions g(u) of the equations u = g(u). The result of ``compared``
-        # contains residuals in place of g(u). If variations are computed, the function :func:`_varied` must
-        # differentiate the equations u = g(u), and needs g(u). Therefore ``compared`` is called only if no
-        # variations are computed.
+        # ``_varied`` differentiates g(u) in u = g(u), but ``compared`` replaces g(u) by residuals.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
         # The block ``residuals`` already contains Newton's matrix.

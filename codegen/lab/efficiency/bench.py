@@ -175,9 +175,10 @@ def emitted_forms(
     *,
     adaptive: bool = False,
 ) -> list[Candidate]:
-    """Return the candidates for a method: one for each element of ``equations``.
+    """Return the candidates for a method.
 
-    If the method uses the group of the scene, the only candidate integrates the original equations of the
+    If the method integrates equations in coordinates, there is one candidate for each element of
+    ``equations``. Otherwise there is only one candidate, which integrates the original equations of the
     scene.
     """
     suited = equations if lowering(method.family).in_coordinates else [Equations(scene)]

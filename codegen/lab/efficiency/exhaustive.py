@@ -1,11 +1,12 @@
-"""The exhaustive search over all recipes of the library checks the usual search (``orderconds recommend``).
+"""An exhaustive search for the fastest recipe, to test the results of ``orderconds recommend``.
 
 A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 
 1. The CPU time of each recipe is predicted from a few runs in the interpreter.
 2. The predicted CPU time divided by the safety factor SAFE is a lower bound of the true CPU time.
-3. For each required error, the time limit is the best CPU time of the usual search, multiplied by WORST. A
-   recipe is excluded if its lower bound exceeds the time limit for every required error.
+3. For each required error, the time limit is the best CPU time that ``orderconds recommend`` measured,
+   multiplied by WORST. A recipe is excluded if its lower bound exceeds the time limit for every required
+   error.
 4. The remaining recipes are emitted, compiled and timed.
 5. A sample of the excluded recipes is also timed, to test the lower bounds.
 """
@@ -72,9 +73,9 @@ class Exhausted:
     def best(self, error: float) -> float:
         """Return the least measured CPU time in seconds for the required error ``error``.
 
-        The measurements of two searches are compared. ``known`` contains the CPU times from the usual search,
-        and ``results`` contains the runs of this exhaustive search. A run in ``results`` counts only if the
-        run reached the required error.
+        The measurements of two searches are compared. ``known`` contains the CPU times from
+        ``orderconds recommend``, and ``results`` contains the runs of this exhaustive search. A run in
+        ``results`` counts only if the run reached the required error.
         """
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
@@ -88,7 +89,7 @@ class Exhausted:
         if math.isfinite(self.nearest):
             counts += (
                 "; some excluded recipes were also measured, and their CPU times are at least "
-                f"{self.nearest:.1f} times the best CPU time of the other recipes"
+                f"{self.nearest:.1f} times the best CPU time of the recipes that were not excluded"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
 

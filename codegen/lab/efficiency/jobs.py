@@ -1,6 +1,6 @@
 """Determines the sequence in which the CPU times of recipes are predicted.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations.
+A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 """
 
 from __future__ import annotations
@@ -43,12 +43,7 @@ The next recipe comes from the queue with the smallest value of (n + d)/EVEN + s
 """
 
 FAILED = 4.0
-"""The slowness of a queue of recipes, if no recipe of the same kind has a finite predicted CPU time.
-
-A queue contains recipes of one kind (:data:`Kind`). Its slowness is log2(T1/T2). T1 is the least predicted
-CPU time of the recipes of this kind, and T2 is the least predicted CPU time of all recipes. Predictions for
-slow queues are made last (:data:`EVEN`).
-"""
+"""If T1 is infinite, the slowness s of a queue is FAILED. :data:`EVEN` defines T1 and s."""
 
 
 def usual_order(error: float) -> float:

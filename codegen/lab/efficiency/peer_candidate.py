@@ -26,8 +26,8 @@ from orderconds.errors import InputError
 class PeerCandidate:
     """A peer (another integrator) that is run on a scene.
 
-    ``exact`` is the reference solution of the scene. ``budget`` is the longest CPU time of a run in seconds.
-    If ``equations`` is None, the peer integrates the equations of ``scene``.
+    ``exact`` is the reference solution of the scene. ``budget`` is the limit of the CPU time of a run, in
+    seconds. If ``equations`` is None, the peer integrates the equations of ``scene``.
     """
 
     scene: Problem

@@ -41,7 +41,7 @@ A small error is assumed to be proportional to h^p, where h is the step size and
 """
 
 PATIENCE = 0.4
-"""The limit on the total CPU time in seconds of a series of interpreted runs with equal steps.
+"""The interpreter ends a series of runs with equal steps after PATIENCE seconds of CPU time.
 
 For a series of runs with step-size control, the limit is PATIENCE/2.
 """
@@ -66,8 +66,7 @@ FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
 """Assumed numbers of sweeps (iterations for the implicit equations) in a step.
 
-FEWEST_SWEEPS is a lower bound for the assumed number. Before the first run of a method, USUAL_SWEEPS sweeps
-are assumed.
+At least FEWEST_SWEEPS sweeps are assumed. Before the first run of a method, USUAL_SWEEPS sweeps are assumed.
 """
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
@@ -154,9 +153,10 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e) for :meth:`too_high`. The number e is defined at :data:`FAR`
-      for the CPU time ``seconds``. Only the explicit methods or only the implicit methods of the family are
-      considered. The name '' represents all families.
+    - ``least``: triples (family, explicit, e) for :meth:`too_high`. Each triple describes either the explicit
+      methods of a family (``explicit`` is True) or the implicit methods (``explicit`` is False). For these
+      methods and the CPU time ``seconds``, :data:`FAR` defines the error e. The name '' represents
+      all families.
     - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
       this run.
     - ``explicit``: True if a recipe with an implicit method is not accepted.

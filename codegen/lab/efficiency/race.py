@@ -29,7 +29,7 @@ from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED
 
 HALVINGS = 6
-"""The maximum number of bisections for the number of equal steps, or for the exponent of the tolerance."""
+"""The maximum number of bisection steps in the search for the fastest run of a recipe."""
 
 FINEST = 15.0
 """The exponent k of the smallest tolerance 10^-k."""
@@ -44,9 +44,9 @@ Short times are not reliable, because the first run of a module is slower than l
 """
 
 PATIENT = 8.0
-"""A recipe is not run again with higher accuracy if its last run takes longer than PATIENT t + BRIEF.
+"""After a run of more than PATIENT t + BRIEF seconds, no run with higher accuracy is made.
 
-Here t is the least CPU time of another recipe that reaches the error.
+Here t is the argument ``best`` of :meth:`Racer.reach`.
 """
 
 
@@ -182,10 +182,10 @@ class Racer:
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the result for the fastest run that reaches an error.
 
-        A recipe is a method on one form of the equations, with equal steps or with step-size control.
-        ``best`` is a CPU time in seconds in which another recipe reaches ``error``. After a run that takes
-        much longer than ``best``, no run with higher accuracy is made (:data:`PATIENT`). If the error is not
-        reached, the attribute ``reached`` of the result is False.
+        A recipe is a method on one form of the equations, with equal steps or with step-size control. Another
+        recipe reaches ``error`` in ``best`` seconds of CPU time. After a run that takes much longer than
+        ``best``, no run with higher accuracy is made (:data:`PATIENT`). If the error is not reached, the
+        attribute ``reached`` of the result is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
@@ -236,7 +236,7 @@ class Racer:
 
         - There are at least five runs.
         - The smallest error, relative to the size of the state, is below 1e-9.
-        - No error of the last three runs is less than half of the smallest error in the runs before them.
+        - The smallest error of the last three runs is more than half the smallest error of all earlier runs.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
