@@ -130,16 +130,14 @@ def _coordinates(array: Term) -> tuple[Term, ...]:
 
 
 def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | None) -> list[Statement]:
-    """Return the statements of one step of Horner's rule for the real or the imaginary part.
+    """Return the statements of one step of Horner's rule for a polynomial in a 3 x 3 matrix H.
 
-    The step replaces a polynomial P in the matrix H by i^k/k! + H P, modulo H^3 = ``trace`` H + ``det``.
-    ``part`` contains the real or the imaginary parts of the coefficients of P. The step adds a number to the
-    coefficient of H^0. The number is the real part of i^k/k! if ``part`` contains real parts, and the
-    imaginary part of i^k/k! if ``part`` contains imaginary parts. If the number is zero, ``added`` is None.
-    Otherwise ``added`` is (1/k!, k modulo 4).
+    H satisfies H^3 = ``trace`` H + ``det`` I, where I is the identity matrix. ``part`` contains the
+    coefficients of I, H and H^2. If ``added`` is a pair (a, k), the step adds a to the coefficient of I for
+    k = 0 and k = 1, and subtracts a for k = 2 and k = 3.
     """
     last = real("last")
-    # 1/k! has a minus sign if k is 2 or 3 modulo 4, because i^2 = -1 and i^3 = -i.
+    # i^2 = -1 and i^3 = -i, so 1/k! is subtracted for k = 2 and k = 3.
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [
         # The old coefficient of H^2 is saved, because the last two statements still need it.

@@ -64,7 +64,6 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # Usually only the first step of a run has no stored solution, so all other steps skip this work.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
@@ -83,7 +82,7 @@ def memory_record(plan: Plan) -> Record:
             (real("guess", past), "initial guess for the next step"),
             (
                 real("values", 2 * depth, past),
-                "ring buffer with two copies of each solution",
+                "ring buffer, stored twice to avoid a modulo",
             ),
         ]
         # Without a warm start, the rates of convergence of the loops are not stored.
@@ -175,8 +174,8 @@ class WarmStart:
                 ),
             ]
         about = (
-            "A backward difference, multiplied by 'sign'. Terms with an index below 'first' are "
-            "omitted. The latest solution is added last, because the processor may still be computing it."
+            "Compute 'sign' times the backward difference of the given order. If 'first' is 1, the "
+            "difference omits the solution of the next step."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
@@ -265,7 +264,7 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The stored solutions are discarded if the previous solution would be a much better guess.
+            # The previous solution, used as a guess, would have the error ``moved``.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
@@ -308,6 +307,6 @@ class WarmStart:
         # ``place`` is true once in SELDOM steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
-            Note(f"adapt the degree, but only in every {SELDOM}th step if the ring buffer is full"),
+            Note(f"adapt the degree; if the ring buffer is full, only in every {SELDOM}th step"),
             If(often, adapt),
         ]

@@ -100,8 +100,8 @@ def field_in_body(
 
     ``roots`` are the velocity xi and the force n in the space frame, as formulas in q and mu. The result is
     W = Ad_{q^-1} xi and N = Ad*_q n, as formulas in q and P = Ad*_q mu. In ``roots``, the name ``mu[k]``
-    denotes component k of mu. In the result, the name ``mu[k]`` denotes component k of P. If the value of a
-    component does not depend on q, the formula of this component does not contain q.
+    denotes component k of mu. In the result, the name ``mu[k]`` denotes component k of P. q is
+    eliminated from every component whose value does not depend on q.
     """
     space = roots[0].space
     domain = ExprDomain(space)

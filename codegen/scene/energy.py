@@ -35,7 +35,7 @@ OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 
 
 class Conservative(Protocol):
-    """A problem with the attributes that this module uses."""
+    """A problem y' = f(y).y with an optional Hamiltonian and named invariants."""
 
     @property
     def group(self) -> LieGroup:

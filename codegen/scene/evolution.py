@@ -7,8 +7,8 @@ In a Hamiltonian scene with the group element q, the momentum mu can be replaced
 in the body frame. The equations are then q' = q.W and P' = N with the velocity W and the force N in the body
 frame (:mod:`codegen.scene.body_frame`).
 
-Coordinates of q are omitted if two conditions hold: the remaining coordinates determine them, and the
-remaining equations do not contain them.
+A coordinate of q can be omitted if its value follows from the remaining coordinates and no remaining equation
+contains this coordinate.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Evolution:
     - ``inner``: the equations, as a problem on R^m for m coordinates.
     - ``outer``: the scene as a field y' = f(y).y.
     - ``body``: the group G if the coordinates contain the momentum in the body frame of T*G, otherwise None.
-    - ``missing``: the indices of those coordinates of the state that these coordinates omit.
+    - ``missing``: the indices of the omitted coordinates of the state.
     """
 
     inner: Problem
@@ -126,7 +126,7 @@ class Evolution:
         return Recurrence(inner.roots, domain, inner.symbols, start, values, scale)
 
     def products(self) -> int:
-        """Return the number of products of two power series in the recurrence."""
+        """Return how many products of two power series the recurrence computes."""
         domain = ExprDomain()
         start = tuple(map(domain.space.sym, self.inner.symbols))
         recurrence = self.recurrence(domain, start, domain.space.sym(TIME), domain.space.one)

@@ -64,10 +64,6 @@ def without_momentum_rate(problem: Problem) -> Problem:
 
 
 def _hamiltonian(problem: Problem) -> Expr:
-    """Return the Hamiltonian of a linear problem.
-
-    SceneError is raised if the Hamiltonian does not exist or does not depend on time.
-    """
     refusal = f"the linear problem {problem.name} has no momentum u conjugate to the time"
     if not problem.roots:
         problem.require_formulas()

@@ -196,8 +196,7 @@ class _Compiler:
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
         """Yield products whose sum is c times the product of ``factors``.
 
-        A factor is expanded if it is a large sum, or a sum with a constant matrix. The program cannot add a
-        constant matrix, and a large sum would need a large array.
+        A factor is expanded if it is a large sum, or a sum with a constant matrix.
         """
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
@@ -373,11 +372,7 @@ def _transposed(given: Constant) -> Constant:
 
 
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
-    """Return the diagonal ``-offset`` of the transpose A^T of a matrix A.
-
-    ``entry`` is the diagonal ``offset`` of A: a function of the row index, a list of numbers or one number.
-    The argument of a function is shifted by ``offset``. A list or a number is returned unchanged.
-    """
+    """In column i of a matrix, the entry of the diagonal ``offset`` is in row i - ``offset``."""
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 
 

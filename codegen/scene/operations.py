@@ -14,7 +14,8 @@ from codegen.groups.capabilities import BodyFrame, CayleyMap, Coadjoint
 from codegen.ir.domain import Domain, Value
 
 GroupOperation = Callable[..., Value]
-"""A function that computes an operation from the group, the number domain and the arguments of the operation.
+"""A function of the group, the number domain and the arguments of an operation.
+
 If the operation truncates a series, the last argument is the truncation order.
 """
 

@@ -34,7 +34,7 @@ of the sum are rounding errors.
 """
 
 POINTS = 4
-"""The largest number of sample points: the initial state, and three random points of its orbit."""
+"""The number of sample points, if f is finite at each of these points."""
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,8 @@ from codegen.scene.problem import TIME, Problem
 TERMS = 20
 """The index of the last term in the series of dexp^{-1} for the model problem.
 
-Term k is about (z/(2 pi))^k, where z is the step size times the eigenvalue -1/2 of the model problem. The
-tests of the compiler passes use step sizes up to 1/4. Then |z| <= 1/8, and the omitted terms are below
-(16 pi)^-21 = 2e-36.
+Term k is about (z/(2 pi))^k, where z is the step size times the eigenvalue -1/2 of the model problem. For
+step sizes up to 1/4, |z| is at most 1/8, and the omitted terms are below (16 pi)^-21 = 2e-36.
 """
 
 
@@ -51,7 +50,7 @@ class Semilinear:
     def text(self) -> str:
         """Return a text that describes the operator, for the header of emitted code."""
         kind = "complex" if len(self.symbol) > 1 else "real"
-        return f"L multiplies the Fourier mode with the wave number k by a {kind} function of k"
+        return f"L multiplies exp(i k x) by a {kind} function of the wave number k"
 
 
 class ExactExponential(CoordinateMap):

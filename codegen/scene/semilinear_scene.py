@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     import sympy
 
 TWO_THIRDS = Fraction(2, 3)
-"""The fraction of the Fourier modes of N that ``dealias=True`` keeps. A product of two kept modes has no
-alias among the kept modes.
+"""``dealias=True`` keeps this fraction of the Fourier modes of the nonlinear term N. A product of two kept
+modes has no alias among the kept modes.
 """
 
 SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
@@ -69,7 +69,7 @@ def SemilinearScene(
     u -> exp(t L) u + c.
 
     :class:`SceneError` is raised if L does not map real functions to real functions, or if a formula g
-    contains derivatives other than those of ``u``. Other reasons for SceneError are unknown symbols, and
+    contains Dx of an expression other than ``u``. Other reasons for SceneError are unknown symbols, and
     functions such as Piecewise and Max.
     """
     parser = _Parser(name, u, k, x)

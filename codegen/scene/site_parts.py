@@ -34,8 +34,8 @@ class Pair:
     """The interaction of the sites i and i + offset.
 
     ``first`` contains the generators of site i, and ``second`` contains the generators of site i + offset.
-    The generators of a site are the components of an element of the Lie algebra. They may depend on the
-    coordinates of both sites.
+    The generators of a site are the components of an element of the Lie algebra. These components may
+    depend on the coordinates of both sites.
     """
 
     offset: Sequence[int]

@@ -19,7 +19,7 @@ def reads_only_static(scene: Problem) -> bool:
     On a lattice, the coordinates of neighbours must be static, too. At an open boundary, the formulas
     ``scene.sites.outside`` must also contain only static coordinates.
     """
-    # Without a zero component, static coordinates are rare, so the expensive test is skipped.
+    # The test is expensive, and rarely succeeds if no component of f is zero.
     if not any(map(_vanishes, scene.roots)):
         return False
     one = scene if scene.sites is None else with_frozen_neighbours(scene)

@@ -19,7 +19,7 @@ HOLD, EXTRAPOLATE = "hold", "extrapolate"
 OUTSIDE = (HOLD, EXTRAPOLATE)
 
 LARGEST = 512
-"""The largest number of points of a table. The exact spline coefficients need more digits for more points."""
+"""The largest number of points of a table."""
 
 
 class TableData(sympy.Atom):  # type: ignore[misc]

@@ -1,9 +1,9 @@
 """Actuated rigid body: three thrusters or wheels turn a body, on T*SO(3).
 
-The angular momentum mu in space satisfies mu' = g u. The vector u contains the torques in the body frame, and
-the attitude g rotates the torques to space. Each torque is a signal: a function of the time t with a default
-formula. For actuated bodies see F. Bullo and A. D. Lewis, Geometric Control of Mechanical Systems (Springer,
-2005).
+In the space frame, the angular momentum mu satisfies mu' = g u. The vector u contains the torques in the body
+frame, and the attitude g rotates the torques to the space frame. Each torque is a signal: a function of the
+time t with a default formula. For actuated bodies see F. Bullo and A. D. Lewis, Geometric Control of
+Mechanical Systems (Springer, 2005).
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diag, eye, sin

@@ -23,7 +23,7 @@ stiffness = omega**2 + eps * sin(alpha * Symbol("t"))
 T, V = p.dot(p) / 2, stiffness * q.dot(q) / 2
 
 scene = HamiltonianScene(
-    title="Linear oscillator with changing frequency, T*R^4",
+    title="Linear oscillator with changing frequency, on T*R^4",
     group=G,
     q=q,
     mu=p,

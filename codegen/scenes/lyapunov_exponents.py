@@ -33,7 +33,7 @@ def lyapunov(k: int) -> Problem:
     W = tilt * Q.T - Q * tilt.T + Q * S * Q.T
     rates = [B[i, i] for i in range(k)]
     return FieldScene(
-        title="Lyapunov exponents of Lorenz's system from a trajectory and a frame",
+        title="Lyapunov exponents of Lorenz's system",
         group=Product(SO3(), Rn(3 + k)),
         action=FactorwiseAction(Stiefel(k), LeftMultiplication()),
         y=[*Q, *x, *integrals],

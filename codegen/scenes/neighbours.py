@@ -68,7 +68,6 @@ def _modules(folder: Path) -> Iterator[str]:
 
 
 def _installed(name: str) -> bool:
-    """Return True if ``name`` is an installed module, or a module of this program or the standard library."""
     if name in OWN or name in sys.stdlib_module_names:
         return True
     places = [p for p in sys.path if Path(p).name in ("site-packages", "dist-packages")]

@@ -2,9 +2,9 @@
 
 The state mu = (m, p, r) is the impulse of body and fluid in the frame of the body. The angular impulse is m,
 and the linear impulse is (p, r). The Hamiltonian is H = m^2/(2 J) + p^2/(2 A) + r^2/(2 B) + D m p. J is the
-moment of inertia, A and B are masses, including the added masses of the fluid, and D couples rotation and
-translation. The equation is mu' = ad*_{dH} mu (H. Lamb, Hydrodynamics, 6th edition, section 124; H.
-Marthinsen's thesis, section 2.2.2).
+moment of inertia, and D couples rotation and translation. The masses A and B include the added masses of the
+fluid. The equation is mu' = ad*_{dH} mu (H. Lamb, Hydrodynamics, 6th edition, section 124; H. Marthinsen's
+thesis, section 2.2.2).
 """
 
 from sympy import Matrix, Rational, symbols
