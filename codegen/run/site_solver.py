@@ -153,8 +153,8 @@ def _measure(step: SiteStep) -> Function:
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )
     about = (
-        "Compute the largest change of the unknowns and their largest absolute value. The third result is 0 "
-        "if all changes are finite, and NaN otherwise."
+        "Compute the largest change of an unknown and the largest absolute value of an unknown. The third "
+        "result is 0 if all changes are finite, and NaN otherwise."
     )
     return Function(
         MEASURE,

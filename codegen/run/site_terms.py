@@ -29,8 +29,8 @@ SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), cou
 BAD, WHOLE = count("bad"), flag("whole")
 """BAD is the number of sites whose new state is not finite.
 
-The fast sines, cosines and Stumpff functions are valid only near zero. If the flag WHOLE is true, they are
-not used.
+If the flag WHOLE is true, the emitted code uses sines, cosines and Stumpff functions that are valid for all
+arguments. If WHOLE is false, the code may use faster functions that are valid only near zero.
 """
 
 # The size 0 means that the length of an array is known only at run time.

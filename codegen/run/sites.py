@@ -332,9 +332,7 @@ class Loop:
             loop = For(outer[e], shape[e], tuple(body))
             body = [loop if e else distributed(loop, bad)]
         parameters = (WHOLE, shape, SITES, *self.arrays, *self.scalars)
-        about = (
-            f"All sites of sweep {self.index}. If 'whole' is true, {self.name('site')} computes each site."
-        )
+        about = f"All sites of sweep {self.index}."
         first = [Assign(COLUMNS, shape[step.dimension - 1])]
         return self.function(self.name("pass"), about, parameters, [*first, *body])
 
@@ -379,11 +377,6 @@ class Loop:
         return body
 
     def _peeled(self, number: Term, column: Term) -> For:
-        """Return a loop over several sites that calls ``site_K``. The number of these sites is ``number``.
-
-        All these sites are in one row of the lattice. ``column`` is the position of a site in this row, as an
-        expression that contains the loop index.
-        """
         arguments = (column, COLUMNS, *self.rows(), SITES, *self.arrays, *self.scalars)
         return For(INDEX, number, tuple(self._called("site", arguments)))
 

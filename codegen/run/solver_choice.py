@@ -1,9 +1,8 @@
 """The choice of a solver for each block of equations: fixed-point iteration, Newton's method or simplified
 Newton.
 
-Newton's method here keeps its matrix for several steps. Simplified Newton computes a new matrix in each step
-or substep, but only to first order in h. Fixed-point iteration needs no matrix, and each sweep multiplies the
-error by a factor O(h).
+The matrices of the two Newton methods are described in :class:`codegen.ir.kernel.Newton`. Fixed-point
+iteration needs no matrix, and each sweep multiplies the error by a factor O(h).
 
 The solver with the shortest predicted time is chosen, but robust solvers are preferred. The first trial of a
 solver (:mod:`codegen.run.trial`) makes :data:`STEPS` steps from the initial state of the problem's example.
@@ -18,7 +17,7 @@ A robust solver is preferred if its predicted time is at most :data:`PRICE` time
 solver. Without this limit, some methods of the gallery would be 5 to 14 times as slow
 (``benchmarks/README.md``).
 
-For linear equations, a robust solver is preferred at any cost, because the step size can be much larger.
+For linear equations, a robust solver is always preferred.
 """
 
 from __future__ import annotations
@@ -55,7 +54,7 @@ The second trial makes one step. The step size is the usual size, multiplied by 
 """
 
 SWEEPS = 50
-"""In a step of LONGER times the usual size, a robust solver needs at most SWEEPS sweeps.
+"""The largest number of sweeps that a robust solver may need in its second trial.
 
 SWEEPS is half of ``Loop.limit``, the largest number of sweeps of an iteration.
 """
@@ -236,7 +235,7 @@ class Candidate:
         """Return a text with the results of the trial steps for block number ``k`` of the kernel."""
         # If the first trial failed, there was no second trial, and ``far`` is None.
         if self.far is None:
-            return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
+            return f"does not converge in {self.usual.steps} steps of size h = {self.usual.h:.6g}"
         text = f"{counted(self.usual, k)}, predicted {self.block(k):.0f} ns"
         if self.robust:
             return text
@@ -246,9 +245,10 @@ class Candidate:
 
 
 def counted(trial: Trial, k: int) -> str:
-    """Return a text with the average numbers of sweeps and matrices in a step, for block number ``k``.
+    """Return a text such as ``3.35 sweeps and 0.1 matrices a step`` for block number ``k``.
 
-    Only computed matrices are counted. If block ``k`` computed no matrix, the text contains only the sweeps.
+    Both numbers are averages over the trial. If block ``k`` computed no matrix, the text contains only the
+    sweeps.
     """
     text = amount(trial.sweeps[k], "sweep", "sweeps")
     if trial.matrices[k]:
@@ -269,7 +269,7 @@ def amount(x: float, one: str, several: str) -> str:
 
 def measured(trial: Trial, k: int) -> str:
     """Return the text of :func:`counted`, followed by the number and the size of the steps in the trial."""
-    return f"{counted(trial, k)}, measured over the first {trial.steps} steps of h = {trial.h:.6g}"
+    return f"{counted(trial, k)}, measured over the first {trial.steps} steps of size h = {trial.h:.6g}"
 
 
 class _Selection:
@@ -298,7 +298,6 @@ class _Selection:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
-        # For nonlinear equations, a robust solver must not be slower than ``PRICE * least``.
         if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
@@ -368,7 +367,7 @@ class _Selection:
 
         The bound assumes one sweep for each block in each substep, and omits the inversion of small matrices.
         """
-        # The number of matrices is 0 here. The loop below adds the work for matrices.
+        # The second list contains zeros, because the loop below adds the work for matrices.
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
         )
@@ -376,7 +375,7 @@ class _Selection:
             n = len(loop.unknowns)
             # The product of the inverse and a vector takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
-            # Newton's method may use the same inverse in all steps of the trial.
+            # In the best case, Newton's method keeps the same inverses for the whole trial.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -426,14 +425,17 @@ class _Selection:
             else next(s for s in (NEWTON, FIXED_POINT) if s in kernels)
         )
         usual = self.candidates[solver].usual
-        failed = f"no solver converges in the first {usual.steps} steps of h = {usual.h:.6g}"
+        failed = f"no solver converges in the first {usual.steps} steps of size h = {usual.h:.6g}"
         reasons = []
         for k in range(len(self.fixed.loops)):
             if able:
-                reasons.append(f"{failed} directly; with continuation in h, {counted(trials[solver], k)}")
+                reasons.append(
+                    f"{failed} without continuation in h; with continuation, the solver needs "
+                    f"{counted(trials[solver], k)}"
+                )
             else:
                 # Continuation was tried only if ``small`` is True.
-                reasons.append(f"{failed}{', nor by continuation in h' * small}: take shorter steps")
+                reasons.append(f"{failed}{', with or without continuation in h' * small}; take shorter steps")
         choices = self.choices(kernels[solver], reasons)
         return kernels[solver], tuple(replace(choice, converges=bool(able)) for choice in choices)
 

@@ -1,4 +1,4 @@
-"""Statistics of a run: numbers of sweeps and Newton matrices, and a block of equations that failed.
+"""Statistics of a run: counters for sweeps and for Newton matrices.
 
 The caller of a run may pass a record. The run then adds its counts to this record.
 """
@@ -27,7 +27,7 @@ def statistics_record(plan: Plan) -> Record:
     # substep.
     if plan.newton:
         fields.append((count("matrices"), "number of Newton matrices that were computed"))
-    about = "Sweeps over the equations, summed over all steps since the caller set all fields to zero."
+    about = "Statistics of the iterations (sweeps) since the caller set all fields to zero."
     return Record(STATISTICS, about, tuple(fields), public=True)
 
 

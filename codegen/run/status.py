@@ -36,7 +36,7 @@ MEANINGS = {
     BAD_TIMES: "an output time is NaN, out of order, or not between t and end",
     LEAST_STEP: "the end was not reached: a step of the least size was rejected",
     BAD_EVENT: "an event function is infinite or NaN, or the buffer for events is too short",
-    BAD_SHAPE: "a dimension has too few sites, or needs an even number of sites",
+    BAD_SHAPE: "a dimension has too few sites, or has an odd number of sites but needs an even number",
     BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is infinite or NaN",
 }
 """Maps each status to the comment that explains it in the header of emitted code."""
@@ -46,14 +46,14 @@ REASONS = {
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    LIMIT: "the end is not reached within the limit of steps",
+    LIMIT: "the end time is not reached within the limit of steps",
     TOO_FAR: "the step is too long for a finite result: take a shorter step",
     SINGULAR: "the matrix of {block} is singular",
     TOO_SHORT: "the end is not reached: the step became too small to change t",
     BAD_TIMES: "the output times are not finite, not in order, or not between t and end",
     LEAST_STEP: "the end is not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is not finite",
-    BAD_SHAPE: "a dimension has too few sites, or needs an even number of sites",
+    BAD_SHAPE: "a dimension has too few sites, or has an odd number of sites but needs an even number",
     BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is not finite for h = {h}",
 }
 """Maps each status of a failure to the text that explains the failure in error messages.

@@ -68,8 +68,6 @@ def kernel_step(plan: Plan) -> Function:
     # The results do not depend on unread entries of the state, so a test of the results does not find a NaN
     # in an unread entry. A NaN in an unread entry must be found here.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
-    # The initial guess for the next step is computed first, because a processor can compute it and the
-    # outputs at the same time.
     inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
     array = whole_result(plan.arrangement.outputs)
     finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)
@@ -157,7 +155,7 @@ def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
 def composed_step(plan: Plan) -> Function:
     """Return the emitted function that makes one step as a sequence of substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
-    # The initial guess in a substep depends on earlier solutions of the same substep.
+    # Each substep needs the solutions that the same substep had in earlier steps.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)

@@ -54,10 +54,7 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""The stopping test for equations r(u) = 0 adds this number to the rate of convergence.
-
-Even if the measured rate is zero, the estimated error is at least LEAST_RATE times the change.
-"""
+"""The stopping test for equations r(u) = 0 adds this number to the rate of convergence."""
 
 FOUR_ROUNDINGS = 2.0**-50
 """A factor in the stopping test for equations r(u) = 0 (:meth:`Stopping.converged_by_residuals`).
@@ -150,16 +147,13 @@ class Stopping:
         # The tolerances are multiples of the unit roundoff, so they are larger in single precision.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # Without a warm start, both sides of the test are multiplied by ``previous``, because ``previous`` is
-        # zero in the first sweep.
+        # In the first sweep, ``previous`` is zero, so the second test avoids a division.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        # Because of rounding errors, the changes of a convergent iteration may stop decreasing before the
-        # test ``close`` is true. In a divergent iteration, the change does not decrease and is large. After
-        # convergence, the change does not decrease but is small.
+        # If rounding errors keep ``close`` false, a small change that no longer decreases is accepted.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -177,7 +171,7 @@ class Stopping:
         the state), the test uses the rounding errors of the variation in place of the rounding errors of the
         state.
         """
-        # The array ``vector`` contains the variation.
+        # The array ``vector`` contains the tangent vector.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [

@@ -127,7 +127,6 @@ class StoredMatrix(ABC):
         """
         total: Term | None = None
         for term, given, table in entries:
-            # Only the entry is needed, because the method ``before`` returns the statements.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             # No multiplication is emitted for the coefficient 1.
@@ -184,7 +183,6 @@ class BandedMatrix(StoredMatrix):
         return [evaluated, self._row_sum(a), self._product(a, x, y)]
 
     def _diagonal(self, number: int, result: Term) -> For:
-        """Return the loop that computes diagonal ``number`` of h A(t)."""
         offset = self.matrix.offsets[number]
         i, j = along(Diagonal(offset, ()), _ROW)
         entries: list[tuple[int, Entry, str]] = []
@@ -210,9 +208,7 @@ class BandedMatrix(StoredMatrix):
         return _largest_sum(a, self.n, [Assign(_TOTAL, total)])
 
     def _product(self, a: Term, x: Term, y: Term) -> Function:
-        # If the matrix has a main diagonal, this diagonal comes first. The products of entries of this
-        # diagonal and entries of ``x`` are assigned to ``y``. The products for all later diagonals are added
-        # to ``y``.
+        # A stored main diagonal comes first and overwrites ``y``, so ``y`` needs no zeros.
         k, covered = self.columns, self.matrix.offsets[0] == 0
         zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
         body: list[Statement] = [] if covered else [zero]
@@ -256,10 +252,11 @@ class FullMatrix(StoredMatrix):
         return self.nodes * (1 + self.node_size)
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that store data on the linear combination ``letter`` in the array ``target``.
+        """Return the statements that fill the array ``target``.
 
-        The data are the coefficients of ``letter``, multiplied by the step size h, and copies of the arrays
-        in ``nodes``. Matrix entries are computed from the data when they are needed.
+        The first entries of ``target`` are the coefficients of ``letter``, multiplied by the step size h.
+        Copies of the arrays in ``nodes`` follow. Matrix entries are computed from ``target`` when they are
+        needed.
         """
         weights = dict(letter)
         # If the linear combination does not contain the matrix A(t_i), its coefficient is zero.
@@ -281,7 +278,10 @@ class FullMatrix(StoredMatrix):
         named = [Assign(result[k], value(node)) for k, node in enumerate(self.hoisted.names)]
         # C has no arrays of length zero, so ``result`` has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
-        about = "The subexpressions of the entries of A(t) that contain neither the row i nor the column j."
+        about = (
+            "Let a_ij be the entries of A(t). Compute those subexpressions of a_ij that depend on neither i "
+            "nor j."
+        )
         # The emitted function does not need the step size h.
         time = tuple(t for t in moment if t.text != STEP.text)
         evaluated = Function(VALUE, about, (*time, *parameters, result), tuple(named))

@@ -157,8 +157,7 @@ class _Loop:
             unsolved = both(STATUS.differs(code(OK)), singular)
             sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
-            # If the loop has failed, this call records the failure. Therefore the call comes before the
-            # statement that returns the status.
+            # A failed loop must be counted before the status is returned.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]

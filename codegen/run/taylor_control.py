@@ -85,8 +85,6 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
-    # Without outputs, the kernel already contains the functions for the Taylor polynomial, and no function
-    # may occur twice.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 
@@ -121,7 +119,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
         return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
 
     # The sums do not depend on one another, so a compiler can use vector instructions in the inner loop over
-    # the sums. Each iteration of the inner loop adds ROWS products to one sum.
+    # the sums.
     many = For(
         j,
         k // ROWS,
@@ -179,8 +177,8 @@ class _Controlled:
         listed.append(self.evaluate())
         if leave is not None:
             about = (
-                "Convert coordinates to the new state on the manifold. The first array contains the old "
-                "state, followed by the new coordinates."
+                "Convert the value of the Taylor polynomial to the state after the step. The first array "
+                "contains the state before the step, followed by this value."
             )
             listed.append(filling(Plan(leave, self.plan.format), LEAVE, about, self.trial))
         return tuple(listed)
@@ -325,7 +323,7 @@ class _Controlled:
         """Return the function that evaluates the polynomial by Horner's rule."""
         n, i, result = self.size, count("i"), real("total")
         entries = [self.series[i + k * n] for k in range(self.degree)]
-        # The state is added last, because rounding errors of earlier additions are multiplied by h.
+        # The state is added last, because this order reduces rounding errors.
         horner = [Assign(result, result * STEP + x) for x in reversed(entries[:-1])]
         inner = (Assign(result, entries[-1]), *horner, Assign(self.moved[i], self.start[i] + STEP * result))
         about = "The value of the Taylor polynomial at the end of a step of size h."
@@ -346,7 +344,7 @@ class _Controlled:
             body.append(Assign(result, call("power", ratio, self.rounded(1 / k))))
         least = select(smaller < reached, smaller, reached)
         body.append(Return(self.rounded(math.exp(-0.7 / (p - 1))) * least))
-        about = "A step size for which neither of the last two terms of the polynomial exceeds the tolerance."
+        about = "Return a step size for which the last two Taylor terms do not exceed the tolerance."
         parameters = (self.start, self.series, RTOL, ATOL)
         return Function(ADVISE, about, parameters, tuple(body), Kind.REAL, RAISES_NAN)
 
@@ -400,7 +398,7 @@ class _Controlled:
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
             Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),
-            # Without this reset, the initial step size of the caller would bound all steps.
+            # The caller's step size bounds only the first step.
             Assign(self.length, number(0.0)),
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.advised >= size(self.left)),

@@ -180,7 +180,7 @@ def test_the_limit_counts_the_rejected_steps_before_each_output_time(target):
 def test_what_the_tolerance_forbids_ends_at_the_last_good_state(target):
     emission = emitted("free_rigid_body", "cf:cf43", target)
     start, integrator = emission.manifest["initial"], load(emission)
-    with pytest.raises(StepFailed, match="the end is not reached") as failure:
+    with pytest.raises(StepFailed, match="the end time is not reached") as failure:
         integrator.adaptive(start, 0, 2, 0.02, rtol=1e-6, atol=1e-6, limit=3)
     assert (failure.value.status, failure.value.step) == (Status.LIMIT, 3)
     assert list(failure.value.state) != start

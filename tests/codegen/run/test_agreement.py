@@ -151,7 +151,9 @@ def test_the_header_states_the_sweeps_of_emitted_code(case):
         stated = amount(sweeps / STEPS, "sweep", "sweeps")
         if choice.solver == NEWTON:
             stated += f" and {amount(counts.matrices / STEPS / len(made.solvers), 'matrix', 'matrices')}"
-        assert choice.reason.startswith(f"{stated} a step, measured over the first {STEPS} steps of h = ")
+        assert choice.reason.startswith(
+            f"{stated} a step, measured over the first {STEPS} steps of size h = "
+        )
 
 
 def test_fifty_digits_are_solved_to_fifty_digits():

@@ -25,7 +25,7 @@ from codegen.scene.momentum_frame import start_of
 from orderconds.errors import UnknownName
 from tests.compilations import compiled, emitted
 
-TRIED = f"measured over the first {STEPS} steps of h = "
+TRIED = f"measured over the first {STEPS} steps of size h = "
 
 
 def heat(points, duration):
@@ -65,7 +65,7 @@ def test_a_stiff_linear_scene_is_solved_by_newtons_method(monkeypatch):
     """With 64 unknowns the fixed point fails; simplified Newton, a matrix in each step, is not built."""
     choice, built = chosen_from(heat(32, 800), monkeypatch)
     assert (choice.solver, choice.unknowns) == (NEWTON, LARGE)
-    assert choice.compared[0] == f"fixed point: does not converge in {STEPS} steps of h = 8"
+    assert choice.compared[0] == f"fixed point: does not converge in {STEPS} steps of size h = 8"
     assert choice.reason.startswith("2 sweeps and 0.05 matrices a step")
     assert built == [{NEWTON}]
 
@@ -134,8 +134,8 @@ def test_a_scene_that_no_solver_solves_says_so_in_the_header():
     (choice,) = made.solvers
     assert choice.solver == NEWTON
     assert choice.reason == (
-        f"no solver converges in the first {STEPS} steps of h = 0.05, nor by continuation in h: "
-        "take shorter steps"
+        f"no solver converges in the first {STEPS} steps of size h = 0.05, with or without continuation "
+        "in h; take shorter steps"
     )
     assert words_of_header(made).count(choice.text()) == 1
 
@@ -144,8 +144,8 @@ def test_a_scene_that_is_solved_by_continuation_says_so():
     (choice,) = compiled("stiff_driven_spin", "ambient:gauss2").solvers
     assert choice.solver == NEWTON
     assert choice.reason == (
-        f"no solver converges in the first {STEPS} steps of h = 0.05 directly; with continuation in h, "
-        "15.5 sweeps and 7.6 matrices a step"
+        f"no solver converges in the first {STEPS} steps of size h = 0.05 without continuation in h; "
+        "with continuation, the solver needs 15.5 sweeps and 7.6 matrices a step"
     )
 
 

@@ -280,7 +280,7 @@ def test_many_unknowns_are_left_to_a_fixed_point_and_moved_together():
     made = compiled("dipole", "slgi:cg5")
     (choice,) = made.solvers
     assert (choice.solver, choice.unknowns) == ("fixed-point", 27)
-    assert choice.reason == "3.35 sweeps a step, measured over the first 20 steps of h = 0.005"
+    assert choice.reason == "3.35 sweeps a step, measured over the first 20 steps of size h = 0.005"
     modules = [load(emitted("dipole", "slgi:cg5", target)) for target in ("c", "python")]
     start = emitted("dipole", "slgi:cg5", "c").manifest["initial"]
     by_c, by_python = (module.run(start, 0.01, 4) for module in modules)
