@@ -10,7 +10,8 @@
  *             conditions are at most 3.2e-17
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12 unknowns;
- *             1.7 sweeps and 0.2 matrices a step, measured over the first 20 steps of h = 0.005
+ *             1.7 sweeps and 0.2 matrices a step, measured over the first 20 steps of size h =
+ *             0.005
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms cancel
@@ -23,7 +24,7 @@
  *             4 adjoint maps: an adjoint map and its inverse cancel
  *             5 evaluations of dexp*: functions of the same ad_x are combined
  *             arguments for constant parameters: beta = 1, depth = 3/2
- *             the time: the scene does not depend on it
+ *             the time is not needed: no formula depends on the time
  * operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
  *             2 mul for an initial guess, in the first step of a run
  *             102 add, 184 mul for each matrix of the equations of xi1, xi2, xi3, xi4, n1, n2, n3,
@@ -333,7 +334,7 @@ struct dipole_vcf_cf4_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[12]; /* initial guess for the next step */
-    double values[32][12]; /* ring buffer with two copies of each solution */
+    double values[32][12]; /* ring buffer, stored twice to avoid a modulo */
     double rate_1;
     size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[144];
@@ -384,8 +385,8 @@ static void dipole_vcf_cf4_count_matrix(dipole_vcf_cf4_statistics *statistics)
 }
 
 /*
- * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
- * latest solution is added last, because the processor may still be computing it.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
+ * omits the solution of the next step.
  */
 static inline void dipole_vcf_cf4_difference(const struct dipole_vcf_cf4_memory *memory,
     size_t order, size_t first, double sign, double sum[static 12])
@@ -482,7 +483,7 @@ static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree, but only in every 8th step if the ring buffer is full */
+    /* adapt the degree; if the ring buffer is full, only in every 8th step */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcf_cf4_difference_size(memory, memory->degree);
         int grows = 0;

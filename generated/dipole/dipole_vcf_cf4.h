@@ -17,7 +17,7 @@ enum {
     DIPOLE_VCF_CF4_SINGULAR = 6 /* the matrix of an implicit block is singular */
 };
 
-/* Sweeps over the equations, summed over all steps since the caller set all fields to zero. */
+/* Statistics of the iterations (sweeps) since the caller set all fields to zero. */
 typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4 */
     size_t most; /* largest number of sweeps of one block in one step or substep */

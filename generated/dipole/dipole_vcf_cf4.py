@@ -11,7 +11,7 @@ digits:     with the coefficients rounded to double precision, the residuals of 
 scene:      Dipole on a stick, T*SO(3), group SO(3)
 solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12
             unknowns; 1.7 sweeps and 0.2 matrices a step, measured over the first 20
-            steps of h = 0.005
+            steps of size h = 0.005
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms
@@ -25,7 +25,7 @@ left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms
             4 adjoint maps: an adjoint map and its inverse cancel
             5 evaluations of dexp*: functions of the same ad_x are combined
             arguments for constant parameters: beta = 1, depth = 3/2
-            the time: the scene does not depend on it
+            the time is not needed: no formula depends on the time
 operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
             2 mul for an initial guess, in the first step of a run
             102 add, 184 mul for each matrix of the equations of xi1, xi2, xi3, xi4,
@@ -70,9 +70,7 @@ class StepFailed(ArithmeticError):
 
 
 class Statistics:
-    """Sweeps over the equations, summed over all steps since the caller set all
-    fields to zero.
-    """
+    """Statistics of the iterations (sweeps) since the caller set all fields to zero."""
 
     def __init__(self):
         self.clear()
@@ -373,9 +371,8 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """A backward difference, multiplied by 'sign'. Terms with an index below 'first'
-    are omitted. The latest solution is added last, because the processor may
-    still be computing it.
+    """Compute 'sign' times the backward difference of the given order. If 'first' is
+    1, the difference omits the solution of the next step.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -475,7 +472,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree, but only in every 8th step if the ring buffer is full
+    # adapt the degree; if the ring buffer is full, only in every 8th step
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
         grows = False

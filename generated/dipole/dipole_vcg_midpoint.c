@@ -9,7 +9,7 @@
  *             conditions are zero
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 1.55 sweeps and 1 matrix a
- *             step, measured over the first 20 steps of h = 0.005
+ *             step, measured over the first 20 steps of size h = 0.005
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   3 adjoint maps, 2 products: coefficients are zero, or terms cancel
@@ -21,7 +21,7 @@
  *             4 adjoint maps: an adjoint map and its inverse cancel
  *             2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are combined
  *             arguments for constant parameters: beta = 1, depth = 3/2
- *             the time: the scene does not depend on it
+ *             the time is not needed: no formula depends on the time
  * operations: 38 add, 58 mul, 1 stumpff_12 a step
  *             2 mul for an initial guess, in the first step of a run
  *             11 add, 34 mul, 1 div for each matrix of the equations of xi1, n1
@@ -234,7 +234,7 @@ struct dipole_vcg_midpoint_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[3]; /* initial guess for the next step */
-    double values[32][3]; /* ring buffer with two copies of each solution */
+    double values[32][3]; /* ring buffer, stored twice to avoid a modulo */
     double rate_1;
     size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[9];
@@ -285,8 +285,8 @@ static void dipole_vcg_midpoint_count_matrix(dipole_vcg_midpoint_statistics *sta
 }
 
 /*
- * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
- * latest solution is added last, because the processor may still be computing it.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
+ * omits the solution of the next step.
  */
 static inline void dipole_vcg_midpoint_difference(const struct dipole_vcg_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -347,7 +347,7 @@ static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memor
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree, but only in every 8th step if the ring buffer is full */
+    /* adapt the degree; if the ring buffer is full, only in every 8th step */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcg_midpoint_difference_size(memory, memory->degree);
         int grows = 0;

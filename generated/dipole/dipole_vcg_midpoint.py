@@ -8,7 +8,7 @@ digits:     with the coefficients rounded to double precision, the residuals of 
             order conditions are zero
 scene:      Dipole on a stick, T*SO(3), group SO(3)
 solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 1.55 sweeps and 1
-            matrix a step, measured over the first 20 steps of h = 0.005
+            matrix a step, measured over the first 20 steps of size h = 0.005
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   3 adjoint maps, 2 products: coefficients are zero, or terms cancel
@@ -21,7 +21,7 @@ left out:   3 adjoint maps, 2 products: coefficients are zero, or terms cancel
             2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are
             combined
             arguments for constant parameters: beta = 1, depth = 3/2
-            the time: the scene does not depend on it
+            the time is not needed: no formula depends on the time
 operations: 38 add, 58 mul, 1 stumpff_12 a step
             2 mul for an initial guess, in the first step of a run
             11 add, 34 mul, 1 div for each matrix of the equations of xi1, n1
@@ -64,9 +64,7 @@ class StepFailed(ArithmeticError):
 
 
 class Statistics:
-    """Sweeps over the equations, summed over all steps since the caller set all
-    fields to zero.
-    """
+    """Statistics of the iterations (sweeps) since the caller set all fields to zero."""
 
     def __init__(self):
         self.clear()
@@ -98,7 +96,7 @@ class _Memory:
         self.degree = 0  # degree of the extrapolation
         self.place = 0  # row of the latest solution
         self.guess = [0.0] * 3  # initial guess for the next step
-        self.values = [[0.0] * 3 for _ in range(32)]  # ring buffer with two copies of each solution
+        self.values = [[0.0] * 3 for _ in range(32)]  # ring buffer, stored twice to avoid a modulo
         self.rate_1 = 0.0
         self.age_1 = 0  # age of the stored inverse of the Newton matrix; 0 if none is stored
         self.inverse_1 = [0.0] * 9
@@ -314,9 +312,8 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """A backward difference, multiplied by 'sign'. Terms with an index below 'first'
-    are omitted. The latest solution is added last, because the processor may
-    still be computing it.
+    """Compute 'sign' times the backward difference of the given order. If 'first' is
+    1, the difference omits the solution of the next step.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -368,7 +365,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree, but only in every 8th step if the ring buffer is full
+    # adapt the degree; if the ring buffer is full, only in every 8th step
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
         grows = False

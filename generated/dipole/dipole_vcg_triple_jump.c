@@ -9,10 +9,9 @@
  * digits:     with the coefficients rounded to double precision, the residuals of the order
  *             conditions are at most 2.3e-16
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
- * substeps:   3 calls of one function; the step sizes are these multiples of h: 1.35121, -1.70241,
- *             1.35121
+ * substeps:   3 calls of one function with the step sizes 1.35121 h, -1.70241 h, 1.35121 h
  * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 4.85 sweeps and 3 matrices a
- *             step, measured over the first 20 steps of h = 0.005
+ *             step, measured over the first 20 steps of size h = 0.005
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   17 adjoint maps, 15 evaluations of dexp*, 2 evaluations of the derivatives of H, 10
@@ -26,7 +25,7 @@
  *             4 adjoint maps: an adjoint map and its inverse cancel
  *             2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are combined
  *             arguments for constant parameters: beta = 1, depth = 3/2
- *             the time: the scene does not depend on it
+ *             the time is not needed: no formula depends on the time
  * operations: 114 add, 174 mul, 3 stumpff_12 a step
  *             6 mul for an initial guess, in the first step of a run
  *             11 add, 34 mul, 1 div for each matrix of the equations of xi1, n1
@@ -239,7 +238,7 @@ struct dipole_vcg_triple_jump_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[3]; /* initial guess for the next step */
-    double values[32][3]; /* ring buffer with two copies of each solution */
+    double values[32][3]; /* ring buffer, stored twice to avoid a modulo */
     double rate_1;
     size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[9];
@@ -294,8 +293,8 @@ static void dipole_vcg_triple_jump_count_matrix(dipole_vcg_triple_jump_statistic
 }
 
 /*
- * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
- * latest solution is added last, because the processor may still be computing it.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
+ * omits the solution of the next step.
  */
 static inline void dipole_vcg_triple_jump_difference(const struct dipole_vcg_triple_jump_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -356,7 +355,7 @@ static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree, but only in every 8th step if the ring buffer is full */
+    /* adapt the degree; if the ring buffer is full, only in every 8th step */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcg_triple_jump_difference_size(memory, memory->degree);
         int grows = 0;

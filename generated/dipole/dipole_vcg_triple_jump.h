@@ -16,7 +16,7 @@ enum {
     DIPOLE_VCG_TRIPLE_JUMP_TOO_FAR = 5 /* the step is too long for a finite result; a shorter step has a finite result */
 };
 
-/* Sweeps over the equations, summed over all steps since the caller set all fields to zero. */
+/* Statistics of the iterations (sweeps) since the caller set all fields to zero. */
 typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi1, n1 */
     size_t most; /* largest number of sweeps of one block in one step or substep */

@@ -8,10 +8,10 @@ order:      4, certificate: exact (the residuals of all order conditions up to t
 digits:     with the coefficients rounded to double precision, the residuals of the
             order conditions are at most 2.3e-16
 scene:      Dipole on a stick, T*SO(3), group SO(3)
-substeps:   3 calls of one function; the step sizes are these multiples of h:
-            1.35121, -1.70241, 1.35121
+substeps:   3 calls of one function with the step sizes 1.35121 h, -1.70241 h,
+            1.35121 h
 solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 4.85 sweeps and 3
-            matrices a step, measured over the first 20 steps of h = 0.005
+            matrices a step, measured over the first 20 steps of size h = 0.005
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   17 adjoint maps, 15 evaluations of dexp*, 2 evaluations of the
@@ -27,7 +27,7 @@ left out:   17 adjoint maps, 15 evaluations of dexp*, 2 evaluations of the
             2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are
             combined
             arguments for constant parameters: beta = 1, depth = 3/2
-            the time: the scene does not depend on it
+            the time is not needed: no formula depends on the time
 operations: 114 add, 174 mul, 3 stumpff_12 a step
             6 mul for an initial guess, in the first step of a run
             11 add, 34 mul, 1 div for each matrix of the equations of xi1, n1
@@ -70,9 +70,7 @@ class StepFailed(ArithmeticError):
 
 
 class Statistics:
-    """Sweeps over the equations, summed over all steps since the caller set all
-    fields to zero.
-    """
+    """Statistics of the iterations (sweeps) since the caller set all fields to zero."""
 
     def __init__(self):
         self.clear()
@@ -104,7 +102,7 @@ class _Memory:
         self.degree = 0  # degree of the extrapolation
         self.place = 0  # row of the latest solution
         self.guess = [0.0] * 3  # initial guess for the next step
-        self.values = [[0.0] * 3 for _ in range(32)]  # ring buffer with two copies of each solution
+        self.values = [[0.0] * 3 for _ in range(32)]  # ring buffer, stored twice to avoid a modulo
         self.rate_1 = 0.0
         self.age_1 = 0  # age of the stored inverse of the Newton matrix; 0 if none is stored
         self.inverse_1 = [0.0] * 9
@@ -324,9 +322,8 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """A backward difference, multiplied by 'sign'. Terms with an index below 'first'
-    are omitted. The latest solution is added last, because the processor may
-    still be computing it.
+    """Compute 'sign' times the backward difference of the given order. If 'first' is
+    1, the difference omits the solution of the next step.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -378,7 +375,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree, but only in every 8th step if the ring buffer is full
+    # adapt the degree; if the ring buffer is full, only in every 8th step
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
         grows = False

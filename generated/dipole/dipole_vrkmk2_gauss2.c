@@ -10,7 +10,7 @@
  *             conditions are at most 1.6e-17
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns; 1.7 sweeps and 0.35
- *             matrices a step, measured over the first 20 steps of h = 0.005
+ *             matrices a step, measured over the first 20 steps of size h = 0.005
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4 sums: equal
@@ -24,7 +24,7 @@
  *             same ad_x are combined
  *             2 sums: numeric factors become coefficients of sums
  *             arguments for constant parameters: beta = 1, depth = 3/2
- *             the time: the scene does not depend on it
+ *             the time is not needed: no formula depends on the time
  * operations: 47 add, 80 mul, 1 stumpff_12 a step
  *             2 mul for an initial guess, in the first step of a run
  *             48 add, 72 mul for each matrix of the equations of v1, v2, m1, m2
@@ -327,7 +327,7 @@ struct dipole_vrkmk2_gauss2_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[6]; /* initial guess for the next step */
-    double values[32][6]; /* ring buffer with two copies of each solution */
+    double values[32][6]; /* ring buffer, stored twice to avoid a modulo */
     double rate_1;
     size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[36];
@@ -378,8 +378,8 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
 }
 
 /*
- * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
- * latest solution is added last, because the processor may still be computing it.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
+ * omits the solution of the next step.
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -452,7 +452,7 @@ static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_mem
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree, but only in every 8th step if the ring buffer is full */
+    /* adapt the degree; if the ring buffer is full, only in every 8th step */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vrkmk2_gauss2_difference_size(memory, memory->degree);
         int grows = 0;

@@ -9,7 +9,8 @@ digits:     with the coefficients rounded to double precision, the residuals of 
             order conditions are at most 1.6e-17
 scene:      Dipole on a stick, T*SO(3), group SO(3)
 solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns; 1.7 sweeps
-            and 0.35 matrices a step, measured over the first 20 steps of h = 0.005
+            and 0.35 matrices a step, measured over the first 20 steps of size h =
+            0.005
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4
@@ -23,7 +24,7 @@ left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4
             functions of the same ad_x are combined
             2 sums: numeric factors become coefficients of sums
             arguments for constant parameters: beta = 1, depth = 3/2
-            the time: the scene does not depend on it
+            the time is not needed: no formula depends on the time
 operations: 47 add, 80 mul, 1 stumpff_12 a step
             2 mul for an initial guess, in the first step of a run
             48 add, 72 mul for each matrix of the equations of v1, v2, m1, m2
@@ -67,9 +68,7 @@ class StepFailed(ArithmeticError):
 
 
 class Statistics:
-    """Sweeps over the equations, summed over all steps since the caller set all
-    fields to zero.
-    """
+    """Statistics of the iterations (sweeps) since the caller set all fields to zero."""
 
     def __init__(self):
         self.clear()
@@ -370,9 +369,8 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """A backward difference, multiplied by 'sign'. Terms with an index below 'first'
-    are omitted. The latest solution is added last, because the processor may
-    still be computing it.
+    """Compute 'sign' times the backward difference of the given order. If 'first' is
+    1, the difference omits the solution of the next step.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -439,7 +437,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree, but only in every 8th step if the ring buffer is full
+    # adapt the degree; if the ring buffer is full, only in every 8th step
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
         grows = False

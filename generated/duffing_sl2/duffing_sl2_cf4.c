@@ -12,7 +12,7 @@
  * state:      [0..1] y: point on which SL(2) acts by linear maps
  * left out:   1 evaluation of the field: equal values are computed once
  *             5 exponentials: exp(x).y is computed without exp(x)
- *             the time: the scene does not depend on it
+ *             the time is not needed: no formula depends on the time
  *             a solver for implicit equations: all stages are explicit
  * operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
  * stack:      at most 832 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of

@@ -12,7 +12,7 @@ scene:      Duffing's equation, SL(2) acting linearly, group SL(2)
 state:      [0..1] y: point on which SL(2) acts by linear maps
 left out:   1 evaluation of the field: equal values are computed once
             5 exponentials: exp(x).y is computed without exp(x)
-            the time: the scene does not depend on it
+            the time is not needed: no formula depends on the time
             a solver for implicit equations: all stages are explicit
 operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
 command:    orderconds emit duffing_sl2 --method cf4 --target python -o .

@@ -16,7 +16,7 @@ state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   5 flows: two flows of one term of H are joined if they commute with all
             flows between them
-            the time: the scene does not depend on it
+            the time is not needed: no formula depends on the time
             a solver for implicit equations: all stages are explicit
 operations: 201 add, 335 mul, 6 stumpff_12 a step
             2 add, 4 mul once in each run

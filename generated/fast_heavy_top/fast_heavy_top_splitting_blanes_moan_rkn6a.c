@@ -16,7 +16,7 @@
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   14 flows: two flows of one term of H are joined if they commute with all flows
  *             between them
- *             the time: the scene does not depend on it
+ *             the time is not needed: no formula depends on the time
  *             a solver for implicit equations: all stages are explicit
  * operations: 473 add, 786 mul, 14 stumpff_12 a step
  *             29 add, 49 mul, 1 stumpff_12 once in each run

@@ -13,7 +13,7 @@
  * left out:   1 evaluation of the field: equal values are computed once
  *             5 exponentials: exp(x).y is computed without exp(x)
  *             arguments for constant parameters: alpha = 0
- *             the time: the scene does not depend on it
+ *             the time is not needed: no formula depends on the time
  *             a solver for implicit equations: all stages are explicit
  * operations: 88 add, 149 mul, 5 stumpff_12 a step
  * stack:      at most 1152 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of

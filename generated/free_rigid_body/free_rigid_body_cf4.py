@@ -13,7 +13,7 @@ state:      [0..2] y: point on which SO(3) acts by rotation
 left out:   1 evaluation of the field: equal values are computed once
             5 exponentials: exp(x).y is computed without exp(x)
             arguments for constant parameters: alpha = 0
-            the time: the scene does not depend on it
+            the time is not needed: no formula depends on the time
             a solver for implicit equations: all stages are explicit
 operations: 88 add, 149 mul, 5 stumpff_12 a step
 command:    orderconds emit free_rigid_body --method cf4 --target python -o .

@@ -14,7 +14,7 @@ left out:   1 action, 1 evaluation of dexpinv, 1 exponential: coefficients are z
             1 evaluation of the field: equal values are computed once
             4 exponentials: exp(x).y is computed without exp(x)
             arguments for constant parameters: alpha = 0
-            the time: the scene does not depend on it
+            the time is not needed: no formula depends on the time
             a solver for implicit equations: all stages are explicit
 operations: 101 add, 164 mul, 4 stumpff_12 a step
 command:    orderconds emit free_rigid_body --method 'rkmk(2):rk4' --target python

@@ -14,7 +14,7 @@
  *             1 evaluation of the field, 1 sum: equal values are computed once
  *             4 exponentials: exp(x).y is computed without exp(x)
  *             arguments for constant parameters: alpha = 0
- *             the time: the scene does not depend on it
+ *             the time is not needed: no formula depends on the time
  *             a solver for implicit equations: all stages are explicit
  * operations: 77 add, 141 mul, 4 stumpff_12 a step
  * stack:      at most 1088 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of

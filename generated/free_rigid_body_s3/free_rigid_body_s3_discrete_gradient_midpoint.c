@@ -9,12 +9,12 @@
  *             conditions are zero
  * scene:      Free rigid body with attitude, S^3, group S^3
  * solved by:  the equations of xi: Newton's method, 3 unknowns; 6.2 sweeps and 0.85 matrices a
- *             step, measured over the first 20 steps of h = 0.02
+ *             step, measured over the first 20 steps of size h = 0.02
  * state:      [0..3] y: element of S^3, real part first
  * left out:   1 sum: coefficients are zero, or terms cancel
  *             1 action, 1 exponential, 2 sums: equal values are computed once
  *             3 exponentials: exp(x).y is computed without exp(x)
- *             the time: the scene does not depend on it
+ *             the time is not needed: no formula depends on the time
  * operations: 34 add, 59 mul, 1 stumpff_01 a step
  *             21 add, 42 mul for an initial guess, in the first step of a run
  *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 for each matrix of the equations
@@ -275,7 +275,7 @@ struct free_rigid_body_s3_discrete_gradient_midpoint_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[3]; /* initial guess for the next step */
-    double values[32][3]; /* ring buffer with two copies of each solution */
+    double values[32][3]; /* ring buffer, stored twice to avoid a modulo */
     double rate_1;
     size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[9];
@@ -326,8 +326,8 @@ static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigi
 }
 
 /*
- * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
- * latest solution is added last, because the processor may still be computing it.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
+ * omits the solution of the next step.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -388,7 +388,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree, but only in every 8th step if the ring buffer is full */
+    /* adapt the degree; if the ring buffer is full, only in every 8th step */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = free_rigid_body_s3_discrete_gradient_midpoint_difference_size(memory,
             memory->degree);

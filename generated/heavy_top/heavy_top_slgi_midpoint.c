@@ -9,10 +9,10 @@
  *             conditions are zero
  * scene:      Heavy top with inertia fixed in space, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns; 4.85 sweeps and 1 matrix a
- *             step, measured over the first 20 steps of h = 0.01
+ *             step, measured over the first 20 steps of size h = 0.01
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
- * left out:   the time: the scene does not depend on it
+ * left out:   the time is not needed: no formula depends on the time
  * operations: 50 add, 71 mul, 1 stumpff_1 a step
  *             3 mul for an initial guess, in the first step of a run
  *             105 add, 215 mul, 2 slope2, 2 slope3 for each matrix of the equations of xi1, n1
@@ -377,7 +377,7 @@ struct heavy_top_slgi_midpoint_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[6]; /* initial guess for the next step */
-    double values[32][6]; /* ring buffer with two copies of each solution */
+    double values[32][6]; /* ring buffer, stored twice to avoid a modulo */
     double rate_1;
     size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[36];
@@ -428,8 +428,8 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
 }
 
 /*
- * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
- * latest solution is added last, because the processor may still be computing it.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
+ * omits the solution of the next step.
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -502,7 +502,7 @@ static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoi
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree, but only in every 8th step if the ring buffer is full */
+    /* adapt the degree; if the ring buffer is full, only in every 8th step */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = heavy_top_slgi_midpoint_difference_size(memory, memory->degree);
         int grows = 0;

@@ -8,10 +8,10 @@ digits:     with the coefficients rounded to double precision, the residuals of 
             order conditions are zero
 scene:      Heavy top with inertia fixed in space, T*SO(3), group SO(3)
 solved by:  the equations of xi1, n1: Newton's method, 6 unknowns; 4.85 sweeps and 1
-            matrix a step, measured over the first 20 steps of h = 0.01
+            matrix a step, measured over the first 20 steps of size h = 0.01
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
-left out:   the time: the scene does not depend on it
+left out:   the time is not needed: no formula depends on the time
 operations: 50 add, 71 mul, 1 stumpff_1 a step
             3 mul for an initial guess, in the first step of a run
             105 add, 215 mul, 2 slope2, 2 slope3 for each matrix of the equations of
@@ -55,9 +55,7 @@ class StepFailed(ArithmeticError):
 
 
 class Statistics:
-    """Sweeps over the equations, summed over all steps since the caller set all
-    fields to zero.
-    """
+    """Statistics of the iterations (sweeps) since the caller set all fields to zero."""
 
     def __init__(self):
         self.clear()
@@ -408,9 +406,8 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """A backward difference, multiplied by 'sign'. Terms with an index below 'first'
-    are omitted. The latest solution is added last, because the processor may
-    still be computing it.
+    """Compute 'sign' times the backward difference of the given order. If 'first' is
+    1, the difference omits the solution of the next step.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -477,7 +474,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree, but only in every 8th step if the ring buffer is full
+    # adapt the degree; if the ring buffer is full, only in every 8th step
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
         grows = False
