@@ -57,7 +57,7 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
 def polynomial(k: int, precision: Precision = DOUBLE) -> list[float]:
     """Return the coefficients of a polynomial for the Stumpff function c_k, beginning with the constant term.
 
-    The polynomial in z = r^2 is accurate for all reduced angles r.
+    The polynomial approximates c_k(z) for 0 <= z <= 5/8.
     """
     return [float(precision.round(c)) for c in economised(k, _REDUCED, precision.bits)]
 

@@ -69,8 +69,8 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
     """Return the coefficients of a Taylor polynomial of c_k that is accurate from z = 0 to z = ``last``.
 
-    At z = ``last``, the absolute value of the first omitted term is at most 2^-(bits + 3) c_k(0). The default
-    of ``last`` is SWITCH[k].
+    At z = ``last``, the absolute value of the first omitted term is at most c_k(0) / 2^(bits + 3). The
+    default of ``last`` is SWITCH[k].
 
     >>> coefficients(1)[:3], len(coefficients(1)), len(coefficients(1, SMALL))
     ((Fraction(1, 1), Fraction(-1, 6), Fraction(1, 120)), 9, 6)

@@ -202,7 +202,6 @@ class _Search:
             known = len(self.sizes or ())
             verdicts, failing, whole = self._judged(n, n > expected, certificate == "decimal")
             if self.sizes and (failing or not verdicts.isdisjoint((STOPPED, "undecided"))):
-                # The computed order is n - 1, so the residuals of order n are removed.
                 del self.sizes[known:]
             if not failing and STOPPED in verdicts:
                 done = self.meter.total

@@ -134,7 +134,8 @@ class Report:
     """The result of ``check`` for one tableau.
 
     ``orders`` contains the orders of the main method, with a verdict on each claimed order. ``broken_claims``
-    contains messages about failures that do not concern these orders.
+    contains one message for each other claim or requirement that fails, such as the claimed order of the
+    embedded method.
     """
 
     name: str

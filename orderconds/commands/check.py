@@ -138,8 +138,7 @@ def command(
     write a line such as `rk = 4` in the table `claims` of the file. A claimed order must equal the computed
     order. If a limit, such as --max-seconds, ends the computation, the computed order is a lower bound.
 
-    If a directory is given, all tableau files below it are checked, and other files are skipped. With
-    --require-claims, files that only resemble a tableau, such as a JSON file with a matrix, cause an error.
+    If a directory is given, all tableau files below it are checked, and other files are skipped.
 
     The exit status is 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file cannot be read.
 

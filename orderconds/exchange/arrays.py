@@ -237,7 +237,7 @@ def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
     """Return the arrays of a Butcher tableau. Row i of ``stages`` contains c_i and row i of A.
 
     The first row of ``weights`` is b. A second row contains embedded weights. A blank cell is zero.
-    Excess blank cells at the end of a row are removed.
+    Blank cells to the right of the tableau are removed.
 
     >>> butcher([["0", "", ""], ["1", "1", ""]], [["", "1"]])["A"]
     [['0', '0'], ['1', '0']]

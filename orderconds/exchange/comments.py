@@ -1,7 +1,7 @@
 """Write texts of a tableau, for example the name, as one-line comments of source files.
 
 A backslash is doubled. A line break or a control character becomes a Unicode code, for example ``\\u000a``.
-One backslash is inserted into the delimiters of C comments: ``*\\/`` and ``\\/*``.
+The text ``*/`` becomes ``*\\/``, and ``/*`` becomes ``\\/*``.
 """
 
 from __future__ import annotations

@@ -175,13 +175,6 @@ class Values:
         return False
 
     def _forget_others(self, changed: Array, line: int) -> None:
-        """Mark arrays as unknown if they may share memory with ``changed``.
-
-        A value was assigned to an entry of ``changed``. The array ``changed`` stays known. A row of an array
-        is an :class:`Array`, so ``changed`` can be a row of a larger array. If a row of B is the Python
-        object ``changed`` itself, B stays known. If a row of B is a different Python object that may share
-        memory with ``changed``, B becomes unknown.
-        """
         for name, other in self.known.items():
             if isinstance(other, Array) and changed.memory in other.parts() and not _contains(other, changed):
                 self.known[name] = Computed("another statement may change the value", line)

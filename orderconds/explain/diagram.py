@@ -8,11 +8,12 @@ The signs of the vertices are:
 - *letter*: a letter of a word.
 - *bracket*: the Lie bracket of the two branches of the vertex.
 
-An edge is *plain*, *outward* or *inward*. Outward and inward edges occur in action trees and in trees of
-partitioned methods with the coefficients a_ij and ahat_ij (:mod:`orderconds.trees.directed`):
+An edge is *plain*, *outward* or *inward*. Outward and inward edges occur in action trees and in the trees of
+:mod:`orderconds.trees.directed`. Here a_ij and ahat_ij are the coefficients of a partitioned method.
 
 - *outward*: the edge points from the parent to the child and represents a coefficient a_ij. The child is a
-  derivative of the Hamiltonian in p or in the momentum mu. Such a vertex is called a velocity.
+  partial derivative of the Hamiltonian with respect to p or the momentum mu. Such a vertex is called a
+  velocity.
 - *inward*: the edge points from the child to the parent and represents a coefficient ahat_ij. The child is a
   coadjoint action, or a derivative of the Hamiltonian in q. Such a derivative is called a force.
 """

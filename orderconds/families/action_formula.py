@@ -179,11 +179,6 @@ class ExponentialsFormula(ActionFormula):
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return one term of :meth:`between`: the contribution of one division of the word into runs.
-
-        ``lengths`` contains the number of letters in each run. The contribution is the product of the
-        returned number and the returned index sum.
-        """
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
         relations: list[Relation] = [(low, "<", high) for low, high in pairwise(bounds)]
@@ -270,9 +265,7 @@ class CommutatorFreeFormula(ExponentialsFormula):
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
         """Return the coefficient of ``tree`` in one exponent of stage ``row``.
 
-        If ``row`` is None, the exponent belongs to the update. The coefficient is
-        ``sum_j alpha_iJj tau_t(j)`` in stage i = ``row``, and ``sum_j beta_Jj tau_t(j)`` in the update. Here
-        J is ``place``, and ``tau_t(j)`` is the result of :meth:`tau` for ``tree`` and stage j.
+        If ``row`` is None, the exponent belongs to the update. ``place`` is the index of the exponent.
         """
         stage = fresh("i")
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))

@@ -61,7 +61,7 @@ class Family(ABC):
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
-    """True if :mod:`orderconds.ring.nodal` can evaluate the conditions with rational polynomials."""
+    """True if :mod:`orderconds.ring.nodal` can evaluate the conditions of the family."""
     trees: ClassVar[str | None] = None
     """The kind of trees that index the conditions (a name in :mod:`orderconds.explain.kinds`), or None."""
     illustrates: ClassVar[tuple[str, ...]] = ()
@@ -302,8 +302,7 @@ class Family(ABC):
         raise InputError(
             f"the number of stages does not determine which coefficients exist in family {self.label()}",
             where="stages",
-            expected="a family in which the number of stages determines which coefficients a method has, "
-            "such as rk or splitting",
+            expected="a family such as rk or splitting",
             hint="omit the number of stages",
         )
 
@@ -370,8 +369,9 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions, which determine the order of ``method`` because it is
-        symmetric. If no such family is known, return None.
+        """Return a family with fewer conditions, or None if no such family is known.
+
+        If ``method`` is symmetric, the conditions of the returned family determine the order of ``method``.
         """
         return None
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 @register
 class CayleyFamily(MagnusFamily):
-    """Cayley methods: each step cay(Omega) is a Cayley transform or a product of Cayley transforms.
+    """Cayley methods. One step is Y_1 = cay(Omega) Y_0, where cay is the Cayley transform.
 
     In printed conditions, omega_ij is the coefficient of A_j A_i in Omega, and omega_ijk is the coefficient
     of A_k A_j A_i.

@@ -55,7 +55,7 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b), else None."""
+        """Return this family if ``has_weights(tableau)`` is true. Otherwise return None."""
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

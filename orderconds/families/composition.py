@@ -158,8 +158,8 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
 """A function (word, index) -> (formula, divisor).
 
-The summation index ``index`` denotes one factor of the step. The coefficient of the word in the series of the
-factor is the formula divided by the integer ``divisor``.
+A step is a product of factors, and ``index`` is the index of one factor. In the series of this factor, the
+coefficient of ``word`` is ``formula / divisor``.
 """
 
 

@@ -95,10 +95,9 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return the largest n such that truncating dexpinv after ad^``cutoff`` changes no coefficient of
-    words up to length n.
+    """Return the greatest length of words that the truncation of dexpinv does not affect.
 
-    If ``cutoff`` is None, the result is 2^30.
+    The series of dexpinv ends with the power ``cutoff`` of ad. If ``cutoff`` is None, the result is 2^30.
 
     >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
     [1, 2, 4, 4, 6]

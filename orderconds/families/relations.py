@@ -178,8 +178,9 @@ def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> d
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
     r"""Express a coefficient of a group-like series as a polynomial in the coefficients of Lyndon words.
 
-    The argument ``forest`` is the word of the coefficient, and its letters are trees. The polynomial relates
-    scaled coefficients: the coefficient of each word ``w`` is multiplied by ``scale(w)``.
+    The argument ``forest`` is the word of the coefficient, and its letters are trees. For each word w, let
+    x(w) be ``scale(w)`` times the coefficient of w. The polynomial expresses x(``forest``) by the numbers
+    x(w) of Lyndon words w.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

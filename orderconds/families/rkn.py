@@ -130,8 +130,8 @@ class NystroemFamily(Family):
         ``bound``.
 
         The bound for the family ``rkn`` is ``order``. The bound for the family ``splitting`` is
-        min(``order``, 4): both families have the same conditions up to order three, and the order of a
-        symmetric method is even.
+        min(``order``, 4). Both families have the same conditions up to order 3, and a symmetric method of
+        order 3 also has order 4.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
@@ -221,11 +221,11 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return elements of a set B of linear combinations of words. Each word in a returned element has
-    ``weight`` letters. B is the smallest set that contains V and, for all x and y in B, also [x,[T,y]].
+    """Return the elements of B whose words have ``weight`` letters. The module docstring defines B and the
+    ideal.
 
-    For x and y in B, [x,[T,y]] and [y,[T,x]] are equal modulo the ideal of the module docstring. The result
-    contains only one of these two brackets.
+    For x and y in B, [x,[T,y]] and [y,[T,x]] are equal modulo the ideal. The result contains only one of
+    these two brackets.
     """
     if weight == 1:
         return (expand(V),)

@@ -5,10 +5,10 @@ Each edge of a tree is an arrow from one of its two vertices to the other. If th
 root, the edge gives a factor a_ij in the elementary weight. If the arrow points towards the root, the edge
 gives a factor ahat_ij.
 
-Each edge of a free tree gives two trees: the root is either of the two vertices at this edge. Because b_i
-ahat_ij + b_j a_ji = b_i b_j, the elementary weights of these two trees add up to a product of elementary
-weights of smaller trees. Hence one condition for each free tree (a tree without a root) is sufficient (Abia
-and Sanz-Serna 1993; HLW VI.7).
+Let i and j be the two vertices of an edge in a free tree. The root of the tree can be i or j. Because b_i
+ahat_ij + b_j a_ji = b_i b_j, the elementary weights of these two rooted trees add up to a product of
+elementary weights of smaller trees. Hence one condition for each free tree (a tree without a root) is
+sufficient (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations

@@ -59,7 +59,7 @@ def refuse_explicit(label: str, explicit: bool) -> None:
     """
     if explicit:
         raise InputError(
-            f"family {label} has no explicit methods, because its coefficients are not a tableau (A, b)",
+            f"family {label} has no explicit methods",
             where="explicit",
             expected="a family whose coefficients are a_ij and b_i",
             hint="leave the option out",

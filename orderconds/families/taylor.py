@@ -55,7 +55,7 @@ class TaylorFamily(Family):
         return self.name if self.degree is None else f"{self.name}({self.degree})"
 
     def degree_of_step(self) -> int:
-        """Return the degree P.
+        """Return the degree of the Taylor polynomial.
 
         Raises :class:`~orderconds.errors.InputError` if the family was created without a degree.
         """

@@ -42,9 +42,9 @@ if TYPE_CHECKING:
 class VariationalCommutatorFree(ActionFamily):
     """Variational commutator-free methods on a Lie group.
 
-    The independent conditions are found with random methods. ``update`` is the number of exponentials in the
-    update, and ``stage`` is the number of exponentials in each stage. The default values are large enough to
-    find all independent conditions.
+    The independent conditions are computed from integrators with random coefficients. In these integrators,
+    ``update`` is the number of exponentials in the update, and ``stage`` is the number of exponentials in
+    each stage. The default values are large enough to find all independent conditions.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]

@@ -85,8 +85,7 @@ class Traces:
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:
-        """Return ``text(x)``. The argument ``digits`` has no effect on the result. Decimal digits cannot be
-        computed, because the inputs of the recorded program have no values yet."""
+        """Return ``text(x)``. The argument ``digits`` has no effect on the result."""
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:

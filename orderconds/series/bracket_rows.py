@@ -49,8 +49,6 @@ def _terms(program: BracketProgram) -> int:
 
 
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
-    """Yield programs in which a multiple of one bracket is added to a later bracket with the same left
-    factor."""
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]
         same = x.keys() == other.keys() and all(ring.is_zero(x[n] - other[n]) is True for n in x)

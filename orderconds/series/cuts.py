@@ -20,8 +20,7 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""A pair of the removed parts (components) and the remaining part (rest). If a cut removes a whole tree or
-forest, this tree or forest is the only component."""
+"""A pair of the removed parts (components) and the remaining part (rest)."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 
@@ -47,7 +46,8 @@ def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
 
 @lru_cache(maxsize=1 << 14)
 def left_cuts(forest: Forest) -> tuple[Cut, ...]:
-    r"""Return every left admissible cut of an ordered forest. The last cut removes the whole forest.
+    r"""Return every left admissible cut of an ordered forest, as a pair (components, rest). The last cut
+    removes the whole forest.
 
     >>> left_cuts(b"\0\0")
     (((), b'\x00\x00'), ((b'\x00',), b'\x00'), ((b'\x00\x00',), b''))

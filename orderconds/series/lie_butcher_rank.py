@@ -35,8 +35,8 @@ def independent_forests(
     """Return the forests whose order conditions are independent, as one tuple for each order.
 
     ``candidates`` contains a sequence of forests for each order 1, 2, .... A forest is omitted if its
-    condition follows from the conditions of earlier forests. If ``with_exact_flow`` is false, the right-hand
-    sides of the conditions are ignored.
+    condition follows from the conditions of earlier forests. The right-hand sides of the conditions are
+    coefficients of the exact flow. If ``with_exact_flow`` is false, the right-hand sides are ignored.
 
     The forests are selected modulo two primes, and the larger selection is returned, because the rank modulo
     a prime can be too small.
@@ -56,7 +56,6 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # The rank is at most the number of ordered forests, which is largest for the highest order.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

@@ -56,7 +56,7 @@ class SearchResult:
 
     @classmethod
     def of(cls, request: Order, outcome: Outcome) -> SearchResult:
-        """Return the result of a search with the options ``request`` and the given ``outcome``."""
+        """Convert ``outcome`` to a search result. ``request`` contains the options of the search."""
         solution = outcome.solution
         return cls(
             tableau=None if solution is None else Tableau.loads(solution.text, request.name),

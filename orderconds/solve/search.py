@@ -112,7 +112,6 @@ def run_batch(search: Search, number: int) -> Batch:
     regular = [
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
-    # If all solutions are singular, keep them: exact arithmetic can sometimes prove their order.
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:

@@ -58,8 +58,8 @@ def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> N
         raise TableauError(
             f"row lengths {', '.join(map(str, lengths))}",
             where="A",
-            expected=f"{stages} rows of {stages} entries, or the row lengths "
-            f"{', '.join(map(str, shapes[1]))} for an explicit method",
+            expected=f"{stages} rows of {stages} entries, or rows of "
+            f"{', '.join(map(str, shapes[1]))} entries for an explicit method",
         )
 
 
@@ -169,7 +169,7 @@ def _claimed(claims: object, family: str) -> dict[str, int | bool]:
             expected='the order, or a mapping such as {"rk": 4, "explicit": True}',
         )
     return {
-        text(label, "claims", 'a family or a property as a str, such as "rk"'): x
+        text(label, "claims", 'a str, such as the family "rk" or the property "explicit"'): x
         if isinstance(x, bool)
         else integer(x, f"claims[{label!r}]", CONDITION_ORDER)
         for label, x in claims.items()
