@@ -32,7 +32,7 @@ PRINTED = 16
 
 LARGE = 64
 """A double counts as an exact number only if its numerator and its denominator each have at most this number
-of bits. Without this limit, the exact decimal of a double could have hundreds of digits."""
+of bits."""
 
 LONGEST = 1200
 """The exact decimal of every double has at most this number of significant digits."""

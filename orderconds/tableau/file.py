@@ -136,7 +136,7 @@ def parsed(text: str, where: str) -> Data:
         raise TableauError(
             f"a number or a date that cannot be read: {str(problem).partition(';')[0]}",
             where=where,
-            expected='coefficients in quotation marks, such as "1/2"',
+            expected='numbers in quotation marks, such as "1/2"',
         ) from None
 
 
@@ -155,7 +155,6 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # The message of ``build`` contains the name of the tableau. It is replaced by ``where``.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -371,7 +370,7 @@ def _claims(entry: Format, where: str) -> Claims:
                 raise TableauError(
                     f"unknown property {key!r}",
                     where=f"{where}: claims",
-                    expected=f"one of {', '.join(PROPERTIES)}, or a family with its order",
+                    expected=f"one of {', '.join(PROPERTIES)}, or the order for a family, such as rk = 4",
                 )
             properties[key] = value
         elif isinstance(value, int):

@@ -124,8 +124,8 @@ class CommutatorFree:
         return CommutatorFree(tuple(stage.map(convert) for stage in self.stages), self.update.map(convert))
 
     def from_start(self, stage: Stage) -> tuple[Row, ...]:
-        """Return the exponentials that lead from y0 to the value of ``stage``. The first one acts first. A
-        row contains the coefficients of one exponential."""
+        """Return the exponentials that lead from y0 to the value of ``stage``, in the order of their
+        application. A row contains the coefficients of one exponential."""
         before = () if stage.start is None else self.from_start(self.stages[stage.start])
         return before + stage.exponentials
 

@@ -7,8 +7,8 @@ stage. The method is symmetric if two conditions hold:
 
 - The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
   original sequence.
-- Take the sequence from y0 to the value of any stage i, and replace each exponential by the inverse of its
-  conjugate. The new sequence must lead from y1 to the value of stage s + 1 - i.
+- Let E_1, ..., E_m be the exponentials that lead from y0 to the value of a stage i. Let D_k be the inverse of
+  the conjugate of E_k. Then D_1, ..., D_m lead from y1 to the value of stage s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """

@@ -121,7 +121,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"rkn = {self.rkn!r} with parts {known}",
                 where=f"{where}: rkn",
-                expected="two parts, and rkn = the name of one part",
+                expected="two names in the list parts, one of them as the value of rkn",
             )
 
     def coefficients(self) -> Places:
@@ -238,10 +238,10 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 mirrored = series.get(word[::-1], ring.zero)
                 if ring.is_zero(value - mirrored if len(word) % 2 else value + mirrored) is False:
                     raise TableauError(
-                        f"exponent {k + 1} contains products and lies outside the Lie algebra of some "
-                        f"quadratic groups",
+                        f"for at least one quadratic group, exponent {k + 1} is not an element of the Lie "
+                        f"algebra",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="pairs such as A*B*C and C*B*A with equal coefficients if the number of "
-                        "factors is odd, and with opposite coefficients if the number of factors is even",
+                        expected="mirrored pairs of products: A*B - B*A for an even number of factors, "
+                        "A*B*C + C*B*A for an odd number of factors",
                     )
         return method, None

@@ -59,9 +59,8 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     """Rewrite a Runge-Kutta or commutator-free method as a low-storage scheme with two registers (2N). The
     result contains the scheme, or the reason why there is no such scheme. Return None for all other methods.
 
-    If rounded decimals are not accurate enough for an answer, they are replaced by random numbers
-    (:mod:`orderconds.tableau.random_member`). This requires a table ``[proof]`` in the file. The probability
-    of a wrong answer is negligible.
+    If the file has a table ``[proof]``, the answer can depend on random numbers
+    (:mod:`orderconds.tableau.random_member`). The probability of a wrong answer is negligible.
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds

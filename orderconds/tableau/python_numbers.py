@@ -87,9 +87,6 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 
 
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
-    """Convert a float of 16 or 32 bits to a coefficient. Let d be the denominator of ``x`` as a fraction in
-    lowest terms. If d exceeds :data:`SMALL`, the result is a rounded decimal with ``digits`` significant
-    digits."""
     text = double_text(x, where)
     if Fraction(x).denominator <= SMALL:
         return text

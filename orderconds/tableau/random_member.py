@@ -82,8 +82,8 @@ class RandomMember(Rationals):
 
 
 def description(symbolic: SymbolicCoefficients) -> str:
-    """Return one text that contains the coefficients and the table ``numbers`` of a file.
-    :class:`RandomMember` uses the text as the seed of its random numbers.
+    """Return a text that contains all coefficients and all named numbers of a file. :class:`RandomMember`
+    uses the text as the seed of its random numbers.
 
     >>> from orderconds.tableau import Tableau
     >>> file = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]').file

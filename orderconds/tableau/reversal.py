@@ -50,7 +50,7 @@ def sign(method: Magnus, ring: Ring) -> int | None:
 
     Let A_i = h A(c_i h) for the nodes c_1, ..., c_s. Replace every A_i in a term by -A_{s+1-i}. The term is
     called odd if this replacement changes the sign of the term. The term is called even if this replacement
-    does not change the term. All summands without a bracket count as one term.
+    does not change the term. The linear combination of A_1, ..., A_s in the exponent counts as one term.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

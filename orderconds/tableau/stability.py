@@ -33,8 +33,8 @@ LARGEST = 100
 block of this size with rational entries, the computation takes about a second."""
 
 EFFORT = 10**11
-"""The limit on the work in Euclid's algorithm for polynomials, whose coefficients grow fast. Work is
-estimated as the number of products of two bits. The limit corresponds to about a second."""
+"""The limit on the work in Euclid's algorithm for polynomials, whose coefficients grow fast. The work is an
+estimated number of bit operations. The limit corresponds to about a second."""
 
 
 class SignedRing(Ring, Protocol):

@@ -6,8 +6,8 @@ size. A step stores only the state Y and one element K of the Lie algebra (Willi
 with one exponential for each stage. On a vector space, a 2N scheme is a Runge-Kutta method.
 
 Let F_i be the vector field at stage i. Increment i leads from stage i to stage i + 1. The last increment
-leads to the update. In a 2N scheme, increment i is B_i K_i with K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j.
-The recognition computes B_i and A_i from the increments of a tableau:
+leads from the last stage to the result of the step. In a 2N scheme, increment i is B_i K_i with K_i = F_i +
+sum_{j < i} A_{j+1} ... A_i F_j. The recognition computes B_i and A_i from the increments of a tableau:
 
 - B_i is the coefficient of F_i in increment i.
 - A_i is the quotient of the coefficients of F_{i-1} and F_i in one increment. The first increment in which
@@ -142,8 +142,8 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
             return rows[m][i - 1] / denominator
         if ring.is_zero(rows[m][i - 1]) is False and not above:
             above = (
-                f"A_{i + 1} has a zero denominator: in the increment of stage {m + 1}, k_{i} has the "
-                f"coefficient {ring.text(rows[m][i - 1])} and k_{i + 1} has the coefficient 0"
+                f"A_{i + 1} requires a division by zero: in the increment of stage {m + 1}, the coefficient "
+                f"{ring.text(rows[m][i - 1])} of k_{i} is divided by the coefficient 0 of k_{i + 1}"
             )
     # All denominators are zero here. If a numerator is not zero, A_i does not exist. Otherwise, A_i is set to
     # zero.

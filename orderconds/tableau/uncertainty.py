@@ -13,9 +13,7 @@ from orderconds.tableau.record import Tableau
 
 WIDER = fmpq(17, 8)
 """A double counts as accurate if the width of its ball (interval) is at most ``WIDER`` times the default
-radius (:func:`~orderconds.tableau.doubles.radius`). ``WIDER`` is slightly greater than 2, because the
-endpoints of balls are rounded outward.
-"""
+radius (:func:`~orderconds.tableau.doubles.radius`)."""
 
 
 def uncertainty(tableau: Tableau, bits: int) -> str:

@@ -73,8 +73,8 @@ def commutator_free_work(tableau: Tableau) -> Work | None:
 
 
 def crouch_grossman_work(tableau: Tableau) -> Work | None:
-    """Return the cost of a step of a Crouch-Grossman method. Exponentials are counted only for a Butcher
-    tableau.
+    """Return the cost of a step of a Crouch-Grossman method. For a method without a Butcher tableau, only
+    field evaluations are counted (:func:`evaluations`).
 
     >>> from orderconds.tableau import find
     >>> crouch_grossman_work(Tableau.load(find("cg3")))

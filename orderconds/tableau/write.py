@@ -156,7 +156,6 @@ class _Radicals:
         return text
 
     def spell(self, x: Element) -> str:
-        """Return the text of the element x. Nested square roots are replaced by names."""
         return self._named(self.text(x), list(self.names))
 
 

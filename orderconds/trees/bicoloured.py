@@ -20,8 +20,8 @@ BicolouredTree = bytes
 
 
 def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
-    """Yield all rooted trees with the given number of vertices of two colours, each tree once (the set TP
-    of HLW III.2.1). The trees with a black root come before the trees with a white root.
+    """Yield every rooted tree with ``vertices`` vertices, each black or white, exactly once. The trees with a
+    black root come before the trees with a white root.
 
     In the example, ``.`` and ``[..]`` denote a black root, and ``o`` and ``(..)`` denote a white root.
 
@@ -37,8 +37,8 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
     """Return all free trees in which neighbours differ in colour, each tree once. The root is chosen to make
     the height of the tree as small as possible.
 
-    The trees with alternating colours index the order conditions of symplectic partitioned methods for
-    separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2).
+    Symplectic partitioned methods for separable Hamiltonians have one order condition for each of these trees
+    (Abia and Sanz-Serna 1993; HLW VI.7.2).
 
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']

@@ -4,9 +4,10 @@ A partitioned method has weights b_i and two tableaux, a_ij and ahat_ij. Let an 
 child j. An edge that points away from the root has kind 0 and gives the factor a_ij in the elementary weight.
 An edge that points to the root has kind 1 and gives the factor ahat_ij.
 
-Symplectic methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j. Each end of an edge of a free tree can be the
-root. The sum of the elementary weights of these two rooted trees is the product of the elementary weights of
-two smaller trees. Hence each free tree with directed edges gives one order condition.
+Symplectic methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j. Let u and v be rooted trees that differ only in
+the choice of the root, and let an edge join the two roots. Then the sum of the elementary weights of u and v
+is the product of the elementary weights of two smaller trees. Hence each free tree with directed edges gives
+one order condition.
 
 A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder. ``level`` is the level of the
 vertex, and ``kind`` is the kind of the edge to its parent. The branches of a vertex are sorted by their
@@ -169,8 +170,8 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Return the preorder indices of all roots that are equally simple. :func:`representative` defines which
-    root is simpler."""
+    """Return the preorder indices of all roots that minimize (min(n_0, n_1), height, n_1). The numbers n_0
+    and n_1 are defined in :func:`representative`."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
     hats[0] = sum(level & 1 for level in tree[1:])

@@ -20,7 +20,7 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""Let o be Butcher's product. A pair (u, v) denotes the move of the root that transforms u o v to v o u."""
+"""A pair (u, v) represents the replacement of u o v by v o u, where o is Butcher's product."""
 
 
 @lru_cache(maxsize=32)

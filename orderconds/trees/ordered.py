@@ -38,8 +38,6 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # The last level above ``lowest`` decreases by 1, and the levels after it increase by 1 from one to
-        # the next.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

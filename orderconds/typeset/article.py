@@ -74,8 +74,8 @@ def _signs(diagram: Diagram) -> list[str]:
 MEANINGS = {
     "white": "a black vertex denotes a derivative of the first function of the system (f or T), and a white "
     "vertex denotes a derivative of the second function (g or V)",
-    "outward": "an arrow denotes two derivatives: at its tail with respect to the position, and at its head "
-    "with respect to the momentum",
+    "outward": "an arrow denotes two derivatives: the function at its tail is differentiated with respect to "
+    "the position, and the function at its head is differentiated with respect to the momentum",
     "transport": "a diamond denotes a coadjoint action on the momentum",
     "bracket": "a point with two branches denotes the commutator of the branches",
 }

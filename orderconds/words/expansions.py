@@ -1,8 +1,8 @@
-"""Magnus, Fer and Cayley expansions in words. Series of dexp, inverse dexp and inverse dcay.
+"""Coefficients of words in Magnus, Fer and Cayley expansions and in series of dexp, dexp^-1 and dcay^-1.
 
 The expansions solve Y' = A(t) Y with A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter k denotes X_k and has weight
 k. The first letter of a word acts first. Hence the word k_1 ... k_n denotes the product X_{k_n} ... X_{k_1}.
-The functions return coefficients at t = 1.
+The expansions are evaluated at t = 1.
 
 In the series of dexp_U(X), dexp_U^-1(X) and dcay_U^-1(X), a word denotes the product of its letters in the
 written order.
@@ -75,10 +75,10 @@ def cayley(word: Word) -> Fraction:
 def fer(n: int, word: Word) -> Fraction:
     """Return the coefficient of a word in the series F_n of the Fer expansion at t = 1.
 
-    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The Fer expansion is Y =
-    exp(F_1) exp(F_2) exp(F_3) .... F_n is the integral of a series A_n from 0 to t. Here A_1 = A and A_{n+1}
-    = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. The word (2, 1) denotes X_1 X_2. In
-    F_n, the sum of the letters of each word is at least 2^n - 1.
+    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The Fer expansion is
+    Y = exp(F_1) exp(F_2) ..., an infinite product of exponentials. The series F_n is the integral of a series
+    A_n from 0 to t. Here A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where
+    ad_F X = F X - X F. The word (2, 1) denotes X_1 X_2.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')
@@ -178,7 +178,7 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
         return _fer_field(n, word)
     result = Fraction(0)
     for cut in range(1, len(word)):
-        # In a word, the last factor of a product comes first: (2, 1) denotes X_1 X_2.
+        # A word lists the factors of a product in reverse order.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result

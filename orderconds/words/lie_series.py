@@ -111,11 +111,6 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return a function that writes a series in the basis of bracketed Lyndon words. The argument of the
-    function is the largest weight. Its result contains the coefficients of the bracketed words. ``value``
-    returns the coefficient of a word without brackets in the series.
-    """
-
     def coordinates(weight: int) -> Coordinates:
         place = {letter: number for number, letter in enumerate(letters(weight))}.__getitem__
         all_weights: Coordinates = {}
@@ -161,14 +156,7 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return a function that computes the coefficients c_k of a series sum_k c_k ad_U^k X. Here ad_U^k X is
-    the bracketed form of the Lyndon word with k letters U, followed by one letter X. The argument of the
-    function is the largest number n of letters. The result maps each of the words X, UX, UUX, ... with at
-    most n letters to its coefficient c_k.
-
-    ``expand(n)`` maps the words with at most n letters to their coefficients in the series.
-    """
-
+    # In the series sum_k c_k ad_U^k X, the word U^k X has the coefficient c_k.
     def coordinates(weight: int) -> Coordinates:
         series = expand(weight)
         words = (("U",) * k + ("X",) for k in range(weight))

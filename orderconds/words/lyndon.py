@@ -20,7 +20,8 @@ def lyndon_words(
 ) -> Iterator[tuple[Letter, ...]]:
     """Yield the Lyndon words of a given weight, in lexicographic order.
 
-    ``letters`` are in ascending order. ``weigh`` returns the weight of a letter, a positive integer.
+    The sequence ``letters`` defines the order of the letters: each letter is less than the next one.
+    ``weigh`` returns the weight of a letter, a positive integer.
 
     >>> ["".join(word) for word in lyndon_words("AB", 4)]
     ['AAAB', 'AABB', 'ABBB']

@@ -156,7 +156,7 @@ MALFORMED = {
     "rkn of no part": (
         SPLITTING + 'rkn = "W"\nstep = [["T", 1]]\n',
         "rkn = 'W'",
-        "rkn = the name of",
+        "as the value of rkn",
     ),
     "unknown key of a splitting": (
         SPLITTING + 'steps = []\nstep = [["T", 1]]\n',
@@ -212,8 +212,8 @@ MALFORMED = {
     "a product in an exponential": (MAGNUS + 'exponents = [{ "1*2" = 1 }]\n', "the product '1*2'", "cay"),
     "a product that leaves the algebra": (
         MAGNUS + 'map = "cay"\nexponents = [{ "1*2" = 1 }]\n',
-        "lies outside the Lie algebra of some quadratic groups",
-        "opposite",
+        "exponent 1 is not an element of the Lie algebra",
+        "mirrored pairs",
     ),
     "no exponents": (MAGNUS + "exponents = []\n", "0 exponents", "1 to 200"),
     "another map": (MAGNUS + 'map = "log"\nexponents = [{ "1" = 1 }]\n', "map", ""),
