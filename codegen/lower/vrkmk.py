@@ -69,7 +69,7 @@ class _Step(ExpandedStep):
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # If a_ji = 0 for all j <= i, m_i is not an unknown. It is b_i Lambda + sum_{j>i} a_ji lambda_j.
+            # If a_ji = 0 for all j <= i, m_i depends only on Lambda and on lambda_j of later stages j > i.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]

@@ -29,7 +29,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     groups: dict[object, list[tuple[Coefficient, Var]]] = {}
     for k, (c, arg) in enumerate(assign.terms):
         source = rewriter.definitions.get(arg)
-        # If another operation also reads L(x), factoring saves nothing.
+        # If ``arg`` is used a second time, its computation cannot be removed.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
         # Terms with the same linear map form a group.
         key = (source.operation, source.args[:-1]) if source is not None and single else k

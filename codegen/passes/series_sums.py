@@ -73,8 +73,8 @@ class SeriesSums:
     def _groups(self, assign: Assign) -> list[list[Term]]:
         """Return groups of terms of the sum ``assign``. Each group has two or more terms.
 
-        A term is c f(ad_x) v with a coefficient c and a function f of ad_x. The elements x of all terms in a
-        group are multiples of one element.
+        A term is c f(ad_x) v with a coefficient c and a function f of ad_x. In each group, the elements x are
+        parallel.
         """
         groups: list[list[Term]] = []
         for c, v in assign.terms:
@@ -127,7 +127,7 @@ class SeriesSums:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
         flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
-        # Each term costs a product, so ``flat`` must not be longer than ``terms``.
+        # Each term costs a product, so a longer sum is not returned.
         return flat if 0 < len(flat) <= len(terms) else terms
 
 

@@ -1,4 +1,4 @@
-"""Compute a sum as the negative of an earlier sum, if possible. A change of sign costs nothing.
+"""Compute a sum as the negative of an earlier sum, if possible.
 
 The pass is exact. The pass runs last, because the other passes would undo its changes.
 """

@@ -20,7 +20,7 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        # Terms are sorted, because two sums with the same terms in different order are equal.
+        # The terms are sorted, so that sums of the same terms get the same key.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:

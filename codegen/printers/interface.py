@@ -136,12 +136,12 @@ class Interface:
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
         """Return the interface that :meth:`as_json` converted to ``data``."""
-        # JSON has no tuples, so lists become tuples.
+        # The method ``as_json`` converted tuples to lists. Here, the lists are converted back to tuples.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))
 
 
 def _order_of_extension(kernel: Kernel) -> int:
     """Return the order of the continuous extension of a kernel, or 0 if there is none."""
-    # Only a run to a given end time uses the continuous extension.
+    # If ``kernel.observed`` is None, the module has no function for runs to a given end time.
     extension = None if kernel.observed is None else kernel.observed.extension
     return 0 if extension is None else extension.order

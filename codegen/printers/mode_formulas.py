@@ -92,7 +92,7 @@ class ModeFormulas:
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:
-        """Return the name of the array that is multiplied by a coefficient in ``term``.
+        """Return the name of the array to which ``term.source`` refers.
 
         The array contains the Fourier coefficients of the old state, or of a value of the nonlinear part.
         """

@@ -10,8 +10,7 @@ def functions_of(unit: Unit) -> tuple[str, ...]:
     """Return the sorted names of functions that a module calls, but does not define.
 
     The names are collected from two places: from statements of the class :class:`Call`, and from calls inside
-    the expression ``term.value`` of a term. If ``term.op`` is ``call``, the name of the called function is
-    not collected.
+    the expression ``term.value`` of a term.
     """
     names: set[str] = set()
     for function in unit.functions:

@@ -47,8 +47,8 @@ The limit applies to states with more than :data:`LONGEST_STATE` coordinates.
 """
 
 
-IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
-"""The usage example contains this comment if :func:`entries_set` returns an empty tuple."""
+IN_MANIFEST = "copy the initial state from the manifest to the variable state"
+"""A comment for usage examples that do not contain the initial state."""
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:

@@ -31,7 +31,7 @@ from codegen.run.language import Assign, For, Statement, Table
 from codegen.run.terms import Term, count, narrow, number, own, real, value, whole, wide
 
 GROUP = 4
-"""The number of columns of a matrix product that are computed at once."""
+"""The number of columns in a group. Matrix products are computed group by group."""
 
 _ROW, _COLUMN, _TERM = count("i"), count("j"), count("k")
 _FIRST, _SECOND = count("first_row"), count("second_row")
@@ -318,7 +318,7 @@ def constant_entry(
         return [], real(table, len(given))[place]
     read = {node.payload for node in walk([given]) if node.op == "sym"}
     indices = ((ROW, row), (COLUMN, column))
-    # Only indices in the formula are converted, because C compilers report unused variables.
+    # Only an index in the formula gets a variable, because C compilers report unused variables.
     before: list[Statement] = [Assign(own(s), narrow(wide(at))) for s, at in indices if s in read]
     return before, value(given)
 
@@ -330,8 +330,7 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of all constant matrices whose entries are numbers and not formulas."""
-    # ``constants`` may contain several matrices with one name, one for each stage time. Their numeric entries
-    # are equal, so one table is sufficient.
+    # Matrices with the same name have the same numeric entries, so each name needs only one table.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
@@ -425,11 +424,10 @@ def _sign(c: Expr) -> int:
 
 
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
-    """Return the sum of ``total`` and a product: the coefficient of ``term`` times ``entry``.
+    """Return ``total`` + c * ``entry``, where c is the coefficient of ``term``.
 
-    If ``total`` is None, return only the product. ``weight`` is an expression for the coefficient of
-    ``term``. If the coefficient of ``term`` is 1 or -1, ``weight`` is None, and only the sign of the
-    coefficient is used.
+    If ``total`` is None, return c * ``entry``. If c is 1 or -1, ``weight`` is None. Otherwise ``weight`` is
+    an expression for c.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

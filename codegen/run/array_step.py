@@ -206,8 +206,7 @@ class _Exponential:
         square, norm, scale = real("square"), real("norm"), real("scale")
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
-        # ``self.matrix`` is the product of two m x m matrices. The left factor is the leading block of the
-        # Gram matrix, and the right factor is the core.
+        # ``self.matrix`` is the leading m x m block of ``self.gram`` times ``self.core``.
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
@@ -258,17 +257,20 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that copy ``self.start`` to ``self.target``. Missing rows are zero.
+        """Yield the statements that copy ``self.start`` to the first rows of ``self.target``.
 
-        If ``self.start`` is None, all rows are zero.
+        The other rows of ``self.target`` are set to zero. If ``self.start`` is None, all rows are set to
+        zero.
         """
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
         yield from self.loops.statements(Combination(self.target, terms))
 
     def advanced(self, scale: Term) -> Iterator[Statement]:
-        """Yield the statements that multiply the current point by the matrix exponential of ``scale`` B S
-        B^T."""
+        """Yield the statements that multiply the current point by a matrix exponential.
+
+        The exponent is ``scale`` times the matrix B S B^T (see :meth:`function`).
+        """
         m, k, loops = self.core.rows, self.target.columns, self.loops
         total, term, following = (loops.array(x) for x in (self.total, self.term, self.next))
         terms, order, factor = count("terms"), count("order"), real("ratio")
@@ -281,7 +283,7 @@ class _Exponential:
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # Without ``self.start``, the matrix ``self.target`` is zero in the first part.
+        # If ``self.start`` is None, the product is zero in the first iteration, so the product is skipped.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (

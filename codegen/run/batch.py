@@ -70,7 +70,7 @@ VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 """These functions can be computed without branches. The same is true for all Stumpff functions."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
-# In a loop over a block of lanes, ``_LANE`` is the index in the block, ``_PLACE`` the index in the batch.
+# In a loop over a block of lanes (systems), ``_PLACE`` = ``_FIRST`` + ``_LANE`` is the index of the lane.
 _LANE, _DONE, _ENDED = count("lane"), count("step"), count("ended", 1)
 _STATE, _PARAMETERS, _INPUTS = real("state", 0), real("parameters", 0), real("inputs", 0)
 _STOPPED, _FAILED, _ALONE, _HELD = "stopped", "failed", "alone", "held"
@@ -139,9 +139,7 @@ def near(name: str) -> str:
 def complete(name: str) -> str:
     """Return the name of the function that computes ``name`` for arguments of every size.
 
-    The result is ``name`` itself, except for the sine and the cosine. The function with the name
-    ``near(name)`` (:func:`near`) may be wrong for large arguments. For arguments near zero, both functions
-    return the same number.
+    The result is ``name`` itself, except for the sine and the cosine.
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')
@@ -190,9 +188,10 @@ def _advance_lanes(plan: Plan) -> Function:
     # Each iteration of the loop changes only the entries of its own lane, so the iterations are independent.
     loop = For(_LANE, _NUMBER, tuple(body), independent=True)
     about = (
-        "Make one step of 'number' lanes. The index of the first lane is 'first'. The loop over lanes has no "
-        "branches, so compilers can use vector instructions. A lane keeps its state if it has stopped, or if "
-        "its new state is not finite. The array 'failed' is 1 for lanes that keep their state, otherwise 0."
+        "Advance several systems (lanes) by one step. The index of the first lane is 'first', and the number "
+        "of lanes is 'number'. The loop over lanes has no branches, so compilers can use vector "
+        "instructions. A lane keeps its state if it has stopped, or if its new state is not finite. The "
+        "array 'failed' is 1 for lanes that keep their state, otherwise 0."
     )
     parameters = _lane_parameters(plan, stopped, failed)
     return Function(LANES, about, parameters, (*before, loop), often=True, near=True)

@@ -19,8 +19,7 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # The function makes a test step of size zero, which cannot find a run-time input that is a NaN at a later
-    # time.
+    # With run-time inputs, the cause may also be an input that is a NaN at a later time.
     return plan.start is None and not plan.kernel.inputs
 
 

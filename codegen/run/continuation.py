@@ -46,10 +46,9 @@ LARGEST_FACTOR = 4.0
 
 
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return a list with one ``If`` statement.
+    """Return the statements that call the function CONTINUED after a failed step.
 
-    After a failed step, this statement calls the function CONTINUED. If the steps of ``plan`` have no warm
-    start, the list is empty, and failed steps are not repeated.
+    If the steps of ``plan`` have no warm start, the list is empty, and failed steps are not repeated.
     """
     # Steps without a warm start store no solutions.
     if plan.start is None:
@@ -124,17 +123,16 @@ class _Continuation:
         part = "substep" if plan.parts else "step"
         # If a step consists of substeps, the function repeats only the substep that failed.
         about = (
-            f"Repeat a {part} that failed. The first attempt does not use the solutions of earlier steps. If "
-            "this attempt fails, the equations are first solved for shorter steps. Each solution is the "
-            "initial guess for the next longer step (continuation in h)."
+            f"Repeat a failed {part} without the solutions of earlier steps. If the repetition fails, "
+            "the equations are first solved for shorter steps. Each solution is the initial guess for the "
+            "next longer step (continuation in h)."
         )
         return Function(CONTINUED, about, parameters, body, Kind.STATUS)
 
     def cause(self) -> Term:
         """Return the status of the last failed attempt.
 
-        NOT_FINITE is replaced by TOO_FAR if a shorter step succeeded. This is omitted for problems with
-        run-time inputs.
+        If a shorter step succeeded and there are no run-time inputs, TOO_FAR replaces NOT_FINITE.
         """
         # A run-time input may be the cause of the failure, and not the length of the step.
         if self.plan.kernel.inputs:

@@ -76,7 +76,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
             _core(
                 _plan(plan, deferred.begin),
                 BEGIN,
-                "Apply the first flow of a step, unless the step before includes it.",
+                "Apply the first flow of a step.",
             )
         )
     if deferred.finish is not None:
@@ -245,15 +245,14 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # The emitted code evaluates ``elapsed`` after it has increased LATE for the current step. The emitted
-        # code computes ``elapsed`` as a product, because a product has a single rounding error. If the
-        # emitted code added STEP to ``elapsed`` in every step, each addition would have a rounding error.
+        # The emitted code computes ``elapsed`` as a product, because a product has a single rounding error.
+        # If the emitted code added STEP to ``elapsed`` in every step, each addition would have a rounding
+        # error.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # Flows are deferred for at most LONGEST steps, because the sine of a large angle has few correct
-            # digits.
+            # The rounding errors of the deferred flows grow with LATE, so LATE is at most LONGEST.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:

@@ -85,7 +85,7 @@ class DenseOutput:
             Call(MOVED, (pair, self.inner)),
         )
         parameters = (state, self.powers, self.theta, self.inner)
-        about = "Compute the state at the fraction theta of a step."
+        about = "Compute the state at the time t + theta h during a step from t to t + h."
         return Function(EXTENDED, about, parameters, body)
 
     def coefficients(self, state: Term, t: Term, h: Term) -> Call:

@@ -66,7 +66,7 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
     """Return the statement that sets the status BAD_EVENT if the buffer for events is too short."""
     if not observation.events:
         return ()
-    # All event functions may have events at the same time, and each event needs one entry.
+    # The buffer needs one entry for each event function, because all events may occur in one step.
     full = both(STATUS.equals(code(OK)), observation.room < observation.events)
     return (If(full, (Assign(STATUS, code(BAD_EVENT)),)),)
 
@@ -106,7 +106,7 @@ class _Constant:
             If(negated(numbers), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
-            # If each step calls ``run``, the function ``run`` declares the memory.
+            # Steps that call ``run`` need no memory here, because ``run`` has its own memory.
             *(own_memory(plan) if self.own_step else []),
             Array(self.trial),
             Array(self.stop, zero=True),
@@ -121,7 +121,7 @@ class _Constant:
     def own_step(self) -> bool:
         """True if each step calls the function ADVANCE. False if each step calls ``run``."""
         plan = self.plan
-        # Such a step is not a single call of the kernel.
+        # If one of these tests fails, ADVANCE is missing or computes only a part of the step.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:

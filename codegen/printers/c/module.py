@@ -148,7 +148,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
         if function.name == "step" and n:
             definitions.append(
                 [
-                    "/* Constant run-time inputs; context points to their values. */",
+                    "/* Copy the array context to the array inputs. The time t is not used. */",
                     f"static void {interface.prefix}hold({real} t, {real} inputs[{n}], void *context)",
                     "{",
                     "    (void)t;",
@@ -226,7 +226,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The function ``invert`` needs more stack memory, and a run with an inlined kernel needs less.
+    # A call of ``invert`` needs additional memory. An inlined kernel saves the memory of one call.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],

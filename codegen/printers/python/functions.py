@@ -170,7 +170,7 @@ class _Body:
                 break
             if group and not (self.follow(group, statement, True) or self.follow(group, statement, False)):
                 break
-            # A group cannot begin with an assignment that neither reads nor writes a list entry.
+            # The first assignment of a group must read or write a list entry.
             if not group and _entry(statement.target) is None and _entry(statement.value) is None:
                 break
             group.append(statement)
@@ -186,8 +186,7 @@ class _Body:
             return s.value if reading else s.target
 
         entries = [_entry(one(s)) for s in (*group, statement)]
-        # If ``reading`` is True, every target must be a name. An assignment to an entry of a list could
-        # change a value that a later assignment of the group reads.
+        # If ``reading`` is True, every target must be a name, so that the assignments do not change the list.
         if any(e is None for e in entries) or (
             reading and any(s.target.op != "name" for s in (*group, statement))
         ):
@@ -314,7 +313,7 @@ class _Body:
 
 
 def _entry(term: Term) -> int | None:
-    """Return the constant index of a scalar entry of a list, or None for other terms."""
+    """Return k if ``term`` is a scalar a[k] with a constant k. Otherwise return None."""
     # The value of a variable index is not known here.
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None
