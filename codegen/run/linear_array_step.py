@@ -90,7 +90,7 @@ class _Step:
     """Builds the emitted functions of one step.
 
     A letter is a linear combination of matrices h A(t_i). The times t_i are in the step. An element is a
-    letter, a sum of multiples of commutators, or a letter plus such a sum.
+    linear combination of letters and of commutators [X, Y], where X and Y are elements.
     """
 
     plan: Plan
@@ -119,8 +119,8 @@ class _Step:
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
-            # The matrix is an argument of EXPONENTIAL, so all exponents without commutators share this
-            # function.
+            # The exponent is an argument of this function. Therefore one function is enough for all exponents
+            # without commutators.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
@@ -187,7 +187,7 @@ class _Step:
         The pair (X, Y) is ``step.commutators[number_of]``.
         """
         left, right = self.step.commutators[number_of]
-        # ``letters`` needs an ``Element``: 1 times the commutator.
+        # This ``Element`` contains only the commutator, with the coefficient 1.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
@@ -235,12 +235,12 @@ class _Step:
             applied,
             self.over(p, scale * work[_PLACE] + weight * state[_PLACE]),
         )
-        # All coefficients in Horner's rule have the factor ``weight``, so ``p`` is divided by ``weight``.
         part = (
             Assign(p, state),
             Assign(weight, number(1.0)),
             Assign(factor, degree),
             While(factor > 1.0, horner),
+            # After the loop, ``weight`` is the factorial of ``degree``.
             self.over(p, p[_PLACE] / weight),
             applied,
             self.over(state, state[_PLACE] + scale * work[_PLACE]),
@@ -265,7 +265,7 @@ class _Step:
             Return(code(OK)),
         )
         what = self.text(element) if element.commutators else "a"
-        about = f"state = exp(X) state for X = {what}, by scaling and Taylor polynomials."
+        about = f"Multiply the state by exp({what}). The method is scaling and Taylor polynomials."
         return Function(name, about, (*given, state), body, Kind.STATUS)
 
     def norms(self, element: Element) -> tuple[Statement, ...]:
@@ -340,7 +340,7 @@ class _Step:
 
         ``x`` is the time t or the step size h.
         """
-        # For a full matrix, the function computes only subexpressions of A(t), without h.
+        # The function for a full matrix does not have the argument h.
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:

@@ -177,7 +177,7 @@ class _Exponential:
         # The loop below adds the terms in the order of this sum, so the rounding errors are the same.
         if self.n <= UNROLLED:
             return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
-        # The entry of the matrix ``part`` is summed in a separate variable.
+        # The terms are added in a scalar variable. The sum is then stored in ``entry``.
         value = real(f"total_{part}" if self.level else "total")
         added = tuple(Assign(value, value + x) for x in terms(_TERM))
         loop = For(_TERM, whole(self.n), added)
@@ -220,8 +220,10 @@ class _Exponential:
         what = f"the exponential of the {self.n} x {self.n} matrix a"
         if self.level:
             single = ", and its derivative in the direction E. The input contains a, then E"
-            several = f" + E. E is a polynomial in {self.level} symbols, each with the square 0. The input"
-            what += single if self.level == 1 else f"{several} contains a, then the coefficients of E"
+            several = f" + E. E is a polynomial in {self.level} symbols. The square of each symbol is 0."
+            what += (
+                single if self.level == 1 else f"{several} The input contains a, then the coefficients of E"
+            )
         return (
             f"result = {what}. The method is a Taylor polynomial and repeated squaring. If the estimate of "
             f"the relative error exceeds 2^-{LEAST_DIGITS}, all entries of the result are NaN."
@@ -373,7 +375,7 @@ def _inverse(function: MatrixInverse) -> Function:
         For(j, whole(n), exchanged),
         Assign(factor, 1.0 / b[at]),
         For(j, whole(n), (Assign(b[row], b[row] * factor),)),
-        # The reciprocal of the pivot is the diagonal entry of the stored column.
+        # In a Gauss-Jordan inversion, the reciprocal of the pivot replaces the pivot.
         Assign(b[at], factor),
         For(i, whole(n), (If(i.differs(k), eliminated),)),
     )

@@ -63,8 +63,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         Call("to_space", (moving, before)),
     )
     about = (
-        "Write the state with the momentum in the body frame into 'moving'. Convert the momentum in "
-        "'moving' to the space frame, and write the result into 'before'."
+        "Copy the state to 'moving', and convert the momentum in 'moving' to the body frame. Then convert "
+        "this momentum back to the space frame, and write the result into 'before'."
     )
     return Function(ENTER, about, (state, moving, before), body)
 

@@ -16,12 +16,12 @@ def numbers_held(unit: Unit) -> int:
     """Return an upper bound of the number of scalars on the stack during a call of a public function."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
-    # A public function that a private function calls can run during another public function.
+    # If a private function calls a public function, the bound includes both.
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
-    # A compiler may inline all private functions, so all their numbers are counted. Only one public function
-    # runs at a time.
+    # The scalars of all private functions are added, because a compiler may inline these functions. Only one
+    # public function runs at a time.
     return sum(held.values()) - sum(public) + max(public)
 
 

@@ -1,4 +1,4 @@
-"""Compute the states at output times, and find events, inside the steps of a run.
+"""Compute the states at the output times of a run, and find events.
 
 A state inside a step of the run is computed by a separate, shorter step. Both steps begin at the same state.
 If a continuous extension was requested, the states at output times are computed by the extension instead
@@ -114,7 +114,7 @@ class Observation:
 
     @property
     def outputs(self) -> tuple[Term, ...]:
-        """The four arguments of the emitted functions that describe the output times and the results."""
+        """The output times, the number of times, the array of states, and the number of stored states."""
         return self.times, self.amount, self.rows, self.written
 
     @property
@@ -185,7 +185,7 @@ class Observation:
         run = (inner, *time, STEP, whole(1), *plan.parameters, *plan.sampled(), *nothing)
         body = (Assign(inner, state), Call("run", run, (STATUS,)), Return(STATUS))
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled(), inner)
-        about = "Compute the state at the time h after the beginning of a step."
+        about = "Copy the state to 'inner', and make one step of size h with the copy."
         return Function(INSIDE, about, parameters, body, Kind.STATUS)
 
     def state_at(self, state: Term, elapsed: Term) -> tuple[Statement, ...]:
@@ -238,7 +238,7 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the condition that the sign of ``values[i]`` differs from the stored sign."""
-        # If the stored sign is 0, a nonzero value is not a change of sign.
+        # If the stored sign is 0, the condition is false.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -295,8 +295,8 @@ class Observation:
         parameters = (state, self.now, self.following, *plan.parameters, *plan.sampled(), EVENT_FUNCTIONS)
         parameters += (self.signs, self.values, self.low, self.high, self.reached, ahead)
         about = (
-            "Enclose the first event in a short interval from low to high. Both are fractions of the step. "
-            "The last two arrays receive the state and the values of the event functions at high."
+            "Enclose the first event in a short interval from 'low' to 'high' (fractions of the step). "
+            "Write the state at 'high' into 'reached', and the values of the event functions into 'ahead'."
         )
         return Function(LOCATE, about, parameters, body, Kind.STATUS)
 
@@ -418,7 +418,7 @@ class Observation:
         )
 
     def passed(self) -> tuple[Statement, ...]:
-        """Return the statements that move the start of the search for events to ``high``."""
+        """Return the statements that prepare the search for the next event in the step."""
         return (
             Assign(self.low, self.high[0]),
             Assign(self.values, self.measured),
@@ -461,7 +461,7 @@ class Observation:
         if self.events:
             # If an event ends the run, the function EVENTS sets ``stop`` to the time of this event.
             search = (Call(EVENTS, (*passed, *self.buffers, *self.memory, self.stop), (STATUS,)),)
-        # In this step, no state after the time ``stop`` is computed.
+        # In a run backwards in time, the comparisons are reversed.
         beyond = select(self.following > self.now, time > stop, time < stop)
         inside = select(self.following > self.now, time < stop, time > stop)
         good = STATUS.equals(code(OK))

@@ -10,9 +10,9 @@ from codegen.run.solver_choice import Choice
 
 
 def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
-    """Return the solver of each block of implicit equations of a step on a chain or lattice.
+    """Return the solver for each block of implicit equations in ``kernel``.
 
-    ``asked`` is the solver that the user requested, and ``name`` is the name of the problem for messages.
+    ``asked`` is the solver that the user requested. Error messages contain ``name``, the name of the problem.
     Newton's method (``newton``) is not implemented for a step on a chain or lattice. MethodError is raised if
     ``asked`` is ``newton``, unless the step has no implicit equations.
     """

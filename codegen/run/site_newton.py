@@ -240,7 +240,7 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # In a periodic chain, these columns are copied before the elimination overwrites them.
+            # The loop over the sites overwrites entries that ``border_columns`` reads.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
@@ -343,7 +343,8 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
-        # Each column of the border now contains a solution of the linear equations (:meth:`border_pivot`).
+        # Multiples of the solution at the last site are added at the other sites. The border contains the
+        # factors.
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),

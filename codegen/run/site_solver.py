@@ -64,8 +64,7 @@ class _Stopping(Stopping):
         """Return the test *lost* of the stopping rule (:mod:`codegen.run.stopping`).
 
         Let h be the step size, and let CHANGE be the largest change of an unknown in the last iteration.
-        Because of this change, the states change by about h times CHANGE. The test is true if h times CHANGE
-        is not larger than the rounding errors of the states.
+        The test is true if h times CHANGE is not larger than the rounding errors of the states.
         """
         return CHANGE * size(STEP) <= self.plan.format.scaled(LOST) * _REACH
 

@@ -352,7 +352,8 @@ class Loop:
             if outer and not step.periodic:
                 inside = both(*tests) if tests else Term("number", (), Kind.FLAG, number=1)
                 body.append(Assign(flag(f"inside_{k}"), inside))
-        # The first ``low`` and the last ``high`` sites of a row have neighbours beyond the ends of the row.
+        # ``low`` is the number of sites with a neighbour beyond the left end of the row. For the right end,
+        # this number is ``high``.
         lasts = [step.offsets[k][-1] for k in self.neighbours]
         low, high = max([0, *(-x for x in lasts)]), max([0, *lasts])
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []

@@ -248,7 +248,7 @@ class Controlled:
         """Return the statements that are executed after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # If the caller gave no step size, the factor after the first accepted step is SAFETY norm^(-1/p).
+        # If ``starting`` is true, no earlier step was accepted, so ``previous`` is not used.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # If the trial directly before this step was rejected, the step size does not grow after this step
         # (Hairer, Norsett and Wanner).

@@ -101,7 +101,7 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
 
 
 def of_step(kernel: Kernel, work: Work) -> Amounts:
-    """Return the amounts of work in a step, except those of :func:`of_sweep` and :func:`of_matrix`."""
+    """Return the amounts of work in a step, excluding the sweeps and matrices of the solvers."""
     # The time of the warm start is proportional to the number of unknowns in all substeps.
     unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
     return of_operations(work[STEP]) + Amounts(unknowns=unknowns)

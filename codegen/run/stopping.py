@@ -11,8 +11,9 @@ loop has converged in three cases:
   rounding errors. A small change alone does not prove convergence, because a slow iteration makes small
   changes far from the solution.
 - *still*: the change no longer decreases and is at most the tolerance of the loop times ``scale``.
-- *lost*: the change no longer decreases, and the change multiplied by the step size is below the rounding
-  errors of the state. This case is needed if an unknown is a small difference of large numbers.
+- *lost*: the change no longer decreases, and its effect on the state is below the rounding errors of the
+  state. The effect is estimated by the step size times the change. This case is needed if an unknown is a
+  small difference of large numbers.
 
 If a change is not finite, the loop ends with the status NOT_FINITE.
 
@@ -171,7 +172,7 @@ class Stopping:
         the state), the test uses the rounding errors of the variation in place of the rounding errors of the
         state.
         """
-        # The array ``vector`` contains the tangent vector.
+        # The array ``vector`` contains the variation.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -205,8 +206,6 @@ class Stopping:
         - The rate is between 1/2 and 1, and the predicted sum of all later changes is at most the bound.
         - The rate is at least 1, and ``change`` is at most ``loop.tolerance * scale``.
         - The rate is at least 1, and the test :meth:`lost` is true.
-
-        If the rate is at least 1/2, the loop makes at least two sweeps.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))

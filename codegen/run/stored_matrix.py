@@ -123,7 +123,7 @@ class StoredMatrix(ABC):
         """Return an entry of a linear combination of constant matrices.
 
         For each constant matrix, ``entries`` contains the index of its coefficient, its entries, and the name
-        of a table. Entries are formulas or numbers. A number is read from the table at the index ``place``.
+        of a table. If the entries are numbers, the entry is read from the table at the index ``place``.
         """
         total: Term | None = None
         for term, given, table in entries:
@@ -229,7 +229,7 @@ class FullMatrix(StoredMatrix):
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         super().__init__(matrix, columns, nodes)
-        # ``node_size`` depends on the number of names in ``hoisted``, so all names are chosen here.
+        # The calls of ``hoist`` below determine ``node_size``.
         self.entries: list[tuple[int, Entry, str]] = []
         self.banded: list[tuple[int, int, Entry, str]] = []
         for term, (_, own_matrix) in enumerate(matrix.terms):

@@ -61,7 +61,7 @@ WIDE = 12
 """The largest number of unknowns for which each entry of a matrix has its own emitted statement."""
 
 WIDEST = 20
-"""The largest number of unknowns for which fixed-point iteration emits a statement for each change."""
+"""For more than WIDEST unknowns, fixed-point iteration computes the changes of the unknowns by a loop."""
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
@@ -104,11 +104,7 @@ class _Loop:
 
     @cached_property
     def images(self) -> list[Term]:
-        """The variables for the components of g(u), or of r(u) for equations r(u) = 0.
-
-        The components are called images. Some images are variables of the kernel. For every other image, a
-        new variable "next u" is used, where u is the unknown.
-        """
+        """The variables that contain g(u) for equations u = g(u), or r(u) for equations r(u) = 0."""
         loop = self.iteration.loop
         return [
             own(x.payload) if x.op == "sym" and x.payload not in loop.unknowns else own(f"next {u}")
@@ -192,7 +188,6 @@ class _FixedPoint(_Loop):
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return statements that find the largest change by a loop, and the sum of the absolute changes."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
         # The maximum of the changes may ignore a NaN. Therefore the loop also sums the absolute values of the
@@ -277,7 +272,7 @@ class _Newton(_Loop):
         # matrix the changes are meaningless, so even small changes do not mean convergence.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
-            # If the changes of the unknowns do not decrease with a new matrix, the loop fails.
+            # The loop fails if this sweep computed a new matrix and the changes still do not decrease.
             stalled = both(flag("still"), self.making)
             if not self.newton.inverted:
                 stalled = either(stalled, negated(self.age > 0))

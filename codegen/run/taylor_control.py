@@ -78,8 +78,7 @@ ORDER_TERM = own(ORDER)
 def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the function of the run with step control, and the functions that it calls.
 
-    If the kernel has no outputs, the functions in the result of :func:`polynomial_step` are omitted. If the
-    kernel has no Taylor expansion with step control, the tuple is empty.
+    If the kernel has no Taylor expansion with step control, the tuple is empty.
     """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
@@ -103,7 +102,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     number of products is ``width``. Product c uses column c of ``left``, column c of ``right``, and entry c
     of ``sums``. Row j - 1 of ``left`` contains a_j, and row j - 1 of ``right`` contains b_j.
     """
-    # The row indices j - 1 and n - j - 1 of the two factors add up to k - 1.
+    # In each product, the row indices of the two factors add up to k - 1.
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
