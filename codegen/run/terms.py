@@ -57,7 +57,7 @@ class Term:
     - ``shape`` is the shape of an array, and () for a single value. A size of 0 means that the size is known
       only at run time.
     - ``optional`` is True for an argument that the caller may omit.
-    - ``cell`` is True for an array with one entry, in which a function returns a value.
+    - ``cell`` is True for a parameter that is a pointer to one number in C.
     """
 
     op: str
@@ -156,8 +156,7 @@ class Term:
 
 Operand = Term | float | int
 
-# In ``x[2]``, the index 2 must become a term of the kind COUNT and not of the kind REAL. For this, _COUNT is
-# passed to ``_term`` as ``like``.
+# In ``x[2]``, the index 2 must become a term of the kind COUNT and not of the kind REAL.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
@@ -273,7 +272,7 @@ def select(test: Term, yes: Operand, no: Operand) -> Term:
 
     An array language computes both values and selects one (:mod:`codegen.run.language`).
     """
-    # If only one of ``yes`` and ``no`` is a term, this term determines the kind of the number.
+    # A Python number becomes a count if ``like`` is a count or a flag, and a real otherwise.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)

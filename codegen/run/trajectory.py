@@ -215,8 +215,7 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # LEAVE adds the increase of the momentum to the initial momentum, which ``rows.add`` has copied
-            # to the row.
+            # ``rows.add`` must come first, because LEAVE changes entries of the new row.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.

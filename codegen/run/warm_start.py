@@ -151,7 +151,7 @@ class WarmStart:
         return self.difference(), self.difference_size(), self.remember()
 
     def difference(self) -> Function:
-        """Return the function that writes a backward difference of the solutions to the array ``sum``.
+        """Return the function that computes a backward difference of the stored solutions.
 
         The latest solution is added last, because it is known last.
         """

@@ -43,8 +43,7 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
     """Return ``sequence`` without the statements that copy long parts of the array ``state``.
 
     An ``Array`` statement is removed if it copies at least SHORTEST consecutive entries of ``state``.
-    Calls in the result use the part of ``state`` in place of its copy. ``symbols`` are the names of the
-    entries of ``state``.
+    ``symbols`` are the names of the entries of ``state``.
     """
     places = {s: k for k, s in enumerate(symbols)}
     parts: dict[str, Term] = {}

@@ -26,7 +26,7 @@ def written(unit: Unit, function: Function) -> frozenset[str]:
                 # functions.
                 pairs = zip(callee.parameters, arguments, strict=True)
                 changed_names |= {root(a).text for p, a in pairs if p.text in changed and a.op != "none"}
-            # A declared array is local, so it is not a parameter.
+            # This statement declares a local array and changes no parameter.
             case Array():
                 pass
     return frozenset(changed_names & own)

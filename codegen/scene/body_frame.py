@@ -44,9 +44,9 @@ digits must agree.
 class BodyField:
     """The field in the body frame, as formulas in q and in the momentum P in the body frame.
 
-    The symbol of mu_a (momentum in the space frame) denotes P_a in these formulas. The equations of motion
-    are q' = q.W and P' = N, where ``velocity`` is W and ``force`` is N. If W = A P with a constant invertible
-    matrix A, ``inverse`` contains the rows of A^-1.
+    The formulas denote the components of P by the symbols of mu, the momentum in the space frame. The
+    equations of motion are q' = q.W and P' = N, where ``velocity`` is W and ``force`` is N. If W = A P with a
+    constant invertible matrix A, ``inverse`` contains the rows of A^-1.
     """
 
     velocity: tuple[Expr, ...]
@@ -139,7 +139,6 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        # The Hamiltonian is singular at the neutral element, so a kinetic energy of zero is tried.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
@@ -167,8 +166,6 @@ def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, 
         values |= dict(zip(q, g, strict=True)) | {name: draw() for name in mu}
         try:
             x, y = evaluate([a, b], domain, values)
-            # The test uses the integer 10**AGREEING, because mpmath does not compare its numbers with
-            # fractions.
             if abs(x - y) * 10**AGREEING > max(1, abs(x)):
                 return False
         except (ArithmeticError, ValueError, TypeError):  # Comparing complex numbers raises TypeError.

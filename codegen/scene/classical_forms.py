@@ -109,7 +109,6 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # Without covering groups, the second iteration would yield the same change as the first.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -351,7 +350,7 @@ class _Change:
         )
 
     def field(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the field in the frame of the classical form, as formulas in the symbols of the scene.
+        """Return ``roots`` if ``body`` is False, otherwise the field in the body frame.
 
         In the body frame, the momentum is P = Ad*_q mu, and the formulas depend on P instead of mu. In these
         formulas, the component P_a is denoted by the symbol that the scene uses for the component mu_a.

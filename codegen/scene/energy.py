@@ -1,9 +1,11 @@
 """The operations from which discrete gradient methods are built: the energy, its trivialised differential,
 the discrete gradient (secant), and the bivector (section 2.6 of H. Marthinsen's thesis).
 
-Let gamma be the trivialised differential of the energy H (:func:`differential`). The bivector omega is a skew
-bilinear form on the dual g* of the Lie algebra g. The field f of an equation x' = f(x).x that preserves H has
-the form f = omega(gamma, .). The dot in f(x).x denotes the action of the element f(x) of g on the state x.
+Consider the equation x' = f(x).x, where f(x) is in the Lie algebra g, and the dot denotes the action of g on
+the state x. Let gamma be the trivialised differential of the energy H (:func:`differential`). The bivector
+omega is a skew bilinear form on the dual g*, and <lambda, f> = omega(gamma, lambda) for all lambda in g*.
+Therefore H is constant along the solutions.
+
 For Hamilton's equations on T*G, omega is the canonical bivector. For all other equations, f is given, and
 omega is (gamma wedge f)/|gamma|^2. This formula identifies gamma with the element of g that has the same
 coordinates. The formula requires that f is zero wherever gamma is zero.

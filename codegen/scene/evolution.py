@@ -56,8 +56,8 @@ class Evolution:
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
         """Convert the state y to these coordinates.
 
-        ``frame`` is None if y contains no momentum in the body frame, otherwise the group of the
-        configuration.
+        ``frame`` is the group of the configuration if y contains the momentum in the body frame, otherwise
+        None.
         """
         if self.body is not None and frame is None:
             q, mu = self._split(y)

@@ -194,9 +194,9 @@ class _CanonicalSystem:
         return known | {key: self.reader.scalar(x, f"invariant {key}") for key, x in declared.items()}
 
     def derived(self, key: str, column: Column) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-        """Return the formulas in ``column``, and the formulas that are derived from the Hamiltonian H.
+        """Return two tuples of formulas for the same vector: from ``column``, and from the Hamiltonian.
 
-        ``key`` is "xi" or "n".
+        ``key`` is "xi" for the velocity, or "n" for the force.
         """
         dim = self.group.dim
         own = self.roots[:dim] if key == "xi" else self.roots[dim:]

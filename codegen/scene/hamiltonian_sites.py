@@ -60,8 +60,8 @@ def HamiltonianSiteScene(
     - ``q0``, ``mu0``: one initial state for all sites.
     - ``boundary``: "periodic" or "open".
     - ``outside``: the group element that replaces q of a missing neighbour at an open boundary. Give a column
-      of ``group.size`` formulas in q, t and parameters, or a mapping from offsets to columns. For a free end,
-      choose an element that gives zero force on the site at the boundary, often ``q`` of this site.
+      of ``group.size`` formulas in q, t and parameters, or a mapping from offsets to columns. A free end
+      needs an element that exerts no force on the site. Often, ``q`` is such an element.
     - ``parts``: named summands of ``H``.
 
     :class:`SceneError` is raised for the errors that :func:`codegen.scene.HamiltonianScene` and
@@ -157,5 +157,5 @@ def _check_parts(problem: Problem, hamiltonian: Expr) -> None:
                 f"the parts {', '.join(problem.parts)} add up to {orbit.text(sum(values[1:]))}",
                 where=problem.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
-                hint='list all summands of H in the argument "parts"; H does not contain the bonds',
+                hint='the argument "parts" must contain all summands of H, and no bonds',
             )

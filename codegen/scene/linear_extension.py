@@ -3,10 +3,10 @@
 The canonical coordinates are y = (q, p) in R^2n. Let J be the 2n x 2n block matrix (0, I; -I, 0). If A(t) is
 in sp(2n), y' = A(t).y is Hamilton's equation for H = -y^T J A y/2.
 
-The momentum u conjugate to the time has the initial value -H and satisfies u' = -dH/dt. Let a step of a
-method map y to M(t) y, where M(t) is symplectic and t is the time at the start of the step. The step in
-(q, p, t, u) is canonical if it adds y^T M^T J (dM/dt) y/2 to u, where y is the state at the start of the step
-(H. Marthinsen's thesis, equation (4.15)).
+The momentum u conjugate to the time has the initial value -H. Its derivative u' is minus the partial
+derivative of H with respect to t. Let a step of a method map y to M(t) y, where M(t) is symplectic and t is
+the time at the start of the step. The step in (q, p, t, u) is canonical if it adds y^T M^T J (dM/dt) y/2 to
+u, where y is the state at the start of the step (H. Marthinsen's thesis, equation (4.15)).
 """
 
 from __future__ import annotations

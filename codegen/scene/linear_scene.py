@@ -39,14 +39,13 @@ def LinearScene(
 
     - ``A``: a column of ``group.dim`` formulas in ``t`` and in parameters. For a group of n x n matrices,
       ``A`` can also be an n x n matrix of formulas.
-    - ``y``: the symbols of the state in ``velocity`` and ``invariants``; by default, the real symbols y0, y1
-      and so on.
+    - ``y``: the symbols of the coordinates; by default, the real symbols y0, y1 and so on.
     - ``steps``: a map from names to methods y1 = M y0 with a matrix M. Each value is a pair: a formula
       for M (:mod:`codegen.scene.matrix_step`) and the order of the method. In commands, write ``step:NAME``.
 
-    :func:`codegen.scene.FieldScene` describes the other arguments. For y' = y A(t), use the action
-    ``RightMultiplication()`` and pass -A in place of A. :class:`SceneError` is raised if ``A`` depends on the
-    state, if a matrix ``A`` is not in the Lie algebra, and for the errors that ``FieldScene`` lists.
+    :func:`codegen.scene.FieldScene` describes the other arguments. With the action ``RightMultiplication()``,
+    the equation is y' = -y A(t). :class:`SceneError` is raised if ``A`` depends on the state, if a matrix
+    ``A`` is not in the Lie algebra, and for the errors that ``FieldScene`` lists.
 
     >>> from sympy import Matrix, Symbol
     >>> from codegen.groups import SL2, Linear

@@ -210,5 +210,5 @@ def _match(formula: MatrixFormula, left: tuple[int, ...], right: tuple[int, ...]
     if left == right:
         return
     sizes = " and ".join(" x ".join(map(str, size)) for size in (left, right))
-    kind = "matrices" if len(left) > 1 else "matrices whose inner dimensions are"
+    kind = "matrices" if len(left) > 1 else "two matrices with the inner dimensions"
     raise SceneError(f"the {what} of {kind} {sizes}", expected="equal sizes")

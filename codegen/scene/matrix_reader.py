@@ -334,8 +334,7 @@ def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
 def _cost(left: tuple[_Factor, ...], right: tuple[_Factor, ...]) -> float:
     """Return the number of scalar multiplications for the product of two matrices.
 
-    ``left`` and ``right`` contain the factors of the two matrices. The result is infinity if each of the two
-    matrices is a single constant factor.
+    ``left`` and ``right`` contain the factors of the two matrices.
     """
     rows, inner, columns = left[0].rows, right[0].rows, right[-1].columns
     first, second = (side[0].constant if len(side) == 1 else None for side in (left, right))

@@ -100,9 +100,9 @@ class MatrixFormula(ABC):
         return ()
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield the exponentials and logarithms in the formula that are computed by closed forms.
+        """Yield all logarithms, and the exponentials of matrices that may be outside the Lie algebra.
 
-        The closed forms exist only for 2 x 2 matrices.
+        The closed forms of these functions exist only for 2 x 2 matrices.
         """
         for part in self.parts():
             yield from part.closed_forms()
@@ -132,7 +132,7 @@ class Generator(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """The result is ALGEBRA, because A(t + c h) is in the Lie algebra."""
+        """Always ``Place.ALGEBRA``."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -150,7 +150,7 @@ class Unit(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """The result is GROUP, because every matrix group contains the unit matrix."""
+        """Always ``Place.GROUP``."""
         return Place.GROUP
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -332,7 +332,7 @@ class Logarithm(Unary):
 
     @property
     def place(self) -> Place:
-        """The result is MATRIX, because the logarithm of a matrix can be outside the Lie algebra."""
+        """Always ``Place.MATRIX``."""
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:

@@ -23,8 +23,7 @@ DISPLACEMENT, perpendicular to T. The test projects the moved point. The project
 the distance between this projected point and T is at most REDUCED * DISPLACEMENT.
 
 The orbit may be curved. At the distance DISPLACEMENT from the initial state, the orbit can have a distance of
-about DISPLACEMENT^2 from T. A projected point on the orbit must pass the test, so REDUCED must be at least
-about DISPLACEMENT.
+about DISPLACEMENT^2 from T. The tolerance REDUCED * DISPLACEMENT is larger than this distance.
 """
 
 INDEPENDENT = 1e-8
@@ -36,10 +35,7 @@ INDEPENDENT * max(1, |v|).
 
 
 def reaches_orbit(problem: Problem) -> bool:
-    """Return True if :meth:`Action.to_orbit` maps points near the initial state onto the orbit.
-
-    If the orbit is an open set (:func:`orbit_is_open`), the result is True.
-    """
+    """Return True if :meth:`Action.to_orbit` maps points near the initial state onto the orbit."""
     field, d = problem.as_field(), FloatDomain(0.0)
     start = tuple(map(float, field.initial(d)))
     tangent = _tangent(field, start)

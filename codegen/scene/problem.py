@@ -76,8 +76,8 @@ class Problem:
     - ``flows``: the exact flow of each part.
     - ``stated``: formulas from the scene for exact flows. They give q and mu as functions of the time tau.
     - ``runtime``: the parameters that are arguments of emitted code.
-    - ``fixed``: the names of parameters with a replaced default, and their new values.
-    - ``open_roots``: the expressions of ``roots`` before the signals are replaced by their formulas.
+    - ``fixed``: pairs (name, value) of the parameters that the user has set.
+    - ``open_roots``: like ``roots``, but each name in ``signals`` is a symbol.
     - ``inputs``: the signals that emitted code reads at run time.
     - ``forced``: True if n contains a force that is not a derivative of the Hamiltonian.
     - ``body_group``: the group if emitted code uses momenta in the body frame, otherwise None.

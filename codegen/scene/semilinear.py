@@ -76,7 +76,7 @@ class ExactExponential(CoordinateMap):
 
 
 def model_of(scene: Problem) -> Problem:
-    """Return the scalar model problem u' = L u + N(u), L = -1/2, for the compiler passes.
+    """Return the scalar model problem u' = -u/2 + N(u).
 
     N(u) is u^2 + t if the nonlinear term of the scene depends on the time, otherwise u^2.
     """

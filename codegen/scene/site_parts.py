@@ -127,9 +127,8 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
                     f"generator {k} of the part {part.name} is not constant along the flow of the part",
                     where=scene.name,
                     expected="generators f(y) for which the exact flow over a time tau is exp(tau f(y)).y",
-                    hint="split the part, or use other generators for the same velocity; for example, if S "
-                    "and T are neighbouring spins and J is a number, the generators J T and J (S + T) give "
-                    "S the same velocity J T x S",
+                    hint="split the part, or use other generators for the same velocity, for example "
+                    "J (S + T) in place of J T, for spins S, T and a number J",
                 )
 
 
@@ -165,9 +164,9 @@ def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
             total = _summed(scene, orbit, sites, point, {o: x for o, x in states.items() if o not in absent})
             for x, y in zip(total, expected, strict=True):
                 if not orbit.sized(x - y, (x, y, 1)):
-                    where = f" if the neighbours {sorted(absent)} do not exist" if absent else ""
+                    where = f"for a site without the neighbours {sorted(absent)}, " if absent else ""
                     raise SceneError(
-                        f"the parts do not add up to the velocity of f: the sum is {orbit.text(x)}{where}",
+                        f"the parts do not add up to the velocity of f: {where}the sum is {orbit.text(x)}",
                         where=scene.name,
                         expected=f"{orbit.text(y)}, the velocity of f",
                         hint='list all terms of f in the argument "parts"; each Pair must contain the '

@@ -151,16 +151,13 @@ def _check_energy(problem: Problem) -> None:
                 f"constant: the time derivative is {orbit.text(sum(terms))}",
                 where=problem.name,
                 expected="an energy that is constant along the solutions",
-                hint='for an open boundary, write constants in the argument "outside", or formulas for which '
-                "the force on the site at the boundary is zero",
+                hint='at an open boundary, the argument "outside" must contain constants, or states that '
+                "exert no force",
             )
 
 
 def with_frozen_neighbours(scene: Problem) -> Problem:
-    """Return the problem of one site, with the coordinates of the neighbours as parameters.
-
-    The values of these parameters are near the initial coordinates of the site.
-    """
+    """Return the problem of one site, with the coordinates of the neighbours as parameters."""
     sites = scene.sites
     assert sites is not None
     start = [Fraction(float(x)).limit_denominator(1000) for x in scene.initial(FloatDomain(0.0))]

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from codegen.scene.problem import Problem
 
 RADIANS = 200
-"""The largest angle, in radians, of an undamped rotation in a stiff variant.
+"""The largest angle, in radians, by which an undamped solution of a stiff variant rotates.
 
 At larger angles, the phase error of explicit methods is too large to measure their order.
 """

@@ -1,8 +1,8 @@
 """Four-level quantum system with a chirped pulse: U(4) acts on the complex amplitudes.
 
-The equation is psi' = -i H(t) psi in the frame that rotates with the pulse. The distances of neighbouring
-levels differ, as in a transmon (J. Koch et al., Charge-insensitive qubit design derived from the Cooper pair
-box, Phys. Rev. A 76 (2007), 042319). The Hamiltonian is
+The equation is psi' = -i H(t) psi in the frame that rotates with the pulse. The energy gaps between
+neighbouring levels differ, as in a transmon (J. Koch et al., Charge-insensitive qubit design derived from the
+Cooper pair box, Phys. Rev. A 76 (2007), 042319). The Hamiltonian is
 
     H(t) = delta cos(nu t) N - (a/2) N (N - 1) + (rabi/2) sin^2(nu t) (L + L^T).
 
