@@ -157,4 +157,5 @@ class TableauItem(pytest.Item):
 
 
 class ClaimFails(AssertionError):
-    """The error if a claim is false, a claim cannot be decided, or a required claim is missing."""
+    """This error is raised if a claim is false, if a claim cannot be decided, or if a required claim is
+    missing."""

@@ -54,9 +54,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
     )
     formats = ("magnus",)
     symbols = MagnusFamily.symbols
-    implies: ClassVar[Mapping[str, str]] = {
-        "magnus": "a product of exponentials is the exponential of its logarithm"
-    }
+    implies: ClassVar[Mapping[str, str]] = {"magnus": "a commutator-free Magnus method is a Magnus method"}
 
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` for a method with commutators or Cayley transforms."""

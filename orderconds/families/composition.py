@@ -41,8 +41,8 @@ if TYPE_CHECKING:
 class CompositionFamily(WordFamily):
     """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}.
 
-    Here Phi_h is a method with step size h, and Phi*_h is the adjoint method. The example prints the word 2
-    and the condition of this word.
+    Here Phi_h is a method with step size h, and Phi*_h is the adjoint method. The example prints the
+    one-letter word 2 and the condition of this word.
 
     >>> for condition in CompositionFamily().conditions(2):
     ...     print(condition.tree, condition)

@@ -56,8 +56,8 @@ class MagnusFamily(WordFamily):
     )
     formats = ("magnus",)
     symbols: ClassVar[Mapping[str, str]] = {
-        "omega": r"$\omega_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in $\Omega$, where "
-        r"$A_i = h A(c_i h)$ acts first",
+        "omega": r"$\omega_{i\dots j}$ is the coefficient of the product $A_j \cdots A_i$ in $\Omega$, where "
+        r"$A_i = h A(c_i h)$",
         "c": r"$c_i$ are the nodes",
         "b": r"$b_i$ are the coefficients of $A_i = h A(c_i h)$ in the exponent $F_1$",
         "phi": r"$\phi_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in the exponent $F_2$",
@@ -65,7 +65,7 @@ class MagnusFamily(WordFamily):
     }
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
         ("cf_magnus", "fer"),
-        "a product of exponentials is the exponential of its logarithm",
+        "a product of exponentials has the same order in the families magnus, cf_magnus and fer",
     )
     transform: ClassVar[str] = "exp"
 
@@ -87,7 +87,8 @@ class MagnusFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the method is a Magnus method and its map is :attr:`transform`, else None."""
+        """Return this family if ``tableau`` contains a Magnus method with the map :attr:`transform`, else
+        None."""
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
@@ -138,8 +139,9 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Express the coefficient of ``word`` in an arbitrary Lie element as a linear combination of coefficients
-    of Lyndon words. The linear combination is the same for all Lie elements.
+    """Express the coefficient of ``word`` as a linear combination of coefficients of Lyndon words.
+
+    The linear combination is valid for every Lie element.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}

@@ -41,11 +41,10 @@ class Substitute(Struct, frozen=True):
 
 
 class UnseenCut(Struct, frozen=True):
-    """The data that determine which coefficients the truncation of dexpinv does not change.
+    """An object that tests whether the truncation of dexpinv changes a condition.
 
-    ``order`` is the order of the method without truncation. The function ``length`` returns the length of the
-    longest word in the formula for the coefficient of a tree or forest. If this length is at most
-    ``longest``, the truncation does not change the coefficient.
+    ``order`` is the order of the method without truncation. If ``length(key)`` <= ``longest``, the truncation
+    does not change the condition of the tree or forest ``key``.
     """
 
     order: int
@@ -57,8 +56,8 @@ class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
     ``even`` is true if the method is symmetric. ``substitute`` is None, or contains a family whose conditions
-    imply the conditions of the original family. ``cut`` is None or an :class:`UnseenCut`. An
-    :class:`UnseenCut` belongs to a method that truncates the series of dexpinv.
+    imply the conditions of the original family. ``cut`` is None, or tests whether the truncation
+    of dexpinv changes a condition.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]

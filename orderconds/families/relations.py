@@ -77,8 +77,8 @@ def multiply(x: Polynomial, y: Polynomial) -> Polynomial:
 
 
 class RootSwitching:
-    """A function that maps a tree to a polynomial. The variables are the elementary weights of independent
-    trees. For a symplectic method, the value is the elementary weight of the tree.
+    """A function that expresses the elementary weight of a tree as a polynomial in the elementary weights of
+    independent trees. The polynomial is valid for symplectic methods.
 
     The call ``independent(n)`` returns the independent trees with n vertices.
 
@@ -156,8 +156,8 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
     # Let ``factors`` be the words f_1, ..., f_k. Their concatenation is ``word``. Let a(w) be the coefficient
     # of the word w in a group-like series. The product a(f_1) ... a(f_k) is the sum of n_w a(w) over all
-    # words w, where n_w is the coefficient of w in the shuffle product of f_1, ..., f_k. For w = ``word``,
-    # n_w is ``repeated``. All other words in the shuffle product are lexicographically smaller.
+    # words w, where n_w is the coefficient of w in the shuffle product of f_1, ..., f_k. The coefficient
+    # of ``word`` is ``repeated``. All other words in the shuffle product are lexicographically smaller.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}

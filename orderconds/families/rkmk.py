@@ -216,7 +216,6 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # In a term q u^n x u^m of dexpinv, u^m gives the letters before ``tree``.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
                     value = self.exponential(j, trees_of(branches(tree)))

@@ -1,18 +1,17 @@
 """Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q), where T is quadratic in p.
 
-Let x and y be functions of q alone. Then [x,[T,y]] is also a function of q alone, because T is quadratic in
-p. Let F be the smallest set that contains V and, for all x and y in F, also [x,[T,y]]. All elements of F are
-functions of q alone, so [x,y] = 0 for all x and y in F. For example, [V,[V,[V,T]]] = 0. The free algebra over
-T and V has no such relations. Let B be the smallest set of elements of the free algebra that contains V and,
-for all x and y in B, also [x,[T,y]]. The brackets [x,y] of all x and y in B generate an ideal of the free
-algebra. If T is quadratic in p and V depends on q only, every element of the ideal is zero. Therefore the
-part of the local error that lies in the ideal is zero, and this part gives no order conditions.
+Let x and y be functions of q alone. Then [x,y] = 0. Because T is quadratic in p, [x,[T,y]] is also a function
+of q alone. For example, [V,[V,T]] is a function of q alone, so [V,[V,[V,T]]] = 0. The free algebra over T and
+V has no such relations. In this algebra, let B be the smallest set that contains V and contains [x,[T,y]] for
+all x and y in B. The brackets [x,y] of all x and y in B generate an ideal of the free algebra. If T is
+quadratic in p and V depends on q only, every element of the ideal is zero. Therefore the part of the local
+error that lies in the ideal is zero, and this part gives no order conditions.
 
-A functional is a linear combination of words over T and V. The value of a functional at an element of the
-free algebra is the same combination of the coefficients of these words. Consider the functionals that are
-zero on the ideal. Each element of a basis of these functionals gives one condition. The numbers of
-independent conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci.
-Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+The value of a word at an element of the free algebra is the coefficient of the word in the element. A
+functional is a linear combination of words over T and V. The functionals that are zero on the ideal form a
+vector space. Each element of a basis of this vector space gives one condition. The numbers of independent
+conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16
+(1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations

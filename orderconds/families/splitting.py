@@ -63,7 +63,9 @@ class SplittingFamily(WordFamily):
     }
     trees = "letters"
     illustrates = ("letters",)
-    implies: ClassVar[Mapping[str, str]] = {"rkn": "T and V are a special case of two arbitrary fields"}
+    implies: ClassVar[Mapping[str, str]] = {
+        "rkn": "the order holds for every pair of vector fields, so it also holds for T and V"
+    }
     unknowns = "splitting"
 
     def __init__(self, parts: int = 2) -> None:

@@ -65,7 +65,7 @@ class SymplecticPartitionedFamily(Family):
     needs_nonzero_weights = True
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {
-        "rk": "for H = p.f(q), the positions q are computed by the Runge-Kutta method for q' = f(q)"
+        "rk": "for H = p.f(q), the Runge-Kutta method (A, b) is applied to q' = f(q)"
     }
     low_order = "rk"
     bounds_others = True

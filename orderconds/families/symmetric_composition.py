@@ -1,8 +1,8 @@
 """Symmetric compositions of a symmetric method of order two.
 
 One step of the basic method is the exponential of a power series in the step size h. The series contains only
-odd powers of h, because the basic method is symmetric. There is one condition for each word of odd numbers. A
-letter k denotes the term with h^k in the series.
+odd powers of h, because the basic method is symmetric. There is one condition for each word in the letters 1,
+3, 5, .... The letter k denotes the term with h^k in the series.
 
 The step sizes form a palindrome, so the conditions of even order follow from conditions of lower order (HLW
 III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
@@ -110,8 +110,7 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the method is a composition of a symmetric method and the step sizes are
-        proved to form a palindrome. Otherwise return None."""
+        """Return this family if ``tableau`` contains a composition with palindromic step sizes, else None."""
         method = tableau.method
         if not isinstance(method, Composition):
             return None

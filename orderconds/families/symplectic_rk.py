@@ -25,9 +25,8 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. The function ``essential_free_trees`` omits superfluous free trees
-(:func:`orderconds.trees.free.superfluous`) and chooses a root of each other free tree. The resulting rooted
-trees are the independent trees."""
+of independent trees. The function :func:`orderconds.trees.free.essential_free_trees` returns the independent
+trees."""
 
 
 @register

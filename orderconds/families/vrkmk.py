@@ -69,9 +69,8 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         """Return the condition of the tree ``o(o|L(o ... o))`` with ``order`` vertices. Return None if
         dexpinv is not truncated. Return None if ``order`` is less than 3.
 
-        The series dexpinv is truncated after the term with ad^r. Let R = r + 1 for even r >= 2, and R = r for
-        all other r. No method of the family satisfies both the returned condition of order R + 3 and all
-        other conditions up to this order.
+        For ``order`` = R + 3, this condition contradicts the other conditions of orders 1, ..., R + 3. The
+        module docstring defines R.
         """
         if self.cutoff is None or order < 3:
             return None

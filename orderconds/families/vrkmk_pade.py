@@ -88,5 +88,5 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None, so that all conditions are evaluated."""
+        """Return None. For this family, no :class:`UnseenCut` is known."""
         return None

@@ -205,8 +205,7 @@ def fresh(kind: str = "i") -> str:
 
 def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its indices. ``names`` maps free indices to their new names. Each
-    bound index is renamed by :func:`fresh`. In the example, :func:`named` then replaces the new names of
-    bound indices by readable names.
+    bound index is renamed by :func:`fresh`.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()

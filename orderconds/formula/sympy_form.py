@@ -49,9 +49,6 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Return the lower and upper limits of each summation index. A relation ``i < j`` gives the upper
-    limit j - 1 of i if i is a summation index. If i is a free index, the relation gives the lower limit i + 1
-    of j."""
     limits, remaining = [], list(indices)
     while remaining:
         # In sympy.Sum, the bounds of an index may depend only on the indices of later triples.

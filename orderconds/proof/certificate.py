@@ -124,7 +124,7 @@ def _certify(key: _Key, least: int) -> Certificate:
     if not proof.unknowns:
         raise NotProved(
             'every decimal is in the list "pins", so no decimal is an unknown; '
-            'remove the name of at least one decimal from "pins"; if all decimals are exact, '
+            'remove the name of at least one decimal from "pins", or, if all decimals are exact, '
             'remove the table [proof] and the sign "~" after each decimal'
         )
     bits = max(least, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))

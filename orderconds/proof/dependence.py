@@ -28,7 +28,7 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The initial number of random methods. It is increased if there are too few methods (:data:`SPARE`)."""
+"""The initial number of random methods."""
 
 SPARE = 24
 """A polynomial with n unknown coefficients is computed from at least n + ``SPARE`` random methods. With fewer
@@ -92,9 +92,9 @@ def dependences(
 
     The conditions are evaluated modulo primes, for random methods that satisfy the formulas ``symbolic``.
 
-    Each yielded object contains the results for all suitable primes so far. A prime is unsuitable if the
-    formulas cannot be evaluated modulo this prime, or if a condition is dependent modulo this prime but not
-    modulo another prime.
+    After each suitable prime, one object is yielded. The object contains the results for this prime and for
+    all earlier suitable primes. A prime is unsuitable if the formulas cannot be evaluated
+    modulo this prime, or if a condition is dependent modulo this prime but not modulo another prime.
 
     ``candidates`` contains the conditions of each order. ``surd`` is the only radical in the formulas, or
     None.
@@ -220,11 +220,7 @@ class _Sampling:
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
         """Return the two sides of each condition. The left-hand side is evaluated for ``count`` random
-        methods.
-
-        ``root`` is a residue modulo ``prime`` for the square root in the formulas. If ``root`` is None, each
-        root is replaced by a random residue.
-        """
+        methods."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
@@ -242,7 +238,7 @@ class _Members(Samples):
     ``prime`` for each method.
 
     Random residues replace the roots in the formulas. A polynomial identity for all values of the roots also
-    holds for the true values. If ``square_root`` is an integer, it replaces the square root in the formulas.
+    holds for the true values.
     """
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
@@ -263,8 +259,7 @@ class _Members(Samples):
         return self._drawn((self.key(x), index))
 
     def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
-        """Return random residues in place of the root ``name`` of ``minpoly``. Equal names give equal
-        residues."""
+        """Return random residues. Equal values of ``name`` give equal residues."""
         return self._drawn(name)
 
     def _drawn(self, key: object) -> Sample:

@@ -5,9 +5,9 @@ Without a reduction, the system contains one equation for every independent cond
 reduction is a theorem that makes some equations unnecessary. The assumptions of a reduction are verified
 exactly, from the formulas in the file and not from the decimals:
 
-- ``symmetric``: a palindromic composition of a symmetric method. Only conditions of odd order are needed,
-  because the order of the composition is even. There is one condition for each Lyndon word in the letters 1,
-  3, 5, ... (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). A composition of
+- ``symmetric``: a palindromic composition of a symmetric method. The conditions of even order follow
+  from conditions of lower order. There is one condition for each Lyndon word in the letters 1, 3, 5, ...
+  (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). A composition of
   midpoint rules is a Runge-Kutta method (family ``rk``) on a vector space, and a Crouch-Grossman method
   (family ``cg``) on a group. Both methods have the same order (Bogfjellmo and Marthinsen, Lemma 3.5.4), so a
   proof of the order of one method proves the order of both methods.
@@ -60,11 +60,9 @@ class Equations:
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """If the value is an integer s, only conditions for words in the letters 1, ..., s are used. The value is
-    an integer only for a Magnus method on s Gauss nodes, if ``proof.order`` <= 2s."""
+    """If the value is an integer s, only conditions for words in the letters 1, ..., s are used."""
     kept: tuple[OrderCondition, ...] | None = None
-    """The conditions that remain after the reduction ``spelling`` or ``low-storage``. The value is None for
-    all other reductions."""
+    """If the value is a tuple, only the conditions in the tuple and in ``lower`` are used."""
     lower: tuple[OrderCondition, ...] = ()
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
     conditions follow the conditions of the scheme."""

@@ -39,7 +39,7 @@ Monomial = tuple[OrderCondition, ...]
 
 Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
 """A polynomial in the left-hand sides of conditions, as a map from monomials to coefficients. A pair (x, y)
-is the coefficient x + y sqrt(d), where sqrt(d) is the only square root in the formulas."""
+denotes the coefficient x + y sqrt(d), where d is :attr:`Surd.radicand`."""
 
 
 @dataclass(frozen=True)
@@ -94,9 +94,7 @@ class ExactMember:
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Return True if a condition holds at this random member. If the result is True, the condition holds
-        at every member of the sub-family, except with negligible probability
-        (:mod:`orderconds.tableau.random_member`)."""
+        """Return True if a condition holds at this random member."""
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:

@@ -57,9 +57,7 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
     """Return the exact order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. If order n in
-    ``family`` implies order n in a second family, then the order in ``family`` is at most the order in the
-    second family.
+    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

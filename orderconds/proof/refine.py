@@ -46,8 +46,8 @@ class Refined:
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """Compute the unknowns of the ``[proof]`` table of a tableau file to ``digits`` decimal places.
 
-    If there are more unknowns than independent equations, some unknowns keep their decimals. The list
-    ``pins`` of the resulting file contains these unknowns. The table ``[proof.printed]`` contains the
+    If there are more unknowns than independent equations, some decimals do not change. The list ``pins``
+    of the resulting file contains the names of these decimals. The table ``[proof.printed]`` contains the
     original digits.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
@@ -201,7 +201,6 @@ def _figures(value: Fraction, places: int) -> str:
 
 
 def _printed(proof: Proof, name: str) -> str:
-    """Return the value of the number ``name``, computed from the decimals in the tableau file, as text."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
     # QQ cannot compute roots, but no root is needed here.
     value = at.number(name, cast("RootedRing", QQ), {})
