@@ -48,8 +48,7 @@ class Artifact:
 
         InputError is raised in two cases:
         - The folder cannot be written to.
-        - The old module belongs to another scene or method, and no prefix was chosen for the old or the new
-          module.
+        - The old module belongs to another scene or method, and neither module was emitted with ``--prefix``.
         """
         folder = Path(directory)
         try:

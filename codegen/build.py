@@ -30,7 +30,7 @@ from orderconds.errors import InputError
 from orderconds.input_file import reason
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
-"""The error numbers for a cache that the user may not write to."""
+"""The error numbers (errno) for a folder without write access."""
 
 
 class CompilerMissing(InputError):

@@ -42,7 +42,7 @@ class Drift(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """If the flow of the part is a drift, return the part with this flow.
+    """Return a :class:`Part` with the flow of ``formula`` if this flow is a drift. Otherwise return None.
 
     The flow is a drift if the group is abelian, and the part depends on the momentum mu alone.
     """

@@ -1,7 +1,6 @@
 """The field of a Hamiltonian as the sum of the fields of its parts.
 
-If the exact flow of a part is known, it often gives a shorter formula than differentiation of the
-Hamiltonian.
+A known exact flow of a part often gives a shorter formula for the field of this part.
 """
 
 from __future__ import annotations

@@ -54,10 +54,6 @@ def isotropic_part(B: Matrix) -> Fraction:
     I is the identity matrix. Each term is d (e.x)^2 with a number d and a vector e. The function
     :func:`squares` computes d and e for all terms.
 
-    If B is diagonal, the result is a diagonal entry that occurs more than once. If all diagonal entries are
-    different, the result is their median. For an even number of entries, the larger of the two middle entries
-    is used.
-
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)
     """

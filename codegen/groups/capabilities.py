@@ -185,8 +185,8 @@ class ClosedFormSeries(Coadjoint):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        If ``dual`` is true, ad*_x replaces ad_x. If the function ``total`` is given, it computes the sums
-        that do not contain W: ``total(indices)`` is the sum of f v over the triples with these indices.
+        If ``dual`` is true, ad*_x replaces ad_x. If ``total`` is given, ``total(indices)`` must be the sum of
+        f v over the triples ``terms[i]`` with i in ``indices``.
         """
 
 

@@ -201,8 +201,8 @@ class AlgebraVectors(Representation):
         """Apply ``word``, a product of functions of ad*_x, to p.
 
         The method evaluates the group's formula for ``word`` with dual numbers, where e^2 = 0. The vector
-        y + v e represents x = (y, v), where e multiplies the second part v. The vector q + m e represents
-        p = (m, q), where e multiplies the first part m.
+        y + v e represents x = (y, v). The vector q + m e represents p = (m, q). Thus e multiplies the second
+        part of x, but the first part of p.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
@@ -274,10 +274,9 @@ class MatrixColumns(Representation):
         return tuple(exponential[n * i + n - 1] for i in range(n - 1))
 
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
-        """Return the derivatives of <p, phi(x) u> with respect to x and u. For phi see :meth:`translation`.
+        """Return the derivatives of <p, phi(x) u> with respect to x and u.
 
-        Let A be the matrix of x. Both derivatives are parts of the derivative of the matrix exponential at
-        the transpose of M = [[A, u], [0, 0]].
+        The function phi is defined in :meth:`translation`.
         """
         n, bordered = self._bordered(d, group, x, u)
         zero: S = d.rational(0)
@@ -328,7 +327,7 @@ class PlaneVectors(MatrixColumns):
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True. The series have closed forms, because ad_x^3 = -w^2 ad_x for x = (w, u)."""
+        """Return True: :meth:`series` has a closed form, because ad_x^3 = -w^2 ad_x for x = (w, u)."""
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:

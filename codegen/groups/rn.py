@@ -43,7 +43,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return tuple(-a for a in g)
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return x. The matrix X of x satisfies X^2 = 0, so cay(X) = 1 + X."""
+        """Return x. On R^n, the Cayley map is the identity."""
         return x
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

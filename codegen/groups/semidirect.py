@@ -394,7 +394,7 @@ class Semidirect(
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return the matrix [[R, A], [0, I]] for g = (q, a). R is the matrix of q, and I is a unit matrix.
 
-        The columns of A are the copies in the vector a (see :class:`Semidirect`).
+        The vector a consists of the columns of A, one after the other.
         """
         q, a = self._element(g)
         return self._bordered(d, self._matrices().matrix(d, q), a, d.rational(1))

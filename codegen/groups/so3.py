@@ -177,8 +177,8 @@ class SO3(
         Here f is a scalar, W is a product of functions of ad_x, and v is a vector. If ``dual`` is true,
         ad*_x = -ad_x replaces ad_x.
 
-        If the function ``total`` is given, it computes the sums that do not contain W: ``total(indices)`` is
-        the sum of f v over the triples with these indices.
+        If ``total`` is given, ``total(indices)`` must be the sum of f v over the triples ``terms[i]`` with i
+        in ``indices``.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -212,7 +212,7 @@ class SO3(
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x). Each row r of g becomes exp(-x) r, because exp(-x) is the transpose of exp(x)."""
+        """Return g exp(x)."""
         back = tuple(-a for a in x)
         return tuple(a for i in (0, 3, 6) for a in self.rotate(d, back, g[i : i + 3]))
 

@@ -24,7 +24,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
 
     If this does not reduce the number of operations, ``roots`` is returned unchanged.
 
-    Expressions in ``kept`` are not rewritten, but their numeric factors are combined with other constants.
+    If ``kept`` contains c x with a number c, the expression x is not rewritten.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -85,7 +85,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # The set ``read`` contains the pairs of the powers that are used outside of other powers.
+    # A power that is used only to compute other powers is ignored here.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     # The powers of y are rewritten only if all exponents in ``read`` are 3, 5, 7 and so on.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
@@ -185,7 +185,8 @@ class _Gathering:
     def _power(self, node: Expr) -> Sum:
         """Return the product c y^n as a linear combination with one term.
 
-        Here c is a number, and y is 1/sqrt x. In general, y^(2 m) = 1/x^m and y^(2 m + 1) = 1/(x^m sqrt x).
+        Here c is a number, and y is 1/sqrt x. The term is c/x^m for n = 2 m, and c/(x^m sqrt x) for
+        n = 2 m + 1.
         """
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()
@@ -226,7 +227,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     sizes: dict[object, Number] = {}
     key: object
     for c, atom in total:
-        # A constant term needs no product, so it has its own group.
+        # 3 + 3 x is not changed to 3 (1 + x), because this saves no multiplication.
         key = "constant" if atom is space.one else _size(c).key
         sizes.setdefault(key, _size(c))
         groups.setdefault(key, []).append((c.fraction() < 0, atom))
@@ -237,6 +238,6 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
             # The sign of the first term is factored out of the whole group.
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # ``part`` has the opposite sign if ``first`` is true.
+        # If ``first`` is true, the sum of the group is -``part``.
         result = result - part if first else result + part
     return result

@@ -45,7 +45,7 @@ def degrees(bits: int) -> tuple[int, ...]:
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
-    # A list with more degrees would save little time.
+    # If all degrees up to m were used, the emitted code would be only slightly faster.
     return tuple(range(m, 3, -4))[::-1]
 
 
@@ -202,8 +202,7 @@ class ExponentialAction(VectorFunction):
             for k in range(degree, 1, -1):
                 # With m = ``degree``, the next line changes ``weight`` from m!/k! to m!/(k - 1)!.
                 weight *= k
-                # This is a step of Horner's rule for the Taylor polynomial of exp(a) y, multiplied by
-                # ``weight``.
+                # This step of Horner's rule needs no division. The division by m! follows after the loop.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
             # The last step of Horner's rule divides p by ``weight`` = m!.
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]

@@ -188,7 +188,7 @@ def _iterate(
 
 
 def _differenced(domain: Domain) -> Differenced:
-    # Newton's method needs the method ``domain.increment``. The class of ``domain`` does not matter.
+    # The Newton iteration calls ``domain.increment``. The class of ``domain`` does not matter.
     assert hasattr(domain, "increment")
     return cast("Differenced", domain)
 

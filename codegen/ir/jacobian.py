@@ -3,9 +3,9 @@
 The nodes of the expressions are the vertices of a graph. An edge leads from each argument to the node that
 uses the argument. The label of the edge is the partial derivative of the node with respect to the argument.
 
-The elimination removes a vertex v and its edges. For each pair of an edge from u to v and an edge from v to
-w, the product of the two labels is added to the label of the edge from u to w. A missing edge has the label
-zero. After all eliminations, the labels of the edges are the entries of the Jacobian.
+The elimination removes a vertex v and its edges. For each path u -> v -> w, the product of its two labels is
+added to the label of the edge u -> w. A missing edge has the label zero. After all eliminations, the labels
+of the edges are the entries of the Jacobian.
 
 The vertex with the lowest cost is eliminated next. The cost of a vertex is the number of incoming edges times
 the number of outgoing edges (Markowitz's rule; Griewank and Walther, Evaluating Derivatives, ch. 10).
@@ -58,7 +58,7 @@ class _Graph:
             # A variable has no incoming edges and is never eliminated.
             if node.id in columns:
                 continue
-            # All derivatives of such a node are zero.
+            # A node without variables is not a vertex, because all its derivatives are zero.
             if any(a.id in self.after for a in node.args):
                 self.inner.append(node.id)
                 self.before[node.id], self.after[node.id] = {}, {}

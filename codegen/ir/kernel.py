@@ -154,18 +154,13 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """The factor ``close`` in the second case of the stopping rule (see :class:`Loop`).
-
-        In Newton's method, the values of ``body`` are computed before the last change is added to the
-        unknowns. If the code after the loop reads only the unknowns, the factor may be larger.
-        """
+        """The factor ``close`` in the second case of the stopping rule (see :class:`Loop`)."""
         # If ``only_unknowns_read`` is true, the code after the loop reads the unknowns, but not the values of
         # ``body``. The error of the unknowns is smaller than the last change of the unknowns. For this
         # reason, the result is larger than ``tolerance``.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # The two bounds differ because Newton's matrix is less accurate if it is expanded to first order in
-        # h.
+        # If Newton's matrix is expanded to first order in h, convergence is slower and the factor is larger.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -224,9 +219,9 @@ class Deferred:
     A run has at most :data:`LONGEST` steps. The run calls ``begin``, then the kernel of the step once for
     each step, and then ``finish``.
 
-    The symbol :data:`LEAD` is the duration of the last flow of the kernel. In the last step of a run, this
-    duration is h times the number ``last``. In all other steps the duration is h times the number ``later``.
-    The symbol :data:`ELAPSED` is the duration of the whole run.
+    The last flow of a step includes the first flow of the next step. The symbol :data:`LEAD` is the duration
+    of this combined flow: h times the number ``later``. In the last step of a run, :data:`LEAD` is h times
+    the number ``last``. The symbol :data:`ELAPSED` is the duration of the whole run.
     """
 
     begin: Kernel | None

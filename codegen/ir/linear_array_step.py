@@ -132,7 +132,7 @@ class LinearArrayStep:
         products = TERMS * sum(map(self.products, self.exponents))
         sums = sum(map(len, self.letters)) * self.matrix.filled if self.matrix.is_banded else 0
         each = products * self.matrix.filled * k + sums
-        # ``vectors`` is the number of entries in all terms of the Taylor polynomials. Each entry needs one
-        # addition and two multiplications.
+        # Each Taylor polynomial has ``TERMS`` terms with ``size`` entries. Each entry needs one addition and
+        # two multiplications.
         vectors = TERMS * len(self.exponents) * size
         return {"add": each + vectors, "mul": each + 2 * vectors}

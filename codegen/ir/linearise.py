@@ -75,7 +75,7 @@ class FirstOrder:
         rows = []
         for root in roots:
             slopes = [duals[root.id].slopes.get(k, none) for k in range(len(self.place))]
-            # A derivative is ``low`` + ``high`` h.
+            # To first order in h, each derivative of ``root`` is ``low`` + ``high`` h.
             rows.append([h * high + low for low, high in slopes])
         return rows
 

@@ -143,7 +143,7 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
-    # ``total`` already contains the factor ``b4`` of the first pass.
+    # The first pass of the loop does not multiply by ``b4``, because the next line does.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group
@@ -164,7 +164,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     The bound is exp(``scale`` b). Gershgorin's circles give an upper bound b of the eigenvalues of the
     symmetric part of ``a``.
     """
-    # No absolute value of a diagonal entry is taken, so ``largest`` may be negative.
+    # ``largest`` becomes the bound b. The diagonal entries keep their signs, so b may be negative.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]
@@ -181,9 +181,9 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 
 
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
-    """Return the jet ``total``, squared ``squarings`` times.
+    """Return the result of ``squarings`` successive squarings of ``total`` by :func:`product`.
 
-    A jet is a list with the entries of several n x n matrices: a matrix and its derivatives.
+    ``total`` is a jet: a list with the entries of several n x n matrices (a matrix and its derivatives).
 
     The first matrix of ``total`` (its first n^2 entries) has a spectral norm of at most ``growth``. The error
     of the first matrix of the result is estimated. If the estimate is too large (:data:`LEAST_DIGITS`), all
@@ -221,8 +221,8 @@ def in_digits(context: Any, n: int, level: int, a: Sequence[Scalar]) -> tuple[Sc
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
     """Return the exact exponential of the jet ``a``. The entries of the jet are power series.
 
-    The first n^2 entries of ``a`` form a matrix. If this matrix is nilpotent at h = 0, the exponential is a
-    finite sum. If the sum has more than ``longest`` terms, ArithmeticError is raised.
+    If the Taylor series of the exponential has more than ``longest`` non-zero terms, ArithmeticError is
+    raised.
     """
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total

@@ -73,7 +73,7 @@ class MatrixExponential(VectorFunction):
         """
         # Where the k-th power of ``pattern`` has a zero, A^k has a zero, too.
         pattern = power = [int(not x.is_zero) for x in args]
-        # A jet is nilpotent if its matrix (without the derivatives) is nilpotent.
+        # The sum is finite if the first matrix of A is nilpotent. The derivatives do not matter.
         if not is_nilpotent(self.n, pattern):
             return None
         # The loop counts the nonzero powers of A, beginning with A^0.
@@ -108,9 +108,8 @@ class MatrixExponential(VectorFunction):
         ``args`` contains a matrix A, followed by its derivatives. The matrix of the constant terms of A must
         be nilpotent.
         """
-        # The exponential of ``args`` is computed by its Taylor series. The matrix of the constant terms of A
-        # is nilpotent, and the entries of ``args`` are truncated power series. Therefore all terms of degree
-        # ``longest`` or higher in the Taylor series of the exponential are zero.
+        # If the constant terms of A form a nilpotent matrix, all terms of degree ``longest`` or higher in the
+        # Taylor series of the exponential are zero.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 

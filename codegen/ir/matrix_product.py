@@ -62,13 +62,13 @@ class BilinearFunction(VectorFunction):
         ``args`` are the entries of a and b, and ``argument`` is the index of this one entry in ``args``.
         """
         space = args[0].space
-        # The product is linear in each factor, so its derivative replaces a factor by a unit matrix.
+        # The derivative is f(E, b) or f(a, E). One entry of the matrix E is 1, and the others are 0.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
         # ``half`` is the slice of the replaced entries in ``args``.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
-        # Most entries of E are zero, so scalar formulas for the result are short.
+        # Scalar formulas for the result are short, because E has only one non-zero entry.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
