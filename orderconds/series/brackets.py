@@ -6,8 +6,6 @@ step size. The combination q_j is the sum of k_j and multiples of k_1, ..., k_(j
 to make the grade of q_j as large as possible. For a method of order p, terms above grade p - 1 can be omitted
 from the arguments of the stages, and terms above grade p can be omitted from the argument of the step
 (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
-
-A search finds expressions of the arguments in stage values, earlier brackets and few new brackets.
 """
 
 from __future__ import annotations
@@ -164,11 +162,7 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return a map from stages to lists of polynomials. The polynomials are candidates for intermediate
-    results of a program that computes all arguments.
-
-    Let u_i be the argument of stage i. Each polynomial in the list of stage i is u_j - c u_i for a later
-    stage j and a number c, up to a linear combination of letters.
-    """
+    results of a program that computes all arguments."""
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
     for i, argument in enumerate(stages):
@@ -193,8 +187,7 @@ class _Shape:
     - ``inner``: the number k of nested brackets C_1, ..., C_k. The bracket C_n is [q_1, z_n + C_(n+1)], where
       C_(k+1) is zero.
     - ``outer``: True if there is a bracket [q_1 + x, y + C_1].
-    - ``leading``: if False, x is zero. If True, x is unknown, and the coefficient of the second pool element
-      in y is 1. This value is True only if ``outer`` is True.
+    - ``leading``: True if x may be nonzero.
     - ``extra``: indices of pool elements, counted from 0. For each index n in ``extra``, there is a bracket
       [e_n, w_n], where e_n is the pool element with the index n.
     """
@@ -340,8 +333,6 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return a pair (name, column) for each unknown of the linear equations. The column is the polynomial
-        by which the unknown is multiplied."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:

@@ -43,8 +43,7 @@ ROOTED = TreeAlgebra(tree_cuts, lambda tree: Fraction(1, density(tree)))
 coefficient 1/gamma (HLW III.1, Theorem 1.5)."""
 
 ORDERED = TreeAlgebra(left_cuts, exact_value)
-"""The algebra of ordered forests, for Lie-Butcher series. The operator of the first tree of a forest acts
-first."""
+"""The algebra of ordered forests, for Lie-Butcher series. The leftmost tree of a forest acts first."""
 
 
 class Character:
@@ -116,7 +115,7 @@ class Character:
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
         """Return a sum over the admissible cuts of a tree or forest (:mod:`orderconds.series.cuts`). Each cut
         removes components and leaves a rest. The summand is ``other(rest)``, multiplied by
-        ``self(component)`` for all components. If ``whole`` is false, the cut without components is
+        ``self(component)`` for all components. If ``whole`` is false, the cut that removes nothing is
         omitted."""
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):

@@ -5,8 +5,9 @@ is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=
 x = [u, x]. The numbers B_k are the Bernoulli numbers with B_1 = -1/2 (Hairer, Lubich and Wanner, *Geometric
 Numerical Integration*, IV.8.3).
 
-A Lie-Butcher series has a coefficient for each word of ordered trees. The leftmost tree of a word acts first.
-In a product of series, the rightmost factor acts first.
+A Lie-Butcher series has a coefficient for each word of ordered trees. Words are read from left to right, so
+the leftmost tree acts first. Products of series are read from right to left, so the rightmost factor acts
+first.
 """
 
 from __future__ import annotations
@@ -58,8 +59,8 @@ class DexpinvSeries:
         return self._exponential(0, forest)[i]
 
     def argument(self, i: int, word: Forest) -> Element:
-        """Return the coefficient of a word in the argument u_i of stage i. Stages are counted from 0. The
-        index i = ``len(b)`` denotes the argument of the step."""
+        """Return the coefficient of a word in the argument u_i of stage i. Stages are counted from 0. If i
+        is ``len(b)``, return the coefficient in the argument u of the update y1 = exp(u) y0."""
         if not word:
             return self._ring.zero
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
@@ -111,9 +112,9 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Let v = ``start`` be a word with ``before`` letters, and w = ``end`` a word with ``behind``
-        letters. Return the coefficient of the word v x w in the truncated series dexpinv_{u_j} x for each
-        stage j, where x is a letter. If no term of the series can contain v x w, return None."""
+        """For a letter x, return the coefficient of the word ``start`` x ``end`` in the series dexpinv_u x.
+        The result is a list with one coefficient for each stage argument u, or None if all coefficients are
+        zero. ``before`` and ``behind`` are the numbers of letters in ``start`` and ``end``."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:

@@ -120,10 +120,8 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of the non-empty word ``word`` in partial products of exponentials. The
-        first number in each triple of ``places`` is the index of a partial product. The coefficient in
-        partial product p is entry p of the list. All entries of the list that are not computed are set to
-        zero."""
+        """Return a list of coefficients of a non-empty word. Entry p is the coefficient in partial product p,
+        or zero if no triple in ``places`` begins with p."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # The list ``heads[r - 1]`` contains the coefficients of the word that remains if the last r trees of

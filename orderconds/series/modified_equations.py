@@ -72,10 +72,6 @@ class VectorField:
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return (L^(n-1) b)(forest), where b(forest) is the coefficient of ``forest`` in this vector field.
-        A cut divides ``forest`` into components and a rest. For a function c of forests, the function L c is
-        defined by a sum over all cuts with one component and a non-empty rest: (L c)(forest) is the sum of
-        b(component) c(rest)."""
         if n == 1:
             return self(forest)
         if n > len(forest):

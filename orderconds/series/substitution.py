@@ -6,11 +6,8 @@ Each partition has a quotient tree, in which each component becomes one vertex. 
 of the quotient tree in the series of the step, multiplied by the coefficients of the components in g
 (Chartier, Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
 
-For Lie-Butcher series, a forest becomes a linear combination of forests, called its image. For a tree, the
-root is removed, and the image of the remaining forest is computed. Each forest u in this image is grafted
-onto each forest v in the series of g. The image of the tree is the sum of the resulting forests, multiplied
-by the coefficients of u and v. The image of a forest is the concatenation of the images of its trees
-(Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+For Lie-Butcher series, each forest becomes a linear combination of forests (Lundervold and Munthe-Kaas,
+Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations

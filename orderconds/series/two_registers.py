@@ -3,13 +3,9 @@
 The registers are y and k, where k is zero at the start of a step. Stage i replaces k by A_i k + h f(y), and
 then replaces y by exp(B_i k) y. The series of a step is a linear combination of words in the letters K and D.
 The letter K (kick) is the derivative along the vector field k' = f(y). The letter D (drift) is the derivative
-along the vector field y' = k y. The last letter of a word acts first. Each letter D introduces one factor k,
-and each letter K replaces one factor k by f(y). A suffix of a word (the last n letters, for some n) acts
-before the rest of the word. If a suffix contains more letters K than letters D, one of the letters K in the
-suffix acts on a term without a factor k, and the result is zero. If a word contains more letters D than
-letters K, the result contains a factor k, and k is zero at the start of a step. Both kinds of words
-contribute nothing to the series. The remaining words have two properties: the numbers of letters K and D are
-equal, and no suffix contains more letters K than letters D.
+along the vector field y' = k y. The last letter of a word acts first. A word contributes to the series only
+if the numbers of letters K and D are equal, and no suffix (the last n letters, for some n) contains more
+letters K than letters D (docs/explanation/two_registers.md).
 
 Each word denotes a differential operator. A linear combination of these operators vanishes on all groups if
 and only if it vanishes on all vector spaces (proof: docs/explanation/two_registers.md). Hence the order of a
@@ -69,8 +65,8 @@ def words(order: int) -> tuple[str, ...]:
 
 
 def on_group(word: str) -> dict[Forest, int]:
-    """Return a word in the letters K (kick) and D (drift) as an operator on a group: a map from ordered
-    forests to coefficients.
+    """Return the series of ``word`` on a group, as a map from ordered forests to coefficients. The letters
+    of ``word`` are K (kick) and D (drift).
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_group("KDKD").items()}
@@ -80,8 +76,8 @@ def on_group(word: str) -> dict[Forest, int]:
 
 
 def on_vector_space(word: str) -> dict[Forest, int]:
-    """Return a word in the letters K (kick) and D (drift) as an operator on a vector space: a map from
-    forests to coefficients.
+    """Return the series of ``word`` on a vector space, as a map from forests to coefficients. The letters of
+    ``word`` are K (kick) and D (drift).
 
     The branches and trees of each forest are sorted by :func:`unordered`.
 
@@ -220,8 +216,6 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Return the sum of all products in which ``act`` is applied to one factor of ``product``. Factors that
-    are None are skipped."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

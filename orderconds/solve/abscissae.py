@@ -18,8 +18,8 @@ Let a_ij be the coefficient with which stage j enters stage i, and let A be the 
 If the three abscissae are equal, A satisfies the equations of a transportation problem: sum_j a_ij = m_i for
 each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j.
 
-The rows and columns of A are the nodes of a graph with the edges a_ij. All edges outside a spanning tree can
-be chosen freely. Then the equations determine the edges of the tree.
+The rows and columns of A are the nodes of a graph with the edges a_ij. All entries a_ij that are not
+edges of a spanning tree can be chosen freely. The equations then determine the other entries.
 """
 
 from __future__ import annotations
@@ -112,8 +112,7 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
             component = [row if x == column else x for x in component]
     if len(kept) != 2 * s - 1:
         raise InputError(
-            "the bipartite graph of the free entries of A is not connected"
-            " (edge a_ij joins row i and column j)",
+            "the equations for the rows and columns of A cannot be solved for the free entries of A",
             where=WHERE,
             expected="more free entries",
         )
@@ -128,9 +127,9 @@ def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
                 return (*entry, by_row)
     raise InputError(
-        "the bipartite graph of the free entries of A has a cycle (edge a_ij joins row i and column j)",
+        "no row and no column of A contains exactly one unknown entry",
         where=WHERE,
-        expected="a graph without cycles",
+        expected="a row or column with exactly one unknown entry",
     )
 
 
@@ -140,8 +139,8 @@ def symmetric_transport(
     """Return formulas for coefficients of a symmetric method with s stages and the abscissae m_i.
 
     Stage i in the first half begins with the first ``leave[i - 1]`` exponentials of ``update``. The later
-    exponentials of stage i are called own exponentials. The number x_ij is the sum of the coefficients of the
-    stage value k_j over all own exponentials of stage i.
+    exponentials of stage i are called own exponentials. Let x_ij be the total coefficient of the stage value
+    k_j in the own exponentials of stage i.
 
     - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
@@ -150,8 +149,8 @@ def symmetric_transport(
     stage i. With the formulas, sum_j a_ij = m_i for each stage i, and sum_i b_i a_ij = b_j (1 - m_j) for each
     stage j. Let r be the number of rows of ``own``. The result contains formulas for three groups of numbers.
     The first group is x_1s, ..., x_rs, the last column of ``own``. The second group is x_r1, ..., x_rr, the
-    first r entries of the last row of ``own``. The third group is C1, ..., Cr, where Cj is the sum of b_i
-    (x_ij - x_i(s+1-j)) over i <= r. In the formulas, y1, y2, ... are the sums of the rows of ``update``.
+    first r entries of the last row of ``own``. The third group consists of auxiliary numbers C1, ..., Cr.
+    In the formulas, y1, y2, ... are the sums of the rows of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

@@ -1,9 +1,8 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
-Coefficients that the order conditions do not determine are rounded to short decimals. Lattice reduction tries
-to find closed forms of all other coefficients in one number field. If exact arithmetic does not prove the
-order, interval arithmetic proves that a solution of the order conditions exists near the decimals in the
-file.
+The free parameters of the solution are rounded to short decimals. Lattice reduction tries to find closed
+forms of all other coefficients in one number field. If exact arithmetic does not prove the order, interval
+arithmetic proves that a solution of the order conditions exists near the decimals in the file.
 """
 
 from __future__ import annotations
@@ -50,7 +49,7 @@ STEPS = (
 multiples of a unit."""
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""Rounding units for a solution with minimised principal error, tried in this order."""
+"""The values that replace :data:`STEPS` if the search minimises the principal error."""
 
 DIGITS = 50
 """A rounded coefficient in the tableau file has at least this number of decimal places."""
@@ -289,8 +288,7 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # A tableau file uses one unknown for all decimals with the same absolute value, so these values
-            # must differ.
+            # Decimals with the same absolute value would become one unknown in the tableau file.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1

@@ -45,8 +45,8 @@ def eliminated(
 
 @dataclass(frozen=True)
 class Cells:
-    """The coefficients in the form in which a tableau file contains them. Each coefficient is a number or a
-    name. Some names have formulas. ``extra`` maps names to additional formulas."""
+    """The texts of coefficients in a tableau file. Each text is a number or a name. Some names have formulas.
+    ``extra`` maps names to additional formulas."""
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None

@@ -1,10 +1,10 @@
 """Proofs that no method exists, by exact elimination from the order conditions.
 
-A Groebner basis is computed for a subset of the conditions. The subset contains at most :data:`MAX_VARIABLES`
-coefficients of the method. If the basis contains 1, no real or complex method satisfies the conditions. If
-the basis contains a polynomial in one coefficient, and the polynomial has no real root (Sturm's theorem), no
-real method satisfies the conditions. Some families require nonzero weights b_i. For such a weight, zero does
-not count as a root.
+A Groebner basis is computed for a subset of the conditions. The conditions in the subset depend on at most
+:data:`MAX_VARIABLES` coefficients of the method. If the basis contains 1, no real or complex method satisfies
+the conditions. If the basis contains a polynomial in one coefficient, and the polynomial has no real root
+(Sturm's theorem), no real method satisfies the conditions. Some families require nonzero weights b_i. For
+such a weight, zero does not count as a root.
 
 Let the conditions be e_k = 0. The proof is an identity sum_k p_k e_k = r with polynomials p_k. The right-hand
 side r is 1 or the polynomial in one coefficient. This identity is verified exactly.
@@ -40,7 +40,7 @@ MAX_UNKNOWNS, MAX_ORDER = 16, 5
 limits keep the number of terms in the polynomials small."""
 
 MAX_DEGREE = 8
-"""Elimination multiplies equations by polynomials of the degrees 0, ..., MAX_DEGREE - 1."""
+"""Elimination multiplies equations by polynomials of degree less than MAX_DEGREE."""
 
 
 @dataclass(frozen=True)
@@ -164,8 +164,6 @@ def _support(x: fmpq_mpoly) -> frozenset[int]:
 def _subsystems(
     system: Sequence[Member], plain: Polynomials
 ) -> Iterator[tuple[tuple[int, ...], list[Member]]]:
-    """Yield sets of at most :data:`MAX_VARIABLES` variables, in ascending order of size, each with the
-    conditions in these variables."""
     supports = sorted({_support(x) for _, x in system if len(_support(x)) <= MAX_VARIABLES}, key=sorted)
     wanted = {*supports, *(x | y for x, y in combinations(supports, 2) if len(x | y) <= MAX_VARIABLES)}
     for variables in sorted(wanted, key=lambda x: (len(x), sorted(x))):

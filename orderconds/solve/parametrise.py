@@ -185,8 +185,7 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for coefficients of the stages. With these formulas, the three abscissae of each stage
-    i are equal: c_i = chat_i = m_i (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for stage coefficients (:func:`orderconds.solve.abscissae.transport`)."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -238,8 +237,8 @@ def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for coefficients of a symmetric method. With these formulas, c_i = chat_i = m_i for
-    each stage i. The module :mod:`orderconds.solve.abscissae` defines these abscissae."""
+    """Return formulas for coefficients of a symmetric method
+    (:func:`orderconds.solve.abscissae.symmetric_transport`)."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -297,12 +296,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # The list ``order`` contains the same names as ``gamma``. The names from the two ends of ``gamma`` come
-    # first in ``order``, and the names from the middle of ``gamma`` come last in ``order``. The constraint
-    # ``total`` is imposed after the constraints in ``mirrored``. The names in ``gamma`` denote the step
-    # sizes. The constraint ``total`` is solved for a step size that is still unknown after the constraints in
-    # ``mirrored`` have been imposed. If several step sizes are still unknown, the last one in ``order`` is
-    # chosen.
+    # Elimination solves for the last name. Hence ``total`` determines a step size in the middle.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)

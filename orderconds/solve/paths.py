@@ -78,7 +78,6 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with the first ``whole`` exponentials of ``update``.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share
@@ -88,7 +87,7 @@ def symmetric_paths(spec: Spec) -> Paths:
             half = [named("a", i, whole + 1, j) for j in every]
             names += half
             constraints += [
-                equal("that the middle exponential has two equal halves", (2, x), (-1, y))
+                equal("a symmetric middle stage", (2, x), (-1, y))
                 for x, y in zip(half, update[whole], strict=True)
             ]
             path = [*path, half]

@@ -52,10 +52,7 @@ class Problem:
 
     @cached_property
     def measured(self) -> Family:
-        """Return the family in which the principal error is computed.
-
-        A search for low-storage schemes may solve the order conditions of another family (:attr:`family`).
-        """
+        """Return the family in which the principal error is computed."""
         return families.get(self.ansatz.measured or self.ansatz.family)
 
     @cached_property
@@ -169,8 +166,7 @@ class Problem:
 
     def starts(self, generator: np.random.Generator, count: int) -> Floats:
         """Return ``count`` random starting points near the point ``ansatz.centre``. If ``ansatz.centre`` is
-        None, coefficients with initial letter b or g are near 1/n, and all others are near zero. Here n is
-        the number of names in ``ansatz.cells`` with these initial letters."""
+        None, a default centre is used."""
         free = self.ansatz.free
         if self.ansatz.centre is not None:
             centre = np.array([self.ansatz.centre[name] for name in free])

@@ -153,7 +153,7 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         outcome.solution, refused = _finished(problem, seen, order, source, refused)
     outcome.tried.append(
         f"structure {structure}: {len(problem.ansatz.free)} free coefficients, "
-        f"{problem.tape.size} conditions, {len(seen) * BATCH} starts"
+        f"{problem.tape.size} conditions, {len(seen) * BATCH} random starts"
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure

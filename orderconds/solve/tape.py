@@ -36,7 +36,7 @@ class _Level:
     left: Places
     right: Places
     index: Places
-    """The index n of the n-th root in each operation. Only operations of the kind ROOT use it."""
+    """The degrees of the roots (2 for a square root). Only operations of the kind ROOT use them."""
 
 
 class Tape:
