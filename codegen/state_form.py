@@ -135,7 +135,7 @@ class Batch:
     states: tuple[State, ...]
 
     def joined(self, results: Sequence[Any]) -> Any:
-        """Return the results as one array or as a tuple of arrays.
+        """Return the results of all states in one array. If each result is a tuple, return a tuple of arrays.
 
         Entry i of each array belongs to state i of the batch.
         """

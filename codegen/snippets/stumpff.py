@@ -20,10 +20,7 @@ from math import factorial
 from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
-"""For 0 <= z <= SWITCH[k], c_k(z) is evaluated by a polynomial.
-
-For z > 4 the closed form c_3 = (1 - c_1)/z has no cancellation, because c_1 < 1/2.
-"""
+"""For 0 <= z <= SWITCH[k], c_k(z) is evaluated by a polynomial."""
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
 """For 0 <= z <= SMALL, a short polynomial approximates the Stumpff function c_k(z).
@@ -45,18 +42,17 @@ LEFT = 10
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     """Return the largest z for which the Stumpff functions c_k(z) are computed.
 
-    For z above the returned limit, c_k(z) is NaN. For a rotation by the angle a, z is a^2. Let eps = 2^-bits,
-    with bits = ``precision.bits``, be the relative rounding error of the angle. The error of the rotated
-    vector is a eps. The next angle may be computed from this vector. The relative error of the next angle is
-    assumed to be 8 a eps.
+    For z above the returned limit, c_k(z) is NaN. For a rotation by the angle a, z is a^2.
 
-    The angle of each of ``chain`` rotations is computed from the result of the preceding rotation
-    (:func:`codegen.ir.angle_depth.chain`). Each further rotation multiplies the error by 8 a. The error of
-    the last vector is a^chain 8^(chain-1) eps. The last vector must have :data:`LEFT` correct bits, so this
-    error must be at most 2^-LEFT. Let m be the largest integer for which the angle a = 2^m satisfies this
-    condition. Two bounds are applied to m. The lower bound is bits/6, rounded down. The upper bound is
-    (2/5)*bits, rounded down. If m is below the lower bound, m is replaced by the lower bound. If m is above
-    the upper bound, m is replaced by the upper bound. The result is the square of the angle 2^m.
+    In a chain of rotations, the angle of each rotation is computed from the result of the preceding rotation
+    (:func:`codegen.ir.angle_depth.chain`). The number of these rotations is ``chain``. Let m be the largest
+    integer for which the angle a = 2^m satisfies the condition
+
+        a^chain 8^(chain-1) 2^-bits <= 2^-LEFT,   with bits = ``precision.bits``.
+
+    Two bounds are applied to m. The lower bound is bits/6, rounded down. The upper bound is (2/5)*bits,
+    rounded down. If m is below the lower bound, m is replaced by the lower bound. If m is above the upper
+    bound, m is replaced by the upper bound. The result is the square of the angle 2^m.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
@@ -91,8 +87,6 @@ def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
 
     The error is at most about 2^-(bits + 4) c_k(0). To lower the degree of the Taylor polynomial, multiples
     of shifted Chebyshev polynomials are subtracted. The value at z = 0 is exact.
-
-    If z is the same in many steps, the errors add up. Therefore the bound is below the rounding error.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]

@@ -1,4 +1,4 @@
-"""The claimable families of a tableau: the families in which the tableau file should claim an order.
+"""The claimable families of a tableau. The tableau file should claim an order for each of these families.
 
 These families are:
 

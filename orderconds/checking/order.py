@@ -230,7 +230,6 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # In the ring ``Balls``, no condition is skipped if all residuals of lower order are exactly zero.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):

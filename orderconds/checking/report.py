@@ -84,7 +84,7 @@ class RegisterForm(Struct, frozen=True):
 
     - ``holds`` states whether the scheme exists. The value is None if the coefficients of the method are
       rounded and have too few digits for a decision.
-    - ``space`` is the space of the scheme and the method: ``group`` or ``vector space``.
+    - ``space`` is ``group`` or ``vector space`` and selects the second update.
     - ``A`` and ``B`` are the coefficients A_i and B_i as text.
     - ``reason`` states why no scheme is given.
     """

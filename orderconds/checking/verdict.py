@@ -141,7 +141,6 @@ def _of_doubles(certificate: str) -> str:
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a message that recommends exact coefficients instead of the doubles, or an empty text."""
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -230,18 +229,6 @@ Reading = tuple[Tableau, Family, int | None]
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return triples (reading, family, claim) for families that are not in ``wanted``.
-
-    - ``reading`` is ``tableau``, or a tableau of the same method as a composition.
-    - ``family`` is a family that accepts ``reading``.
-    - ``claim`` is the order that ``tableau`` claims in ``family``, or None.
-
-    The caller uses the returned families to find upper bounds for the orders of ``tableau`` in the families
-    of ``wanted``.
-
-    An entry of ``wanted`` is a pair of a family and a claimed order. The result is empty if the claimed
-    orders and ``required`` are below ``search_limit`` of each family. A missing claimed order counts as 0.
-    """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
     return _bounding(tableau, {family.label() for family, _ in wanted})
@@ -250,8 +237,7 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
     """Return a :data:`Reading` for each claimable family that has the attribute ``bounds_others = True``.
 
-    Omit families with a label in ``labels``. Each reading contains ``tableau``, or a tableau of the same
-    method as a composition.
+    Omit families with a label in ``labels``.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition

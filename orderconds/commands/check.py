@@ -65,8 +65,8 @@ WIDTH = 200
 @click.option(
     "--complete",
     is_flag=True,
-    help="Require a claim in every family to which the method belongs, unless the order in this "
-    "family follows from the order in another family.",
+    help="Require that each tableau file claims orders in several families, such as rk, cg and rkmk for a "
+    "Butcher tableau. Each missing claim is reported.",
 )
 @click.option(
     "--certified",
@@ -77,9 +77,9 @@ WIDTH = 200
 @click.option(
     "--require-claims",
     is_flag=True,
-    help="Exit with status 1 if at least one tableau contains no claim for the checked families. In a DIR, "
-    "files that only resemble a tableau, such as a JSON file with a matrix, are not skipped and cause an "
-    "error.",
+    help="Exit with status 1 if at least one tableau contains no claim for the checked families. Exit with "
+    "status 2 if a file in a DIR resembles a tableau but contains none, such as a JSON file with only a "
+    "matrix.",
 )
 @click.option(
     "--skip-others",
@@ -363,8 +363,8 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         click.echo(f"  {_register_form(report.low_storage)}")
     if report.effective_symmetry is not None:
         click.echo(
-            "  effectively symmetric: a step of size h, followed by a step of size -h, equals the identity "
-            f"through the power h^{report.effective_symmetry}"
+            "  effectively symmetric: a step of size -h undoes a step of size h, apart from terms of higher "
+            f"order than h^{report.effective_symmetry}"
         )
     for reason in dict.fromkeys(report.undecided.values()):
         names = [name for name, why in report.undecided.items() if why == reason]

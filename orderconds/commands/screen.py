@@ -70,8 +70,8 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows the progress of work on several items.
 
-    After ``with counting(...) as done``, call ``done(name)`` for each finished item. ``total`` is the number
-    of items, or None if this number is unknown.
+    Inside the block ``with counting(...) as done``, call ``done(name)`` after each item. ``total`` is the
+    number of items, or None if this number is unknown.
     Without a terminal, progress is shown only with ``--verbose``, as lines on stderr.
 
     >>> with counting("measuring", total=2) as done:

@@ -245,7 +245,7 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
     elif outcome.solution is None:
         click.echo(
             f"orderconds: no {order.family} method of order {order.order} with {_stages(order)} was "
-            f"found; the least residual norm of the conditions in all random starts is {outcome.best:.3g}",
+            f"found; the least residual norm is {outcome.best:.3g}",
             err=True,
         )
         for line in outcome.tried:

@@ -67,8 +67,8 @@ def command(
     The vertices of an action tree are dots and diamonds. A diamond denotes a coadjoint action on mu. With
     --ascii, a dot is drawn as o and a diamond is drawn as L. All edges at a diamond begin at the diamond.
 
-    In a text drawing, a note such as (>*>) can follow a vertex. The note contains one sign for each edge at
-    this vertex, from left to right. The sign > is an edge to a child. The sign * is the edge to the parent.
+    In a text drawing, a note such as (>*>) can follow a vertex. The note shows the order of the edges that
+    begin at this vertex. The sign > is an edge to a child. The sign * is the edge to the parent.
 
     \b
     Examples:

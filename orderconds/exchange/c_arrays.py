@@ -1,7 +1,7 @@
 """C arrays of correctly rounded doubles. A comment beside a rounded number contains the exact value.
 
-The function ``read`` reads definitions such as ``double NAME_A[2][2] = {{0, 0}, {0.5, 0}};``. The function
-returns the value in the comment.
+The function ``read`` reads definitions such as ``double NAME_A[2][2] = {{0, 0}, {0.5, 0}};``. If a
+number has such a comment, ``read`` returns the exact value.
 """
 
 from __future__ import annotations

@@ -170,7 +170,7 @@ def _of_python(content: bytes) -> Reason | None:
 
 def _of_latex(content: bytes) -> Reason | None:
     match = _LATEX.search(content.decode(errors="replace"))
-    return None if match else Reason("no Butcher tableau and no matrix A, gamma, alpha or exponentials")
+    return None if match else Reason("no Butcher tableau and no matrix named A, gamma, alpha or exponentials")
 
 
 def _of_c(content: bytes) -> Reason | None:

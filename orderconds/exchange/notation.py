@@ -74,7 +74,7 @@ def from_python(text: str) -> str:
 
 
 def from_latex(text: str, where: str = "") -> str:
-    r"""Return a number in LaTeX as a coefficient of a tableau file.
+    r"""Convert a number in LaTeX to the notation of tableau files.
 
     Raises TableauError for LaTeX commands that are not supported.
 

@@ -101,11 +101,6 @@ class Values:
     functions: dict[str, str] = field(default_factory=dict)
     """A map from the imported name of a function to its original name."""
     sources: dict[str, tuple[frozenset[str], frozenset[int]]] = field(default_factory=dict)
-    """A map from the name of a variable to a pair of sets: the objects to which an unknown value may refer.
-
-    The first set contains names of variables. The second set contains the attribute :attr:`Array.memory` of
-    arrays. If the value of the variable is known, both sets are empty.
-    """
     active: set[str] = field(default_factory=set)
     """Names of functions, classes and instances. The use of such a name may execute code of the module."""
     _lines: list[bytes] = field(default_factory=list)
@@ -144,11 +139,6 @@ class Values:
             self.sources[name] = traced
 
     def _traced(self, names: Collection[str]) -> tuple[frozenset[str], frozenset[int]]:
-        """Return the objects to which the values of the variables ``names`` may refer.
-
-        The first set contains names of variables, including all elements of ``names``. The second set
-        contains the attribute :attr:`Array.memory` of arrays.
-        """
         reached, memories = set(names), set[int]()
         for name in names:
             more, shared = self.sources.get(name, (frozenset(), frozenset()))

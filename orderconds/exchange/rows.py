@@ -25,8 +25,7 @@ class Rows:
 
     @property
     def plainly_other(self) -> bool:
-        """False if the table has no header, or if the first cell of the header is ``c``. Otherwise, the value
-        is True: the table is not a tableau."""
+        """True if the table has a header whose first cell is not ``c``. Such a table is not a tableau."""
         return bool(self.header) and self.header[0] != "c"
 
 

@@ -99,10 +99,6 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return ``data``, and rename each named number if its name has another meaning in the Python file.
-
-    For example, a number with the name ``sqrt`` is renamed to ``sqrt_``.
-    """
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()

@@ -144,7 +144,7 @@ class UnevaluatedNumbers:
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
             raise CoefficientTooLong(
-                "a coefficient becomes too long when formulas replace its named numbers",
+                "a coefficient is too long without named numbers",
                 expected="format json, which stores named numbers",
             )
         return text

@@ -43,8 +43,8 @@ def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
     ``f[x]`` is the derivative of the vector field f along the vector field x. ``f[x y]`` is the derivative of
-    ``f[y]`` along x, but the vector field y is not differentiated: y is a linear combination of invariant
-    vector fields, and the coefficients are treated as constants.
+    ``f[y]`` along x, where y is treated as constant. A constant vector field is a linear combination of
+    invariant vector fields with constant coefficients.
 
     The operator of a forest is the product of the operators of its trees (Munthe-Kaas and Wright, Found.
     Comput. Math. 8 (2008) 227).

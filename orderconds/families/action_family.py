@@ -107,8 +107,8 @@ class ActionFamily(Family):
     def dependence_holds(self, order: int) -> bool:
         """Return True if the polynomials ``relations(order)`` pass a test in rational arithmetic.
 
-        The polynomials are computed modulo primes. The test evaluates the polynomials for the exact flow and
-        for one method with random rational coefficients.
+        The test passes if each polynomial equals the left-hand side of its condition. The test uses the exact
+        flow and one method with random rational coefficients.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 

@@ -43,8 +43,7 @@ from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
 """A word. At most one letter of the word is a string, the name of a stage. Every other letter is an action
-tree. The velocity of each stage is a linear combination of letters. If a letter is the name of a stage, the
-letter is added to the velocity of this stage."""
+tree."""
 
 
 def multiplier(tree: Velocity) -> int:
@@ -71,7 +70,7 @@ def _momentum_multiplier(tree: Momentum) -> int:
 class ActionFormula(ABC):
     """The base class of objects that write the conditions of action trees as sums over indices.
 
-    The argument ``row`` of the methods is the index of a stage, or None for the update. In all formulas, the
+    The argument ``row`` is the index of a stage, or None for the update. In all formulas, the
     coefficient of a tree is multiplied by the :func:`multiplier` of this tree.
 
     >>> from orderconds.formula import named
@@ -95,8 +94,7 @@ class ActionFormula(ABC):
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
         The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
-        velocity of each stage is a linear combination of letters. The letter x is added to the velocity of
-        stage ``stage``.
+        letter x denotes a perturbation of the velocity of stage ``stage``.
         """
 
     def condition(self, tree: Velocity) -> Formula:
@@ -130,7 +128,7 @@ class ActionFormula(ABC):
 class ExponentialsFormula(ActionFormula):
     """The index sums of methods whose stages and update are products of exponentials.
 
-    In the methods of this class, the argument ``place`` is the index of an exponential.
+    The argument ``place`` is the index of an exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -323,8 +321,7 @@ class MuntheKaasFormula(ActionFormula):
         The exponential belongs to stage ``row``, or to the update if ``row`` is None.
 
         The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
-        velocity of each stage is a linear combination of letters. The letter x is added to the velocity of
-        stage ``stage``.
+        letter x denotes a perturbation of the velocity of stage ``stage``.
         """
         return self._exponential(row, (*before, stage, *after))
 
@@ -378,17 +375,15 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Return the terms of the truncated series dexpinv_X xi, as triples (q, m, n).
+        """Return triples (q, m, n) for the terms ``q X^n xi X^m`` of the truncated series dexpinv_X xi.
 
-        The triple (q, m, n) denotes the term ``q X^n xi X^m``, in which X^m acts first. The sum m + n is at
-        most ``letters``.
+        The sum m + n is at most ``letters``.
         """
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # The power X^m must contain the word ``before``, and X^n must contain the word ``behind``.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):

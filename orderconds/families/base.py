@@ -79,8 +79,8 @@ class Family(ABC):
 
     # Relations to other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """Each key is the name of another family. In that family, a method has at least the same order as in this
-    family. The value is the reason."""
+    """Maps names of families to reasons. If a method has order p in this family, the method has at least
+    order p in each named family."""
     abelian: ClassVar[str | None] = None
     """The name of the family to which this family reduces on an abelian group, or None."""
     low_order: ClassVar[str | None] = None
@@ -88,8 +88,8 @@ class Family(ABC):
     bounds_others: ClassVar[bool] = False
     """True if ``check`` uses the order in this family to find bounds of the orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of families in which a low-storage (2N) scheme has at least the same order as in this
-    family."""
+    """Names of families. If a low-storage (2N) scheme has order p in this family, the scheme has at least
+    order p in each named family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
@@ -106,8 +106,8 @@ class Family(ABC):
     takes_cutoff: ClassVar[bool] = False
     """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order of methods for which the compiler can minimise the number of brackets in one step.
-    The minimisation requires that the series of dexpinv is not truncated."""
+    """For methods of at most this order, the compiler can minimise the number of brackets. The minimisation
+    requires that the series of dexpinv is not truncated."""
     cutoff: int | None = None
     """The power of ad after which the series of dexpinv or dexp is truncated. None means no truncation."""
 
@@ -250,7 +250,8 @@ class Family(ABC):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family if a complete file of ``tableau`` states the order in it, else None."""
+        """Return this family if the file of ``tableau`` should claim an order in this family. Otherwise
+        return None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
@@ -285,7 +286,7 @@ class Family(ABC):
     def stability_coefficients(self) -> tuple[Fraction, ...] | None:
         """Return the coefficients of the stability polynomial, with the constant term first.
 
-        Return None if the polynomial depends on a tableau.
+        Return None if the polynomial is unknown.
         """
         return None
 
@@ -328,11 +329,10 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return another family with fewer conditions. The result also contains ``method`` in a tableau
-        format of the other family.
+        """Return a :class:`Substitute` with another family, or None if no such family is known.
 
         If ``method`` satisfies the conditions of the other family, ``method`` satisfies the conditions of
-        this family. Return None if no such family is known.
+        this family.
         """
         return None
 
@@ -369,7 +369,7 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions, or None if no such family is known.
+        """Return a family with conditions for symmetric methods, or None if no such family is known.
 
         If ``method`` is symmetric, the conditions of the returned family determine the order of ``method``.
         """

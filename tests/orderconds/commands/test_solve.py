@@ -104,7 +104,7 @@ def test_found_symplectic_tableaux_are_symplectic(tmp_path: Path) -> None:
 def test_nothing_found_says_what_was_tried() -> None:
     result = run("cg", "--stages", "4", "--order", "4", "--explicit", "--starts", "64")
     assert result.exit_code == 1
-    assert "the least residual norm of the conditions in all random starts is" in result.stderr
+    assert "the least residual norm is" in result.stderr
     assert "structure full" in result.stderr
     assert result.stdout == ""
 
