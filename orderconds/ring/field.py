@@ -239,7 +239,7 @@ class Algebraic:
     """An element of a number field: a ``polynomial`` in the primitive element. The degree of the polynomial
     is less than the degree of the field.
 
-    Arithmetic operators accept elements of all fields of one tower, and numbers of type ``fmpq`` or ``int``.
+    Arithmetic operators also accept numbers of type ``fmpq`` or ``int``.
     """
 
     __slots__ = ("field", "polynomial")

@@ -99,12 +99,10 @@ class NodalAlgebra:
         return total
 
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
-        """Return the matrices of two linear maps of this algebra, in the basis 1, z, z^2, ...
+        """Return the matrices of the linear maps A - e b^T and A in the basis c^0, ..., c^(s-1).
 
-        A polynomial x represents the vector v with the entries x(c_i), where the numbers c_i are the nodes.
-        The first map takes this polynomial to the polynomial that represents (A - e b^T) v. The second map
-        takes this polynomial to the polynomial that represents A v. Here A is the first matrix of the method,
-        b is the vector of the weights, and e is the vector of ones.
+        The vector c^k has the entries c_1^k, ..., c_s^k, where c_1, ..., c_s are the nodes. Here A is the
+        first matrix of the method, b is the vector of the weights, and e is the vector of ones.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))
@@ -127,10 +125,7 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
     - ``ring`` is not a :class:`NumberField`, or its degree is 1.
     - Two nodes are equal.
     - The polynomial M with the roots c_i has an irrational coefficient.
-    - Let A be one of ``matrices``, and let v be the vector with the entries c_i^k, where k is below the
-      number of stages. The interpolation polynomial with the values (A v)_i at the nodes c_i has an
-      irrational coefficient.
-    - A number sum_i b_i c_i^k is irrational.
+    - The method does not have both properties in the list of the module docstring.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))

@@ -41,8 +41,8 @@ class DegreeError(ArithmeticError):
 
 
 class Tower:
-    """A number field that grows when a root is adjoined. Elements from before the extension can be combined
-    with elements from after it.
+    """A number field that is extended when a root is adjoined. Elements that were created before an extension
+    remain valid.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -61,7 +61,8 @@ class Tower:
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
         """Return the rational number ``value``.
 
-        The argument ``unit`` is the error bound of ``value``. Raises TypeError if ``unit`` is positive.
+        The argument ``unit`` is the error bound of ``value``. Raises TypeError if ``unit`` is not zero,
+        because a number field cannot represent a rounded decimal.
         """
         if unit:
             raise TypeError("a number field cannot represent a rounded decimal")
@@ -198,8 +199,7 @@ def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None,
     Let a be the generator of K over Q, and let k be the length of ``powers``. The polynomial p is
     x^k - powers[k-1] x^(k-1) - ... - powers[0].
 
-    The relation describes the algebra by one generator c over Q. If m is an integer, c is x + m a. If m is
-    None, c is the product of a and x.
+    The powers of the element c = x + m a span the algebra over Q. If m is None, c is the product of a and x.
     """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
@@ -253,8 +253,8 @@ def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
 
 
 def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
-    """Return a monic irreducible factor of ``characteristic``. The function ``enclosure`` returns balls that
-    contain one real number, which is a root of this factor."""
+    """Return the monic irreducible factor of ``characteristic`` that vanishes at the real number enclosed by
+    ``enclosure``."""
     factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
     bits = 64
     while len(factors) > 1:

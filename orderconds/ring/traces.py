@@ -97,7 +97,7 @@ class Traces:
         return self._record(Operation(kind, left, right))
 
     def root(self, x: Trace, index: int) -> Trace:
-        """Record the real ``index``-th root of x, and return the result as an element."""
+        """Record the ``index``-th root of x, and return the result as an element."""
         place = x.placed()
         return self._record(Operation(ROOT, place, place, Fraction(index)))
 

@@ -2,20 +2,17 @@
 
 Let q0 be the initial position and mu1 the final momentum of a step. The velocity and the momentum of each
 stage are expanded about (q0, mu1). The expansions are sums over trees
-(:mod:`orderconds.series.action_trees`). A tree of a velocity is a pair t = (w, M). A tree of a momentum is a
-triple of u, v and M, denoted by H(u*v|M), or a word w, denoted by L(w). Here u, v and w are words of smaller
-trees, and M is a multiset of smaller trees. Let b_i be the weight of stage i, and let Phi_w(i) be the
-coefficient of the word w in the group element of stage i. Let tau_t(i) be the coefficient of the tree t in
-the velocity of stage i. Let psi_p(i) be the coefficient of the tree p in the momentum of stage i.
+(:mod:`orderconds.series.action_trees`). Let u, v and w be words of trees, and let M be a multiset of trees.
+The trees of the velocities have the form t = (w, M). The trees of the momenta have the forms H(u*v|M) and
+L(w). Let b_i be the weight of stage i, and let Phi_w(i) be the coefficient of the word w in the group element
+of stage i. Let tau_t(i) be the coefficient of the tree t in the velocity of stage i. Let psi_p(i) be the
+coefficient of the tree p in the momentum of stage i.
 
-The formulas for psi_p(i) contain derivatives with respect to the velocity of stage i. A derivative is the
-part that is linear in a small change x of the velocity. In the words, x is an additional letter. Replace the
-velocity xi_i of stage i by xi_i + x, and leave the velocities of all other stages unchanged. The group
-elements depend on xi_i. Therefore the expansions of the changed group elements contain words (u, x, v), where
-u and v are words of trees. Let c_{(u, x, v)}(j, i) be the coefficient of the word (u, x, v) in the changed
-group element of stage j, where i is the stage with the changed velocity. Let d_{(u, x, v)}(i) be the
-coefficient of the word (u, x, v) in the group element of the update, if the velocity of stage i is changed.
-The coefficients of the trees in the expansions of stage i are
+The formulas for psi_p(i) use changed group elements. Replace the velocity xi_i of one stage i by xi_i + x,
+where x is an additional letter, and leave the velocities of all other stages unchanged. Let
+c_{(u, x, v)}(j, i) be the coefficient of the word (u, x, v) in the changed group element of stage j. The
+update is the group element that takes q0 to the final position. Let d_{(u, x, v)}(i) be the coefficient of
+the word (u, x, v) in the changed update. The coefficients of the trees in the expansions of stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) c_{(u, x, v)}(j, i)``,
@@ -168,11 +165,12 @@ class ActionSeries(ABC):
         """Return a map from words to their coefficients in the group element of the update. The map contains
         all words with at most ``vertices`` vertices in total.
 
-        Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. At (q0, mu1),
-        each tree t denotes an element of g (:mod:`orderconds.series.action_trees`). Let v_t be this element,
-        divided by the order of the symmetry group of t. Let ``F(t)`` be the right-invariant vector field of
-        v_t. For every smooth function f on the group, ``f(q1)`` is the sum of
-        ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words ``w = t_1 ... t_k``.
+        Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Each tree t
+        denotes a function of position and momentum with values in g (:mod:`orderconds.series.action_trees`).
+        Let v_t be the value of this function at (q0, mu1), divided by the order of the symmetry group of t.
+        Let ``F(t)`` be the right-invariant vector field of v_t. For every smooth function f on the group,
+        ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words
+        ``w = t_1 ... t_k``.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 

@@ -87,8 +87,6 @@ def multisets(vertices: int) -> tuple[Momenta, ...]:
 
 @cache
 def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
-    """Return the g-valued trees with ``vertices`` vertices and cost at most ``limit``. The trees are not
-    sorted."""
     trees = []
     for k in range(vertices):
         for cost, word in _words(k, limit):
@@ -150,8 +148,8 @@ def _momenta(vertices: int, limit: float) -> Momenta:
 
 @cache
 def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
-    """Return pairs (cost, multiset), sorted by cost. The cost is at most ``limit``. The multisets contain
-    g*-valued trees with ``vertices`` vertices in total. The cost of a multiset is the sum of the costs of its
+    """Return pairs (cost, multiset), sorted by cost. The cost is at most ``limit``. The trees in a
+    multiset have ``vertices`` vertices in total. The cost of a multiset is the sum of the costs of its
     trees."""
     return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
 
@@ -163,8 +161,7 @@ def _chosen(
 
     The elements of each multiset are g*-valued trees that have ``vertices`` vertices in total. The cost of a
     multiset is at most ``rest``. Each element has at most ``largest`` vertices, and its cost is at most
-    ``limit``. If ``bound`` is an integer, elements with ``largest`` vertices are taken only from the first
-    ``bound + 1`` entries of the list ``_momenta(largest, limit)``.
+    ``limit``.
     """
     if vertices == 0:
         yield 0, ()

@@ -15,8 +15,8 @@ t_k:
 - Let ``g(s')`` be the product of ``psi_m(s')`` over all trees m in M. Then ``psi_{H(u*v|M)}(s)`` is the
   integral of the product ``Phi_u(s) Phi_v(s, s') g(s')`` over the times s' from s to 1.
 
-Let v be the word t_1 ... t_n. For k = 0, ..., n, let r_k be the word t_k ... t_1, and let v_k be the word
-t_(k+1) ... t_n. The integral ``Phi_v(s, s')`` is equal to ``sum_k (-1)^k Phi_{r_k}(s) Phi_{v_k}(s')``.
+The integral ``Phi_v(s, s')`` is the sum of ``(-1)^|a| Phi_{reverse(a)}(s) Phi_b(s')`` over all decompositions
+of the word v into two words a and b. Here |a| is the number of letters of a.
 """
 
 from __future__ import annotations

@@ -140,7 +140,8 @@ class ActionFields:
         return self.coordinates(_subtract(_times(X, Y), _times(Y, X)))
 
     def velocity(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of the elementary velocity xi_t of a g-valued tree t."""
+        """Return the coordinates of the Lie algebra element that ``tree`` denotes
+        (:mod:`orderconds.series.action_trees`)."""
         components = self._velocity.get(tree)
         if components is None:
             fields = [self.velocity(t) for t in tree.word]
@@ -205,10 +206,6 @@ class ActionFields:
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of a covector. There is one coordinate for each basis vector x of the Lie
-        algebra g. The coordinate of x is a mixed derivative of the Hamiltonian H(q, mu). The first direction
-        in q is x. Each letter of ``tree.word`` gives one more direction in q: the elementary velocity of the
-        letter. The directions in mu are the covectors of ``tree.momenta``."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

@@ -5,11 +5,9 @@ The exponent of stage i is ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``. In the
 b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
-Let x be a letter that is not a tree. The method ``insertion`` replaces the velocity xi_j of one stage j by
-xi_j + x, and expands the group element of a stage or of the update in words. The result is the coefficient of
-a word (u, x, v), where u and v are words of trees. The argument ``before`` is u, the argument ``after`` is v,
-and the argument ``stage`` is j. The coefficients of g*-valued trees are computed from such results
-(:mod:`orderconds.series.action`).
+Let x be a letter that is not a tree. If one velocity xi_j is replaced by xi_j + x, the exponents also contain
+words (u, x, v), where u and v are words of trees. The coefficients of such words are needed for g*-valued
+trees (:mod:`orderconds.series.action`).
 """
 
 from __future__ import annotations
@@ -32,9 +30,8 @@ product acts first. Hence X^m acts before xi, and X^n acts after xi."""
 Varied = dict[int, Element]
 """A map from stage indices to coefficients. If a key is missing, the coefficient is zero.
 
-The map describes how a series depends on the stage velocities xi_1, xi_2, .... Replace xi_j by xi_j + x in
-the series, where x is a letter that is not a tree. Entry j is the coefficient of a word (u, x, v) in the new
-series, where u and v are fixed words of trees."""
+Let u and v be words of trees, and let x be a letter that is not a tree. Entry j is the coefficient of the
+word (u, x, v) in a series in which the velocity xi_j of stage j is replaced by xi_j + x."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -130,9 +127,6 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return a list of maps (:data:`Varied`) for the word (``before``, x, ``after``). If ``update`` is 0,
-        there is one map for the series X_i^n of each stage i. If ``update`` is 1, the only map is for the
-        series Y^n. The module docstring defines x, X_i and Y."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -150,7 +144,6 @@ class MuntheKaasActionSeries(ActionSeries):
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
         """Add the result of :meth:`_varied_power` to ``totals``. The power n must be at least 2."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # The first factor of the power contributes the first ``cut`` letters of (before, x, after).
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -162,8 +155,8 @@ class MuntheKaasActionSeries(ActionSeries):
                 _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
-        """Let X be the exponent and xi the velocity of stage j (see the module docstring). For each stage j,
-        return the coefficient of ``word`` in the truncated series dexpinv_X xi."""
+        """Return the coefficient of ``word`` in the series dexpinv_{(r),X_j} xi_j for each stage j. The
+        module docstring defines this series."""
         values = self._summands.get(word)
         if values is None:
             values = [self.ring.zero] * self.stages
@@ -198,10 +191,9 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Let z be a letter, and let X be the exponent X_j of stage j. For each stage j, return the
-        coefficient of the word (``before``, z, ``behind``) in the truncated series dexpinv_X z. The module
-        docstring defines the exponents and the truncation. Return None if no term of the series contains a
-        word with ``len(before)`` letters before z and ``len(behind)`` letters behind z."""
+        """Return the coefficient of the word (``before``, z, ``behind``) in the series dexpinv_{(r),X_j} z
+        for each stage j. Here z is a letter that is not a tree. The module docstring defines the series. The
+        result None means that all coefficients are zero."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -216,15 +208,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. The exponent X_j of stage j
-        depends on the velocities xi_1, xi_2, .... The map for stage j describes the truncated series
-        dexpinv_X z, where X is the exponent X_j, and z is a letter. The module docstring defines the
-        velocities, the exponents, the truncation, and the letter x.
-
-        To obtain entry i of the map for stage j, replace the velocity xi_i by xi_i + x in the exponent X_j.
-        Entry i is the coefficient of the word (``before``, x, ``after``, z, ``behind``) in the changed
-        series. Here ``before``, ``after`` and ``behind`` are words of trees.
-        """
+        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
+        word (``before``, x, ``after``, z, ``behind``) in the series dexpinv_{(r),X_j} z. Here z is a letter
+        that is not a tree. The module docstring defines the series and the letter x."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -252,10 +238,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return one triple (q, m, n) for each selected term of the series dexpinv_X xi. The number q is the
-        coefficient of the term. A word lists the factors of a product from right to left. In this order, the
-        factors of the term are m factors X, the factor xi, and n factors X. A term is selected if its
-        expansion may contain a word with ``before`` letters before xi and ``behind`` letters after xi."""
+        """Return the terms of the series dexpinv_X xi that can contain words with ``before`` letters before
+        xi and ``behind`` letters after xi. The type :data:`Terms` defines the triples (q, m, n)."""
         known = self._in_sight.get((before, behind))
         if known is None:
             known = self._in_sight[before, behind] = [
@@ -301,8 +285,8 @@ class PadeActionSeries(MuntheKaasActionSeries):
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
     """Return the terms with at most ``most`` factors X in the solution v of the equation dexp_{(r),X} v = xi.
-    The map dexp_{(r),X} is dexp_X truncated after the r-th power of X, where r is ``cutoff``. The term q X^n
-    xi X^m is returned as the triple (q, m, n).
+    The map dexp_{(r),X} is dexp_X truncated after the r-th power of X, where r is ``cutoff``. Each term is a
+    triple (q, m, n), see :data:`Terms`.
 
     Let S(z) be the sum of z^j/(j+1)! for j = 0, ..., r, and let q_k be the coefficient of z^k in the power
     series of 1/S(z). Then q = (-1)^m comb(k, m) q_k for k = m + n. Terms with q = 0 are omitted.

@@ -4,8 +4,6 @@ for many random methods and for the exact flow.
 
 A condition of order n is dependent if its left-hand side is a polynomial in the left-hand sides of other
 conditions up to order n. This polynomial must be the same for every method **and for the exact flow**.
-
-A tree is selected if its condition does not depend on the conditions of simpler trees.
 """
 
 from __future__ import annotations

@@ -39,9 +39,9 @@ multiplied by the left-hand sides of the order conditions of these trees."""
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
     """Return a map from trees to polynomials. Let n be the length of ``independent``. The keys of the map are
-    the trees that have n vertices and do not occur in ``independent[-1]``. The variables of each polynomial
-    are the left-hand sides of the order conditions of the trees in ``independent``. For each method of the
-    family, the polynomial of a tree is equal to the left-hand side of the order condition of this tree.
+    the trees that have n vertices and do not occur in ``independent[-1]``. The polynomials
+    (:data:`Polynomial`) contain only trees from ``independent``. For each method of the family, the
+    polynomial of a tree is equal to the left-hand side of the order condition of this tree.
 
     ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
     ..., n. The polynomials are wrong with a probability of about 10^-8.
@@ -98,9 +98,8 @@ def hold_over_rationals(
     condition of the tree is equal to ``polynomials[tree]``.
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
-    ``ring``. Assume that a relation is false for some method of the family. Then the relation holds for the
-    random method with a probability below d/2^60. Here d is the degree of the relation, written as a
-    polynomial equation for the coefficients of the method.
+    ``ring``. Assume that a relation is false for some method of the family. Then it is very unlikely that the
+    relation holds for the random method (Schwartz-Zippel lemma).
 
     >>> from functools import partial
     >>> from orderconds.families import get

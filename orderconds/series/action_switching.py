@@ -1,8 +1,9 @@
 """Root switching: trees that differ only in the choice of the root have the same condition.
 
 The module :mod:`orderconds.series.action_trees` defines the notation of trees. Let u, v and w be words of
-trees, and let M and N be multisets of trees. A tree ``H(u*v | N)`` consists of a vertex H, the words u and v,
-and the multiset N. The symbol ``*`` marks a position between u and v. The trees A and B are
+trees, and let M and N be multisets of trees. A tree ``o(w | M)`` consists of a root, the word w, and the
+multiset M. A tree ``H(u*v | N)`` consists of a vertex H, the words u and v, and the multiset N. The symbol
+``*`` marks a position between u and v. The trees A and B are
 
 - A: ``o(w | M, H(u*v | N))``,
 - B: ``o(u o(w | M) v | N)``.
@@ -71,8 +72,7 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return an empty list and an iterator over the classes of trees with ``vertices`` vertices. The function
-    :func:`classes_in_turn` moves classes from the iterator to the list."""
+    """Return the list of the classes that are already known, and an iterator over the other classes."""
     return [], _classes(vertices)
 
 

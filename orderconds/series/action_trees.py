@@ -8,11 +8,12 @@ right-invariant vector field on G. There are three kinds of trees:
 - A :class:`Velocity` is a g-valued tree with a word w and a multiset M, written (w, M) or ``o(w | M)``. The
   tree denotes a mixed derivative of the vector dH/dmu. Let t_1, ..., t_k be the letters of w. For the
   derivatives in q, replace q by exp(e_k t_k) ... exp(e_1 t_1) q, and differentiate once with respect to each
-  of the numbers e_1, ..., e_k at zero. The directions in mu are the covectors of the trees in M.
+  of the numbers e_1, ..., e_k at zero. For the derivatives in mu, the directions are the covectors that the
+  trees in M denote.
 - A :class:`Force` is a g*-valued tree with two words u and v and a multiset M, written ``H(u * v | M)`` or
   ``f(u * v | M)``. The tree denotes a covector. The value of the covector at an element x of g is a mixed
-  derivative of H. The derivatives in q are defined as for a :class:`Velocity` whose word consists of the
-  letters of u, the element x, and the letters of v. The directions in mu are the covectors of the trees in M.
+  derivative of H. The directions of the derivatives are the same as for the tree ``o(u x v | M)``, with x as
+  one more letter.
 - A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. The tree denotes the covector that
   maps an element x of g to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here
   ``<mu, y>`` is the pairing of mu with y.
@@ -107,9 +108,9 @@ class Velocity(_Node):
 
 
 class Force(_Node):
-    """A g*-valued tree H(u * v | M), printed as f(u * v | M). The attribute ``before`` is u, the attribute
-    ``after`` is v, and the attribute ``momenta`` is M. Here u and v are words of g-valued trees, and M is a
-    multiset of g*-valued trees. Use :func:`force` to create trees.
+    """A g*-valued tree with two words u and v of g-valued trees and a multiset M of g*-valued trees. The
+    attribute ``before`` is u, the attribute ``after`` is v, and the attribute ``momenta`` is M. The text of
+    the tree is f(u * v | M). Use :func:`force` to create trees.
 
     >>> tree = force((), (velocity(),))
     >>> tree, tree.vertices

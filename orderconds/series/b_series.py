@@ -3,8 +3,7 @@
 Each subtree t has a vector tau_t over the stages: tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the
 branches u of t. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 
-For many methods, the abscissae c_1, ..., c_s are the roots of a polynomial with rational coefficients. For
-these methods, a polynomial p represents the vector with the entries p(c_1), ..., p(c_s)
+For some methods with irrational coefficients, the vectors are represented by rational polynomials
 (:mod:`orderconds.ring.nodal`).
 """
 
@@ -41,10 +40,9 @@ class StageAlgebra(Protocol):
 class ElementaryWeights(Generic[TreeT]):
     """The elementary weights ``sum_i b_i tau_t(i)`` of a method, for trees t in an arbitrary encoding.
 
-    The number tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the branches u of t.
-
-    ``matrices`` contains one s x s matrix (a_ij) over ``ring`` for each kind of edge. The function
-    ``branches`` returns the branches of a tree as pairs (kind of the edge, subtree).
+    The function ``branches`` returns the branches of a tree t as pairs (kind, u), where ``kind`` is an index,
+    and u is a subtree. The number tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over these pairs. Here
+    (a_ij) is the s x s matrix ``matrices[kind]`` over ``ring``.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.directed import branches
@@ -121,8 +119,8 @@ class StageVectors:
 
 
 class Sums:
-    """The sums ``sum_j weight_j x_j`` of several sparse rows, for a vector x. A row contains pairs
-    (j, weight_j).
+    """The product of a sparse matrix and a vector. Each row of the matrix is a sequence of pairs
+    (j, weight_j), where weight_j is the entry in column j.
 
     If several rows begin with the same pairs, the partial sum of these pairs is computed only once.
 
@@ -135,8 +133,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """The partial sums s_1, s_2, ... of the products weight_j x_j, as one triple (k, j, weight_j) for
-        each partial sum. The triple of s_n means that s_n = s_k + weight_j x_j. The sum s_0 is zero."""
+        """Triples (k, j, w). For n = 1, 2, ..., the n-th triple defines the partial sum s_n = s_k + w x_j,
+        where x is the vector, and s_0 is zero."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

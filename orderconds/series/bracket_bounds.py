@@ -24,16 +24,11 @@ The linear part of a bracket is defined in the same way. The linear part of each
 combination of the linear parts of the N brackets. Hence N is at least d.
 
 Improvement of the second bound: a Lie element in the old letters is a linear combination of old letters and
-of (nested) brackets of old letters. Let L be the space of the linear parts sum_n ad_(P_n) q_n in which every
-P_n is a Lie element in the old letters. Assume that d > 0, and that zero is the only common element of S and
-L. Consider the first of the N brackets that the program computes. Each factor of this bracket is a Lie
-element in the old letters plus a linear combination of new letters. Hence the linear part of this bracket is
-an element of L. If N were equal to d, the linear parts of the N brackets would be a basis of S, and the
-linear part of the first bracket would be a nonzero common element of S and L. Hence N is at least d + 1.
+of (nested) brackets of old letters. Let L be the space of all sums sum_n ad_(P_n) q_n with Lie elements P_n
+in the old letters. If d > 0, and if zero is the only common element of S and L, then N is at least d + 1.
 
-The arguments u_1, ..., u_m are computed from brackets without new letters. A lower bound for the number of
-these brackets plus a lower bound for N is a lower bound for the number of all brackets in a program for u_1,
-..., u_i.
+The brackets that the arguments u_1, ..., u_m require contain no new letters. Therefore the lower bound for
+u_1, ..., u_m can be added to the lower bound for N.
 """
 
 from __future__ import annotations
@@ -45,8 +40,8 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Write the linear part of x as ``sum_n ad_(P_n) q_n``, and return a map from n to P_n. The module
-    docstring defines the linear part and the polynomials P_n.
+    """Return a map from n to the polynomial P_n, where ``sum_n ad_(P_n) q_n`` is the linear part of x (see
+    the module docstring).
 
     The polynomial x must be a sum of letters and brackets. A word is a tuple of indices, and the index n
     denotes the letter q_n. The letters with n >= ``first`` are the new letters.
@@ -98,7 +93,6 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # Terms of grade ``algebra.largest`` affect the order of the method only in the last argument.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))
@@ -106,9 +100,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
-    """Return a lower bound for the number of brackets in every program that computes the elements of
-    ``span``. A bracket is counted only if it contains at least one letter with an index of at least
-    ``first``."""
+    """Return a lower bound for the number of brackets with new letters in every program that computes the
+    elements of ``span``. A letter is new if its index is at least ``first``."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)
