@@ -237,8 +237,8 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
         The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
-        velocity of each stage is a linear combination of letters. The letter x is added to the velocity of
-        stage ``stage``.
+        velocity of each stage is a linear combination of letters. The letter x denotes a
+        perturbation of the velocity of stage ``stage``.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -274,8 +274,8 @@ class CommutatorFreeFormula(ExponentialsFormula):
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
         The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
-        velocity of each stage is a linear combination of letters. The letter x is added to the velocity of
-        stage ``stage``.
+        velocity of each stage is a linear combination of letters. The letter x denotes a
+        perturbation of the velocity of stage ``stage``.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
