@@ -27,6 +27,10 @@ Improvement of the second bound: a Lie element in the old letters is a linear co
 of (nested) brackets of old letters. Let L be the space of all sums sum_n ad_(P_n) q_n with Lie elements P_n
 in the old letters. If d > 0, and if zero is the only common element of S and L, then N is at least d + 1.
 
+Proof: each factor of the first of the N brackets is a linear combination of new letters plus a Lie element in
+the old letters. Therefore the linear part of this bracket is in L. If N were d, the linear parts of the N
+brackets would be a basis of S. The linear part of the first bracket would be a nonzero element of S and of L.
+
 The brackets that the arguments u_1, ..., u_m require contain no new letters. Therefore the lower bound for
 u_1, ..., u_m can be added to the lower bound for N.
 """
