@@ -16,8 +16,8 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""A product of powers of variables, as sorted pairs (node number, exponent). Each variable is an expression.
-The node number is the ``id`` of this expression.
+"""A product of powers of expressions, as sorted pairs (node number, exponent). The node number is the ``id``
+of the expression.
 """
 
 Polynomial = dict[Monomial, Number]

@@ -70,8 +70,7 @@ class Operation(ABC):
     # Compiler passes use linearity to simplify programs, for example ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
     """True if the result is linear in the last argument."""
-    # The reported cost of a method consists of the evaluations of the vector field (or of the derivatives of
-    # the Hamiltonian) and of the exponentials.
+    # The reported cost has two parts: the exponentials, and the evaluations of the vector field.
     evaluates_scene: ClassVar[bool] = False
     """True if the operation counts as one evaluation of the vector field or of the derivatives of the
     Hamiltonian.
@@ -126,7 +125,7 @@ class Zero(Operation):
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if there are no arguments, and the only result has the kind ``kind``.
 
-        If ``kind`` has no zero vector, return False.
+        If ``kind`` is neither the Lie algebra nor its dual, return False.
         """
         # Groups and manifolds have no zero vector, so ``kind`` must be the algebra or its dual.
         return self.kind in LINEAR and super().accepts(arguments, results)

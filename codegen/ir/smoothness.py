@@ -33,7 +33,7 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
 
 
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
-    """Replace the calls ``nodes`` in ``roots`` by the formulas with the indices ``sides``.
+    """In the expressions ``roots``, replace each of the calls ``nodes`` by a formula.
 
     Each call in ``nodes`` is a call of ``choose``, ``fabs`` or a piecewise polynomial, and chooses one of
     several formulas. ``sides[k]`` is the index of the formula that replaces ``nodes[k]``. The result is a

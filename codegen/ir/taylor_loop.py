@@ -139,7 +139,10 @@ class _Loop:
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
-        """Return coefficient n >= 1 of ``root`` as an expression. For a constant series, return None."""
+        """Return the expression that computes coefficient n of ``root`` in pass n of the loop.
+
+        If ``root`` is constant, return None.
+        """
         # An explicit stack is used in place of recursion, because series may be nested deeply.
         waiting = [root]
         while waiting:

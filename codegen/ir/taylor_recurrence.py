@@ -315,8 +315,9 @@ class Recurrence:
         return [coordinate.terms for coordinate in self.coordinates]
 
     def following(self, n: int) -> list[Coefficient]:
-        """Return Taylor coefficient n + 1 of each coordinate. ``roots`` contains the derivatives of the
-        coordinates. All coefficients up to n must be known.
+        """Return Taylor coefficient n + 1 of each coordinate whose derivative was given to the constructor.
+
+        All coefficients up to n must be known.
         """
         factors: dict[object, Scalar] = {}
         new = []

@@ -123,7 +123,7 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
     step = _Builder(program, scene, scene.matrices).step()
     (block,) = scene.state
     n, k = scene.matrices.rows, scene.matrices.columns
-    about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, row by row"
+    about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, stored row by row"
     state = (StateBlock(block.name, block.symbols, about),)
     # The statements of the step compute the error estimate as an array, so ``Estimate`` contains no scalar
     # expressions. The caller replaces the order 0 by the order of the estimate.
@@ -216,7 +216,7 @@ class _Builder:
                 self.cores[target] = self.inverse(
                     target.name, self.cores[args[0]], self.cores[args[1]], order
                 )
-            # The group element exp(B S B^T) is represented by S, the core of the argument.
+            # An element of the algebra and its exponential are represented by the same matrix.
             case Exp():
                 self.cores[target] = self.cores[args[0]]
             case Act() | ActExp():

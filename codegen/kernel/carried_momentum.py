@@ -53,7 +53,7 @@ class Frames:
         return int(group.size)
 
     def begin(self, domain: ExprDomain, state: State) -> State:
-        """Return ``state`` with the momentum converted to the frame of ``self.program``."""
+        """Return ``state`` with the momentum in the frame that the program uses (space or body frame)."""
         if self._alike:
             return state
         q, mu = state[: self._size], state[self._size :]

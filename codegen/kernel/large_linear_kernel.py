@@ -251,7 +251,7 @@ class _Builder:
         return _Value(power, {}, {self.commutators.index(pair): Number.rational(1)})
 
     def inverse(self, x: _Value, y: _Value, order: int) -> _Value:
-        """Return the series of dexp^{-1}_x y without terms of more than ``order`` nested brackets."""
+        """Return dexp^{-1}_x y as a series with at most ``order`` nested brackets in each term."""
         terms, power = [(Coefficient(Number.rational(1)), y)], y
         for k in range(1, last_term(order) + 1):
             power = self.bracket(x, power)

@@ -272,7 +272,7 @@ class _Execution:
 
     def _exponential(self, x: _Element) -> _Map:
         assert x.is_zero or x.power == 1
-        # For z = h lambda, the exponential of x = h (a, b) maps u to exp(a z) u + h phi_1(a z) b.
+        # The module docstring contains the formula for the exponential.
         return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
 
     def _product(self, g: _Map, k: _Map) -> _Map:

@@ -154,7 +154,7 @@ class Outline:
             trees = [trees[t] for t in sorted(left)]
 
     def _read(self, roots: Sequence[Expr], trees: Sequence[Tree]) -> dict[int, set[int]]:
-        """Return, for each tree, the indices of the results that are read outside this tree."""
+        """For each tree, find the results of the tree that are read elsewhere, and return their indices."""
         ends: dict[int, tuple[int, int]] = {}
         for t, tree in enumerate(trees):
             for k, x in enumerate(self.trees.results(tree)):

@@ -41,7 +41,7 @@ class Execution:
     """One executed assignment with the values of its arguments and of its results.
 
     ``place`` is the number of the block that contains the assignment, or -1 outside blocks. If ``joined`` is
-    false, the assignment is never outlined.
+    false, no outlined function can contain the assignment.
     """
 
     assign: Assign
@@ -259,7 +259,7 @@ class Trees:
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
-            # ``Linear`` contains the values of coefficients. The key must not contain these values.
+            # Coefficients are arguments of the outlined function, so ``Linear`` is left out here.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
@@ -304,10 +304,7 @@ class Trees:
 
 
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
-    """Return a pair for each coefficient of a sum: a label and the power of h.
-
-    Equal coefficients have equal labels.
-    """
+    """Return a pair (label, k) for each coefficient c h^k. Equal coefficients have equal labels."""
     seen: dict[Coefficient, int] = {}
     # A coefficient 1 needs no product, and terms with equal coefficients need only one product.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)

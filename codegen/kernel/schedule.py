@@ -316,7 +316,7 @@ class _Scope:
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # For the sorted indices 1 and 2, the function ``stumpff_12`` is called.
+        # The indices are sorted, because they form names of functions such as ``stumpff_12``.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:

@@ -207,8 +207,8 @@ class Execution:
         kernel = self._scheduled(ends)
         # The sweep measures how much the unknowns change, so it reads their old values.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"} | set(unknowns)
-        # A ghost replaces the value of a neighbour outside the lattice. A ghost is computed only if
-        # ``kernel`` reads this value.
+        # A ghost replaces the value of a neighbour outside the lattice. Only the ghosts that ``kernel`` reads
+        # are computed.
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:

@@ -205,7 +205,7 @@ class _Translation:
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # The block is added after all calls of ``run``. ``run`` relies on this order.
+        # Until this line, ``run`` uses ``len(self.blocks)`` as the index of the new block.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:

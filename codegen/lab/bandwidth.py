@@ -248,8 +248,8 @@ class _Runs:
     def timed(self, side: int, steps: int, repeated: int = 1) -> tuple[Status, float]:
         """Return the status of a run, and the CPU time in seconds for one site and one step.
 
-        The time is the shortest time of ``repeated`` equal runs. If a run fails, the method returns the
-        status of this run and a meaningless CPU time.
+        The number of runs is ``repeated``, and the shortest time is returned. If a run fails, the method
+        returns the status of this run and a meaningless CPU time.
         """
         import numpy as np
 

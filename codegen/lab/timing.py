@@ -61,11 +61,12 @@ class Timing:
 
 
 def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
-    """Return the sorted mean CPU times of a call in several batches of calls, in seconds.
+    """For each of several batches of calls, return the mean CPU time of one call in seconds.
 
-    A batch contains enough calls to take ``batch`` seconds or longer. If the first batch takes longer than
-    :data:`LONG` seconds, at most :data:`FEWER` batches are timed. Otherwise the number of batches is
-    ``batches``. It is increased if the two least times differ too much (:data:`CONFIRMED`).
+    The times are in ascending order. A batch contains enough calls to take ``batch`` seconds or longer. If
+    the first batch takes longer than :data:`LONG` seconds, at most :data:`FEWER` batches are timed. Otherwise
+    the number of batches is ``batches``. It is increased if the two least times differ too much
+    (:data:`CONFIRMED`).
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:

@@ -47,7 +47,7 @@ def without_formulas(scene: Problem) -> Objection | None:
     # The families in the hint compute with whole matrices, so they need no formulas in coordinates.
     families = "magnus, cf_magnus or fer" if scene.linear else "rkmk, cf or cg"
     return Objection(
-        ", whose field is given by formulas with large matrices as operands",
+        ": the field is given by formulas with large matrices as operands",
         "a scene with formulas in coordinates",
         f"use {families}, or matrices with fewer rows",
     )

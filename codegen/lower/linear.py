@@ -45,7 +45,7 @@ class LinearLowering(FieldLowering):
             return None
         if scene.sites is not None:
             return Objection(
-                ", a lattice whose field depends on coordinates that change in time",
+                ": the field of the lattice depends on coordinates that change in time",
                 "a field that depends only on the time and on constant coordinates",
             )
         return Objection(

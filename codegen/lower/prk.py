@@ -44,7 +44,7 @@ class PartitionedLowering(Lowering):
         For all other scenes return None.
         """
         if not scene.is_hamiltonian:
-            return Objection(", whose state contains no momentum", "a Hamiltonian scene")
+            return Objection(": the state contains no momentum", "a Hamiltonian scene")
         if scene.group.abelian:
             return None
         hint = "use a variational method for Lie groups: vcg, vcf or vrkmk"

@@ -58,7 +58,7 @@ class SplittingLowering(FlowLowering):
             return pairs(parts.arranged, _as_pairs(steps)), self.family
         inexact = [part.name for part in parts.parts if not part.exact]
         raise MethodError(
-            f"the tableau is for {len(tableau.parts)} parts, but the scene has {len(chosen)}",
+            f"the tableau has {len(tableau.parts)} parts, but the scene has {len(chosen)} parts",
             where=parts.where,
             expected="a tableau with as many parts as the scene, or with two parts if the scene has more",
             hint=f"the terms of {', '.join(inexact)} count as separate parts of the scene" if inexact else "",

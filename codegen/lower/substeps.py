@@ -76,7 +76,7 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Return the common tableau of the substeps, and their lengths gamma_k in units of the step size.
+    """Return a common tableau and numbers gamma_k: substep k has this tableau and the length gamma_k h.
 
     The result is None if the step cannot be divided, or if the common tableau is explicit.
     """

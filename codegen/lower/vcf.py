@@ -167,7 +167,7 @@ def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
 def _weights(method: Method, update: Rows, s: int) -> list[Number]:
     """Return the weights b_i, the sums of the coefficients of xi_i in the update.
 
-    ZeroWeight is raised unless all weights are provably nonzero.
+    If a weight may be zero, ZeroWeight is raised.
     """
     b = []
     for i in range(s):

@@ -293,7 +293,7 @@ def static_coordinates(**options):
     ],
 )
 def test_methods_for_linear_equations_refuse_coupled_states_that_move(family, scene):
-    with pytest.raises(MethodError, match="a lattice whose field depends on coordinates that change in time"):
+    with pytest.raises(MethodError, match="field of the lattice depends on coordinates that change in time"):
         emit(scene(), LATTICE_CASES[family][0].method, target="c")
 
 

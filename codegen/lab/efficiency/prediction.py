@@ -49,17 +49,15 @@ For a series of runs with step-size control, the limit is PATIENCE/2.
 PARTS = 64
 """The number of equal intervals into which the time span is divided.
 
-If runs over the whole time span fail or have large errors, the interpreter makes runs over the first
-interval. The predicted error at the end of the time span is PARTS times the error at the end of the first
-interval.
+Some runs cover only the first interval. For these runs, the predicted error at the end of the time span is
+PARTS times the error at the end of the first interval.
 """
 
 TRIES = 3
 """If TRIES consecutive methods of one kind fail, fewer runs are made for this kind.
 
-A kind is a pair (family, explicit). After failures with equal steps, further runs with equal steps cover only
-the first interval of the time span (:data:`PARTS`). After failures with step-size control, step-size control
-is not used.
+A kind is a pair (family, explicit). After failures with equal steps, runs with equal steps over the whole
+time span are omitted. After failures with step-size control, step-size control is not used.
 """
 
 FEWEST_SWEEPS = 3

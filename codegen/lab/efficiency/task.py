@@ -1,4 +1,4 @@
-"""The task of a search for the fastest methods, and the functions for the worker processes of the search.
+"""The description of a search for the fastest methods, and functions that run in worker processes.
 
 The search compares recipes. A recipe consists of a method, one form of the equations, and the choice of equal
 steps or step-size control.
@@ -48,7 +48,7 @@ class Task:
         return _problem(self.scene, self.span)
 
     def first_part(self) -> Task:
-        """Return the task on the first interval of the time span (:data:`PARTS`)."""
+        """Return a copy of the task with a shorter time span. The length is divided by :data:`PARTS`."""
         first, last = self.problem().span
         return replace(self, span=(first, first + (last - first) / PARTS))
 

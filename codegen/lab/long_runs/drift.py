@@ -67,7 +67,8 @@ WALKING = (0.5, 1.6)
 
 The record of the deviations is cut into blocks. A line is fitted to the means of the deviations over the
 blocks. Let r_i be the residual for block i, which is the mean over block i minus the value of the line. V_k
-is the mean of (r_(i+k) - r_i)^2 over all i. For k = :data:`FAR`, only the lower limit is used.
+is the mean of (r_(i+k) - r_i)^2 over all i. Both limits are used for k = :data:`NEAR`. Only the lower limit
+is used for k = :data:`FAR`.
 """
 
 CONFINED = 0.04

@@ -1,8 +1,9 @@
 """The growth of rounding errors over many steps, with and without compensated summation.
 
-The deviation of an exactly conserved quantity shows how the rounding errors grow. If the rounding errors are
-independent, the deviation grows like the square root of the number of steps (Brouwer 1937). If the rounding
-errors are biased, the deviation grows in proportion to the number of steps.
+In exact arithmetic, the method conserves a quantity. Because of rounding errors, the computed quantity
+deviates from its initial value. If the rounding errors are independent, the deviation grows like the square
+root of the number of steps (Brouwer 1937). If the rounding errors are biased, the deviation grows in
+proportion to the number of steps.
 
 Let d(n) be the root mean square deviation of several runs after n steps. A power n^p is fitted to d(n). The
 confidence interval of the exponent comes from the jackknife method.

@@ -97,11 +97,6 @@ def _count(n: int) -> str:
 
 
 def _shown(runs: Sequence[LongRun]) -> list[str]:
-    """Return the names of the quantities with a diagram, in the order of the diagrams.
-
-    The quantities are the energy and the residual of the manifold equations. If there is no energy, the first
-    invariant replaces the energy.
-    """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]
     return [*shown, *([MANIFOLD] if MANIFOLD in names else [])]

@@ -104,20 +104,20 @@ class Refinement:
 
         Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). A
         number counts as equal to ``stated`` if the difference is at most :data:`TOLERANCE`. Otherwise, it is
-        above or below ``stated``.
+        above or below ``stated``. If s is at most the threshold :data:`ZERO`, the rules that contain s do not
+        apply.
 
         If there is no slope, the verdict is ``undecided``. If the slopes have settled (:attr:`settled`), the
         first rule that applies gives the verdict:
 
-        - ``fails`` if s is above :data:`ZERO` and below ``stated``,
+        - ``fails`` if s is below ``stated``,
         - ``holds`` if p equals ``stated``,
         - ``holds`` if s equals ``stated`` and p is above ``stated``,
         - ``undecided`` if s equals ``stated`` and p is below ``stated``,
         - ``fails`` in all other cases.
 
-        If the slopes have not settled, the verdict is ``undecided`` with one exception. The verdict is
-        ``holds`` under three conditions: :attr:`too_fine` is True, s equals ``stated``, and p is not below
-        ``stated``.
+        Suppose that the slopes have not settled. The verdict is ``holds`` if s equals ``stated``, p is not
+        below ``stated``, and :attr:`too_fine` is True. Otherwise, the verdict is ``undecided``.
         """
         if self.observed is None:
             return "undecided"

@@ -325,7 +325,7 @@ def test_what_cannot_be_split_is_told():
         "the part V has no exact flow: "
         "it is not a quadratic function of the momentum in the body or space frame" in message
     )
-    assert "the tableau is for 3 parts, but the scene has 2;" in refused(
+    assert "the tableau has 3 parts, but the scene has 2 parts;" in refused(
         SCENES["symmetric top"](), "splitting:strang3"
     )
     t = Symbol("t")
