@@ -159,7 +159,7 @@ class _Chains:
                 # For a square ``arg * arg``, ``others`` is empty.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # If ``linear`` is true, a sum of products for ``arg`` gives a sum of products for ``node``.
+                # A product can be expanded if its other factor has a lower level than ``arg``.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
@@ -168,7 +168,6 @@ class _Chains:
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return ``node`` as a :data:`Sum`. A factor f is late if ``self.level[f.id]`` is ``level``."""
         # The expression ``self.new[node.id]`` replaces ``node``. A sum stored in ``self.sums`` may contain
         # this expression. Later, a different expression may be assigned to ``self.new[node.id]``. After this
         # assignment, the stored sum must not be used. Therefore the key contains the id of
@@ -207,10 +206,6 @@ class _Chains:
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Combine two products c x and c y with the same late factor c into one product c (x + y).
-
-        The arguments and the result are values of a :data:`Sum`.
-        """
         x, y = self._product(*a[1:]), self._product(*b[1:])
         # The signs ``a[0]`` and ``b[0]`` are 1 or -1.
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)

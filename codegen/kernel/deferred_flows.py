@@ -68,7 +68,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # ``heads`` and ``tails`` are the indices of joined flows at the beginning and at the end of a step.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
-    # The previous step has already applied the flows in ``heads``, so the core omits them.
+    # The previous step has already applied the flows with the indices ``heads``.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
     # For a vector field X, one flow replaces n equal flows: exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
@@ -82,7 +82,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
 
 
 def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = AS_WRITTEN) -> Kernel:
-    """Return ``kernel`` with the kernels of the deferred flows added.
+    """Return a copy of ``kernel`` that also contains ``parted.begin`` and ``parted.finish``.
 
     ``kernel`` was compiled from the program ``parted.core``.
     """

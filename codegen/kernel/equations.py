@@ -21,10 +21,7 @@ from codegen.kernel import newton
 from codegen.passes.rewrite import uses
 
 MANY = 12
-"""The largest number of unknowns for which all products of sums in Newton's matrix are expanded.
-
-For vcf:cf4 on dipole (12 unknowns), the expansion increases the number of assignments from 439 to 472.
-"""
+"""The largest number of unknowns for which all products of sums in Newton's matrix are expanded."""
 
 LONGEST_MATRIX = 1500
 """The largest number of operations for the exact matrix of Newton's method. A matrix with more operations is
@@ -73,10 +70,10 @@ def compared(
     ``block`` and ``entered`` describe the same equations. The matrix is -r'(u), expanded to first order in h.
     The result is None if ``block`` has no residuals, or if the residuals cannot be expanded in h.
 
-    A sweep computes the values v(u) of the variables of ``block`` from the unknowns u. The last operation of
-    the sweep adds a change d to u. For some variables, v(u) + v'(u) d replaces v(u) in ``env``. The matrix
-    v'(u) is expanded to first order in h. The value v(u) is replaced only if v(u) is an element of a Lie
-    algebra or of the dual of a Lie algebra, and v'(u) d costs less than half as much as v(u).
+    The function also changes ``env``. A sweep computes values v(u), and then adds a change d to the unknowns
+    u. The sum v(u) + v'(u) d approximates v(u + d), where v'(u) is expanded to first order in h. The sum
+    replaces v(u) in ``env`` if v(u) costs more than twice as much as the sum. Only elements of a
+    Lie algebra or of its dual space are replaced.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:

@@ -78,8 +78,6 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
 
 
 class _AtZero(ExprDomain):
-    """An expression domain for h = 0."""
-
     def call(self, function: str, *args: Expr) -> Expr:
         """Return the value in :data:`AT_ZERO` if the first argument is zero, otherwise a call node."""
         # The closed forms of Stumpff functions are 0/0 at zero, so the values come from :data:`AT_ZERO`.

@@ -100,7 +100,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
         last = expansion.degree - 1
         each = operations(arrange(expansion.following))[STEP]
         total = _plus(total, {name: n * last for name, n in each.items()})
-        # For n = 1, ..., ``last``, a loop computes the sums a_1 b_(n-1) + ... + a_(n-1) b_1 of n - 1 terms.
+        # The loop runs over n = 1, ..., ``last``, and each sum has n - 1 terms.
         number += expansion.sums * (last * (last - 1) // 2)
     total = _plus(total, {"add": number, "mul": number})
     # ``enter`` and ``leave`` change the coordinates before and after the Taylor expansion.
@@ -110,10 +110,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 
 
 def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
-    """Return the operation counts for one site of a lattice.
-
-    The keys are the labels of the blocks, the keys of the Newton matrices, and ``step``.
-    """
+    """Return the operation counts for one site of a lattice."""
     parts = {STEP: step.unrepeated, **{block.label: step.repeated(block) for block in step.blocks}}
     counted: dict[str, dict[str, int]] = {}
     for key, sweeps in parts.items():
@@ -157,7 +154,7 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # The final momentum is mu + (b - a). The initial momentum is mu, and ``outward`` computes a and b.
+        # The end of a run needs two more additions for each component of the momentum.
         added = {"add": 2 * len(turned[1].outputs)}
         # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]

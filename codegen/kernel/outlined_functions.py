@@ -55,7 +55,7 @@ class _Inputs:
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
 ) -> tuple[Function, list[int], list[str]]:
-    """Return the outlined function for a tree, and two lists.
+    """Return a function that executes the assignments of ``tree``, and two lists.
 
     The first list contains the indices of the tree inputs that the function needs. The second list contains
     the names of the scene parameters that the function needs. The function returns result k of the tree if
@@ -90,7 +90,7 @@ def function(
             # In ``numbers``, the coefficients of this sum begin at the index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
-            # For a coefficient c = a h^p, the symbol or constant x represents the number a.
+            # ``x`` is the coefficient ``c`` without its power of h.
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [

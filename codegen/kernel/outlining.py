@@ -96,11 +96,7 @@ class Outline:
     def _called(
         self, roots: Sequence[Expr], chosen: Mapping[Shape, list[Tree]]
     ) -> tuple[list[Expr], dict[str, Shape]]:
-        """Create one function for each entry of ``chosen``.
-
-        Return the expressions ``roots`` with calls of these functions, and a dictionary that maps the name of
-        each function to its shape.
-        """
+        """Create one function for each entry of ``chosen``."""
         # Functions from an earlier call of this method are discarded.
         self.outlined.clear()
         calls: dict[int, tuple[str, int, list[Expr]]] = {}
@@ -126,7 +122,7 @@ class Outline:
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # After simplification, ``roots`` may not contain all arguments and results of assignments.
+        # Simplification can remove arguments and results of assignments from ``roots``.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
@@ -135,7 +131,6 @@ class Outline:
             self._level[node.id] = max([own, *(self._level[a.id] for a in node.args)])
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
-        """Return the list of trees to outline for each :data:`Shape`."""
         # Each removal of a tree may change ``read`` for the remaining trees.
         while True:
             read = self._read(roots, trees)

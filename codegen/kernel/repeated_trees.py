@@ -33,7 +33,7 @@ Key = Hashable
 """A description of a tree. Trees with equal keys can share one outlined function."""
 
 PairKey = tuple[Key, Key, Key]
-"""The keys of two trees, and the key of the tree with all assignments of the two trees."""
+"""The keys of two trees, and the key of the joined tree."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Execution:
 
     @property
     def may_join(self) -> bool:
-        """True if this assignment can be part of an outlined function."""
+        """True if a :class:`Tree` can contain this assignment."""
         return self.joined and not isinstance(self.assign.operation, NEVER)
 
 
@@ -180,7 +180,7 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # Trees with the key ``first`` or ``second`` that remain separate still need a function.
+        # If ``count`` exceeds ``k``, some trees are not joined and need their own function.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # Each joined pair saves a call, which is about three lines.
         return k * 3 - copies

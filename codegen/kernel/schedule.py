@@ -281,7 +281,8 @@ class _Scope:
     """Rewrites the expressions of one block of statements, for example the body of a loop.
 
     - ``known`` maps the id of each node to the expression that replaces the node.
-    - ``orders`` maps the id of x to the sorted indices k of all calls c_k(x) of Stumpff functions.
+    - ``orders`` maps the id of an argument to the sorted indices k of the Stumpff functions c_k with this
+      argument.
     - ``pending`` contains new statements, to be placed before the next statement.
     """
 

@@ -163,7 +163,7 @@ class Execution:
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
-        # Only at run time is it known which neighbours exist, so the flags of ``EXISTS`` remain symbols.
+        # The flags of ``EXISTS`` remain symbols, because their values are known only at run time.
         values |= {s: self.domain.space.sym(s) for s, x in self.loads.items() if x.row.array == EXISTS}
         for offset in range(len(self.sites.offsets)):
             # A ghost is a value that replaces the value of a neighbour outside the lattice.
@@ -186,7 +186,7 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # A symbol can have only one ghost, so a different ghost requires a new symbol.
+        # A symbol has only one entry in ``self.ghosts``, so a different entry requires a new symbol.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}

@@ -72,7 +72,7 @@ class Linearisation:
                 hint="use the option --solver fixed-point",
             )
         self.taken = {*self.problem.symbols, *self.problem.runtime, "h", TIME}
-        # The variables in ``inside`` are differentiated, so their values must not be read from memory.
+        # These variables depend on the unknowns, so ``value`` must return expressions in the unknowns.
         self.inside = {t for assign in solve.body for t in assign.targets}
         # ``images`` contains the expressions g(u) at one site.
         images = [x for v in solve.images for x in flatten(v.kind, self.value(v, OWN))]

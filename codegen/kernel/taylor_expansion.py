@@ -30,10 +30,7 @@ with unrolled code and 0.64 us with a loop. With 24 products, the step takes 1.5
 
 
 def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | None:
-    """Return the kernel that computes the Taylor coefficients in a loop, or None if unrolled code is used.
-
-    Unrolled code is used if it has at most UNROLLED operations, or if the state contains the body momentum.
-    """
+    """Return the kernel that computes the Taylor coefficients in a loop, or None if unrolled code is used."""
     if problem.body_group is not None:
         return None
     assert problem.evolution is not None

@@ -191,7 +191,7 @@ class _Translation:
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # ``_varied`` differentiates g(u) in u = g(u), but ``compared`` replaces g(u) by residuals.
+        # Variations need the values g(u), but ``compared`` replaces g(u) by residuals.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
         # The block ``residuals`` already contains Newton's matrix.

@@ -73,9 +73,8 @@ class Exhausted:
     def best(self, error: float) -> float:
         """Return the least measured CPU time in seconds for the required error ``error``.
 
-        The measurements of two searches are compared. ``known`` contains the CPU times from
-        ``orderconds recommend``, and ``results`` contains the runs of this exhaustive search. A run in
-        ``results`` counts only if the run reached the required error.
+        ``known`` contains the CPU times from ``orderconds recommend``, and ``results`` contains the runs of
+        this exhaustive search. A run in ``results`` counts only if the run reached the required error.
         """
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))

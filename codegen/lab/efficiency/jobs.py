@@ -43,7 +43,7 @@ The next recipe comes from the queue with the smallest value of (n + d)/EVEN + s
 """
 
 FAILED = 4.0
-"""If T1 is infinite, the slowness s of a queue is FAILED. :data:`EVEN` defines T1 and s."""
+"""The slowness of a queue (:data:`EVEN`) if all predicted CPU times for its kind are infinite."""
 
 
 def usual_order(error: float) -> float:
@@ -176,10 +176,7 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
-        """Return a :class:`Bar` with the limits on the error and the CPU time of ``recipe`` for ``goal``.
-
-        To save time, the bar is updated only after several new predictions (:data:`FRESH`).
-        """
+        """To save time, the bar is updated only after several new predictions (:data:`FRESH`)."""
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)
         age, bar = self.bars.get(key, (0, None))

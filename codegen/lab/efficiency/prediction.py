@@ -41,7 +41,7 @@ A small error is assumed to be proportional to h^p, where h is the step size and
 """
 
 PATIENCE = 0.4
-"""The interpreter ends a series of runs with equal steps after PATIENCE seconds of CPU time.
+"""The time limit for a series of test runs with equal steps, in seconds of CPU time.
 
 For a series of runs with step-size control, the limit is PATIENCE/2.
 """
@@ -152,9 +152,9 @@ class Bar:
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
     - ``least``: triples (family, explicit, e) for :meth:`too_high`. Each triple describes either the explicit
-      methods of a family (``explicit`` is True) or the implicit methods (``explicit`` is False). For these
-      methods and the CPU time ``seconds``, :data:`FAR` defines the error e. The name '' represents
-      all families.
+      methods of a family (``explicit`` is True) or the implicit methods (``explicit`` is False). The number e
+      is the least predicted error that these methods reach in ``seconds`` seconds of CPU time. The orders of
+      these methods are given at :data:`FAR`. The name '' represents all families.
     - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
       this run.
     - ``explicit``: True if a recipe with an implicit method is not accepted.
@@ -175,11 +175,9 @@ class Bar:
         - The bar requires explicit methods, and the argument ``explicit`` is False.
         - The number e, defined below, exceeds :data:`FAR` times the attribute ``error`` of the bar.
 
-        The attribute ``least`` of the bar contains triples (family, explicit, e). In the third case, e is the
-        last entry of the triple whose first two entries are equal to the arguments ``family`` and
-        ``explicit``. If there is no such triple, e is the last entry of the triple whose first two entries
-        are '' and the argument ``explicit``. The empty name '' represents all families. If both triples are
-        missing, the third case does not occur.
+        The attribute ``least`` of the bar contains triples. The number e is the last entry of the triple
+        (``family``, ``explicit``, e). If this triple is missing, the triple ('', ``explicit``, e) is used.
+        The empty name '' represents all families. If both triples are missing, the third case does not occur.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True

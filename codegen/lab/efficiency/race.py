@@ -182,10 +182,10 @@ class Racer:
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the result for the fastest run that reaches an error.
 
-        A recipe is a method on one form of the equations, with equal steps or with step-size control. Another
-        recipe reaches ``error`` in ``best`` seconds of CPU time. After a run that takes much longer than
-        ``best``, no run with higher accuracy is made (:data:`PATIENT`). If the error is not reached, the
-        attribute ``reached`` of the result is False.
+        A recipe is a method on one form of the equations, with equal steps or with step-size control. The
+        argument ``best`` is the CPU time in seconds that another recipe needs for this error, or infinity.
+        After a run that takes much longer than ``best``, no run with higher accuracy is made
+        (:data:`PATIENT`). If the error is not reached, the attribute ``reached`` of the result is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
@@ -232,11 +232,7 @@ class Racer:
     def _at_rounding(self, values: list[float]) -> bool:
         """Return True if rounding errors probably prevent further convergence.
 
-        The errors ``values`` of all runs must meet three conditions:
-
-        - There are at least five runs.
-        - The smallest error, relative to the size of the state, is below 1e-9.
-        - The smallest error of the last three runs is more than half the smallest error of all earlier runs.
+        ``values`` contains the errors of successive runs.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
