@@ -262,7 +262,6 @@ def _unclaimed(
     """Return the error for a tableau without a claimed order in any family of ``readable``."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
-    # Without a claimed order, the parser cannot choose a cut-off.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order in these families: {family or ', '.join(families)}",

@@ -52,7 +52,7 @@ SUBSTEPS = 24
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number that :meth:`PiecewiseField.beyond` returns as the smoothness of a field."""
+"""The largest number of continuous derivatives that :meth:`PiecewiseField.beyond` returns."""
 
 
 @dataclass(frozen=True)
@@ -81,13 +81,12 @@ class PiecewiseField:
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
-        """Return two functions of (state, t). The first returns a smooth field, the second returns numbers.
+        """Return two functions of (state, t): a smooth vector field, and the margins of the selections.
 
         A selection is an operation with several cases. ``sides[k]`` is the case of the selection
         ``nodes[k]``. The smooth field is the right-hand side of the differential equation in which each
-        selection is replaced by the formula for its case. The numbers that the second function returns are
-        called margins. For example, the margin for the case x > 0 of abs(x) is x. While all cases in
-        ``sides`` apply, all margins are positive.
+        selection is replaced by the formula for its case. The margins are numbers. For example, the margin
+        for the case x > 0 of abs(x) is x. While all cases in ``sides`` apply, all margins are positive.
         """
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
@@ -195,7 +194,7 @@ class Sided:
         event.
 
         At an event, a margin is zero (:meth:`margins`). The result is the time and the state of the event, or
-        None if no event was found. After the result None, the caller must try a shorter step.
+        None if the caller must try a shorter step.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)

@@ -22,9 +22,9 @@ FEWER = 3
 LONG = 0.2
 
 LEAST_STEPS, RESOLVED = 200, 1e-4
-"""Runs that take less than RESOLVED seconds are extended to several time spans (:func:`spans`).
+"""A run that takes less than RESOLVED seconds is extended to several time spans (:func:`spans`).
 
-RESOLVED is about a hundred times the overhead of a call.
+The extended run has at most LEAST_STEPS steps. RESOLVED is about a hundred times the overhead of a call.
 """
 
 CONFIRMED, MOST = 0.03, 21
@@ -38,7 +38,6 @@ SHORT = 1e-3
 """A run shorter than SHORT seconds is measured again if its relative uncertainty exceeds RESOLUTION."""
 
 RESOLUTION = 0.1
-"""The largest accepted uncertainty of a time, relative to the time without the overhead."""
 
 AGAIN = 3
 """The largest number of repeated measurements of a run whose time is too uncertain."""

@@ -18,6 +18,6 @@ class FieldLowering(Lowering):
         """Return the scene as an equation y' = f(y).y, where f(y) is in the Lie algebra and acts on y."""
         # The derived scene is stored, because several methods may be used on one scene.
         if "field" not in scene.derived:
-            # ``with_field_by_parts`` comes first, because ``as_field`` merges the variables q and mu.
+            # ``with_field_by_parts`` needs the separate variables q and mu, which ``as_field`` merges.
             scene.derived["field"] = with_field_by_parts(scene).as_field()
         return scene.derived["field"]

@@ -271,7 +271,7 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # Every summand without t gives the same order of accuracy.
+        # The choice of the summand does not change the order of accuracy.
         if not summand.timed:
             return summand
     raise MethodError(

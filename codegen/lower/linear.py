@@ -69,7 +69,7 @@ class LinearLowering(FieldLowering):
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
         """Append the operations for tau(x).y to the program of ``stages``, and return the result.
 
-        Here tau is the map of the family from the algebra to the group, for example exp.
+        Here tau is a map from the Lie algebra to the group, for example exp.
         """
 
     def lower(self, problem: Problem, method: Method) -> Program:

@@ -27,9 +27,8 @@ A key contains the ring of the coefficients and the coefficients of the tableau 
 def bracket_program(method: Method) -> BracketProgram:
     """Return the brackets and exponents of the Runge-Kutta-Munthe-Kaas method ``rkmk:NAME``.
 
-    NAME is the name of the tableau. The label ``rkmk:NAME`` contains no cut-off for the series of dexp^{-1},
-    but the label ``rkmk(2):NAME`` contains the cut-off 2. The order of the method on a Lie group equals the
-    order of the Runge-Kutta method on R^n. The method uses as few brackets as possible.
+    NAME is the name of the tableau. The order of the method on a Lie group equals the order of the
+    Runge-Kutta method on R^n. The method uses as few brackets as possible.
 
     :class:`codegen.errors.MethodError` is raised for an implicit tableau, for coefficients that are known
     only as balls (enclosing intervals), and for a tableau whose order is too high for the search.

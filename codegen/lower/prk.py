@@ -163,7 +163,7 @@ def reads_position(scene: Problem) -> bool:
 
 
 def reads_momentum(scene: Problem) -> bool:
-    """Return True if the force n depends on the momentum."""
+    """Return True if the force in Hamilton's equations depends on the momentum."""
     return bool(_read(scene, True) & set(scene.state[1].symbols))
 
 

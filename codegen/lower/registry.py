@@ -61,8 +61,7 @@ def _built_in() -> tuple[type[Lowering], ...]:
 def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
     """Register the class ``lowering`` for its family, and return this class.
 
-    The argument ``family`` is a class with order conditions. If ``family`` is given, it is registered by
-    :func:`orderconds.families.register`.
+    If ``family`` is given, :func:`orderconds.families.register` registers ``family``, too.
 
     :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`. The error is
     also raised if another class is registered for the family.

@@ -83,11 +83,11 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # Objects of the class Number can be compared by ==, even if their values are intervals.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # The indices in ``cuts`` divide the stages into the smallest possible pieces. A group consists of
-    # ``wide`` successive pieces.
+    # The indices in ``cuts`` divide the stages into the smallest possible pieces.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # The loop begins with the smallest groups of stages. Smaller groups give more substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
+        # Groups of stages are separated at every ``wide``-th cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # A step with weights b_j advances the time by h sum_j b_j.

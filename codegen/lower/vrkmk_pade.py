@@ -9,8 +9,8 @@ the dual of the derivative of dexp_{(r),x} v with respect to x. The other equati
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-With Q_i = exp(X_i) q0 and the Lagrangian l, these are Hamilton's equations for the discrete Lagrangian
-h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are v_i and M_i for all stages i. The series
+The method is the variational integrator with the discrete Lagrangian h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i),
+where l is the Lagrangian and Q_i = exp(X_i) q0. The unknowns are v_i and M_i for all stages i. The series
 dexp_{(r),X_i} v_i and dexp*_{(r),X_i} M_i begin with v_i and M_i. For the fixed-point iteration, all other
 terms are moved to the right-hand side.
 """

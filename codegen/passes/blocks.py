@@ -1,8 +1,9 @@
 """Split each block of implicit equations into the strongly connected components of its dependency graph.
 
-The pass is exact. The nodes of the graph are the assignments of the block. The image of an unknown is the
-right-hand side of its fixed-point equation. Edges lead from each assignment to the assignments that read its
-result. If the result is the image of an unknown, edges also lead to the assignments that read the unknown.
+The split does not change the solution of the equations. The nodes of the graph are the assignments of the
+block. The image of an unknown is the right-hand side of its fixed-point equation. Edges lead from each
+assignment to the assignments that read its result. If the result is the image of an unknown, edges also lead
+to the assignments that read the unknown.
 
 A component without a cycle is moved out of the block.
 """

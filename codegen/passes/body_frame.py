@@ -157,12 +157,6 @@ class _Framing:
         self.build.body.append(assign)
 
     def _field(self, assign: Assign) -> None:
-        """Append the velocity and the force of a stage in the body frame at the start of the step.
-
-        Let q be the position at the start of the step, and let Q = q E be the position of the stage. Let M be
-        the momentum of the stage in the body frame at q. With P = Ad*_E M, the velocity is Ad_E W(Q, P), and
-        the force is Ad*_{E^-1} N(Q, P).
-        """
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])

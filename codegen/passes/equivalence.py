@@ -106,8 +106,8 @@ class _Bounded(PreciseDomain):
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return (converged, size of the change) for one fixed-point iteration from ``old`` to ``new``.
 
-        ``previous`` is the size of the previous change. NotConverged is raised if the change is at least
-        10^d in arithmetic with d decimal digits.
+        ``previous`` is the size of the previous change. If the change is at least 10^``digits``, the
+        iteration diverges and NotConverged is raised.
         """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
@@ -334,7 +334,6 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
 
 
 def _no_step(scene: Problem) -> SceneError:
-    """Return the error for a scene if no step of the method can be computed."""
     return SceneError(
         "no step of the method can be computed from the initial state, nor from a state nearby",
         where=scene.name,

@@ -40,11 +40,11 @@ def run(program: Program, scene: Problem) -> Program:
     # Testing whether flows commute takes time, so it is done only for programs that consist of flows.
     commute = commuting(scene)
     kept: list[Letter] = []
-    # Two flows of one part are joined if all flows between the two commute with this part.
+    # Each flow is joined with an earlier flow of the same part, if possible.
     for letter in letters:
         at = _before(kept, letter, commute)
         if at is not None:
-            # Flows of one part form a one-parameter group: exp(a X) exp(b X) = exp((a + b) X).
+            # The durations are added, because exp(a X) exp(b X) = exp((a + b) X).
             duration = letter.duration.value + kept.pop(at).duration.value
             letter = replace(letter, duration=Coefficient(duration, letter.duration.power))
         # A flow whose duration is provably zero is the identity, so it is dropped.

@@ -116,13 +116,7 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Append a sum that has one term for each entry of ``parts``.
-
-    Each entry of ``parts`` is a tuple (s, (y, W, v)). In this tuple, s is a rational number, y and v are
-    variables, and W is a function, given by its factors. Let F be the function whose factors are in ``word``.
-    Let c be the k-th coefficient of the sum ``total``. The k-th entry has the term c F(s ad_y) W(ad_y) v. The
-    result is the variable of the new sum.
-    """
+    """Apply the function with the factors ``word`` to each term of the sum ``total``, and add the results."""
     terms = []
     for scale, (y, inner, v) in parts:
         joined = simplified((*inner, *(f.scaled(scale) for f in word)))

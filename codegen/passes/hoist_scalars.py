@@ -23,13 +23,13 @@ consists of the pairs (k, c_k / c_m).
 
 
 def run(program: Program) -> Program:
-    """Return the program with numbers moved out of linear maps and with nested sums expanded.
+    """Move numbers out of linear maps, expand nested sums, and return the new program.
 
     If several sums of an implicit block contain multiples of one linear combination, this combination is
     computed once.
     """
     while True:
-        # Dead code is removed, because :func:`_flat` tests how often the program reads a sum.
+        # Dead code is removed, because :func:`_flat` would count the reads in dead code.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)

@@ -37,7 +37,8 @@ class Row:
 
     - ``control``: the requested tolerance or number of steps.
     - ``h``: the mean step size.
-    - ``seconds``: the mean CPU time of a run in the fastest of several batches.
+    - ``seconds``: the CPU time of a run. Each batch of runs gives a mean CPU time, and ``seconds`` is the
+      least of these means.
     - ``spread``: q/``seconds`` - 1, where q is the upper quartile of the mean CPU times of all batches.
     - ``evaluations``, ``exponentials``, ``iterations``: the numbers of field evaluations, group exponentials
       and iterations for implicit equations in the run, or None if they were not counted.
@@ -181,7 +182,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield the number 0."""
+        """Yield 0, the value of ``control`` in the row that reports the failure."""
         yield 0.0
 
     def prepare(self) -> None:

@@ -119,7 +119,7 @@ class Drift:
     - ``exponent``: the exponent p in a fit of t^p to the largest deviation up to the time t.
     - ``rounding``: the largest deviation that rounding errors can cause.
     - ``persists``: True if the means over consecutive sections of the record are monotone.
-    - ``later``: the growth factor that is defined at :data:`LATE`.
+    - ``later``: the largest deviation of the record, divided by the largest deviation in the first half.
     - ``ratios``: two variance ratios (:data:`WALKING`), both about 1 for a random walk.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
     - ``unlike_walk``: True if the scatter about a line is below :data:`STRAIGHT`, or if the steadiness is
@@ -213,8 +213,8 @@ def fit(
     - ``rounding``: the largest deviation that rounding errors can cause.
 
     If a sample is not finite, only the samples before this sample are used, and the attribute ``largest`` of
-    the result is infinite. If the deviation saturates (:data:`STAYS`) after at least :data:`FEWEST` samples,
-    only the samples before the saturation are used.
+    the result is infinite. If :func:`saturation` returns an index of at least :data:`FEWEST`, the fits use
+    only the samples before this index.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift
@@ -282,7 +282,6 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the scatter. See :data:`CONFINED` for degree 0, and :data:`STRAIGHT` for degree 1."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())

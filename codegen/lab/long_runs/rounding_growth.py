@@ -53,7 +53,7 @@ The change in a single step may be zero by chance.
 NEARLY = 1e-14
 """A bound for the relative change of a quantity in one step from a state with rounding errors.
 
-Such a state is not exactly on the manifold. Therefore NEARLY replaces :data:`EXACT`.
+Such a state is not exactly on the manifold. Therefore the bound is larger than :data:`EXACT`.
 """
 
 

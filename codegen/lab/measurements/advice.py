@@ -141,7 +141,7 @@ class Advice(Measurement[Recommendations]):
         if not choices:
             return ""
         return (
-            f"In CPU time, the fastest emitted method is {enumeration(choices[:: max(1, len(choices) - 1)])}."
+            f"Emitted code needs the least CPU time with {enumeration(choices[:: max(1, len(choices) - 1)])}."
         )
 
     def section(self, result: Recommendations, subject: Subject) -> Section:

@@ -55,7 +55,7 @@ class Figures(Measurement[Results]):
 
     name = "figures"
     title = "Figures"
-    about = "the figures that the file of the scene declares, drawn from emitted code"
+    about = "the figures that the file of the scene declares, computed with emitted code"
 
     def run(self, subject: Subject) -> Results:
         """Draw every figure."""

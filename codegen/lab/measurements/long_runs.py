@@ -124,7 +124,6 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
 
 
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
-    """Return points (t, d), where d is the largest deviation of the quantity ``name`` up to the time t."""
     for kept in run.kept:
         if kept.name != name:
             continue

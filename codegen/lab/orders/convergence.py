@@ -57,8 +57,8 @@ class Convergence:
     def observed(self) -> float | None:
         """The observed order, or None if fewer than two runs are usable.
 
-        If :attr:`limit` is below the stated order, the observed order is the slope between the first and the
-        last usable run. Otherwise, the observed order is the last slope.
+        The observed order is usually the last slope. If kinks make :attr:`limit` smaller than the stated
+        order, the slope between the first and the last usable run is used instead.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:

@@ -39,7 +39,7 @@ class RingDomain(Domain):
     def number(self, value: Number) -> Element:
         """Return a number as an element of the ring.
 
-        Raises TypeError if the number does not belong to the ring and is not rational.
+        A number from another ring must be rational. Otherwise TypeError is raised.
         """
         if value.ring is self.ring:
             return value.element

@@ -156,8 +156,8 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
 
     No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as
     :attr:`Refinement.settled` is True. A run is excluded if the run fails, or if the error of the run is too
-    small to be measured. Let R be the first run that is not excluded. The doubling ends at the first run
-    after R whose error is too small to be measured.
+    small to be measured. The doubling ends when an error is too small to be measured, provided that an
+    earlier run is not excluded.
 
     The usable runs are the runs in :attr:`Refinement.clean`. After the doubling, the function adds runs if
     all of the following three conditions hold: the slopes have not settled, the last run is excluded, and at

@@ -259,10 +259,6 @@ def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
 
 
 def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> list[Point]:
-    """Return points at about equal distances on the contour with the polylines ``segments``.
-
-    The points are moved along the contour by ``shift`` (from 0 to 1) times the distance of two neighbours.
-    """
     points: list[Point] = []
     for segment in segments:
         line = [(float(x), float(y)) for x, y in segment]

@@ -165,7 +165,6 @@ def _fixed(figure: Motion, sheet: _Sheet) -> Iterator[str]:
 
 
 def _line(bar: tuple[numpy.ndarray, numpy.ndarray], k: int) -> str:
-    """Return SVG path data for a bar at the time with the index ``k``."""
     return _curve(numpy.array([bar[0][:, k], bar[1][:, k]]).T)
 
 

@@ -15,9 +15,9 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The approximate limit on the CPU time of all steps forward in time, in seconds.
+"""The steps forward in a run take at most about SECONDS seconds of CPU time.
 
-If the steps forward would take longer than the limit, the number of steps is reduced.
+If the steps forward would take longer, the number of steps is reduced.
 """
 
 TRIAL = 1000

@@ -96,8 +96,8 @@ class Answer:
 
     ``verdict`` is ``accurate``, or a text that begins with ``status``, ``undetermined`` or ``WRONG``.
     ``error`` is the largest relative error of a component (for example a momentum) of the state.
-    The steps with simulated rounding errors agree with the exact result to about ``determined`` decimal
-    digits. If the result is not compared with an exact result, ``error`` and ``determined`` are None.
+    Rounding in double precision leaves about ``determined`` correct decimal digits in the result of the step.
+    If the result is not compared with an exact result, ``error`` and ``determined`` are None.
     """
 
     case: Case
