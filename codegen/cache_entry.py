@@ -155,7 +155,7 @@ def working_directory(folder: Path) -> Iterator[Path]:
 
 
 def _sweep(folder: Path) -> None:
-    """Remove the temporary files and working folders that killed processes left in the cache."""
+    """Remove the temporary files and working folders of killed processes."""
     for path in folder.iterdir():
         with suppress(OSError):
             if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:

@@ -46,8 +46,8 @@ State = tuple[Scalar, ...]
 def order_of_estimate(method: Method, scene: Problem) -> int:
     """Return the order p of the error estimate of a method. For the step size h, the estimate is O(h^p).
 
-    :class:`MethodError` is raised if there is no embedded method, or if the estimate is blind on this scene
-    (:func:`is_blind`).
+    :class:`MethodError` is raised if there is no embedded method, or if the estimate is too small on this
+    scene (:func:`is_blind`).
     """
     embedded = method.embedded()
     if embedded is None:

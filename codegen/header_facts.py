@@ -165,7 +165,7 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
         lines.append(f"arguments for constant parameters: {', '.join(folded)}")
     closed = [name for name in scene.signals if name not in scene.inputs]
     if closed:
-        lines.append(f"inputs for {', '.join(closed)} are not needed: the scene contains formulas")
+        lines.append(f"inputs for {', '.join(closed)} are not needed: the scene contains their formulas")
     if TIME not in kernel.used_scalars():
         lines.append("the time is not needed: no formula depends on the time")
     if not any(isinstance(s, Loop) for s in kernel.body):

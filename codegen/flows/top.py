@@ -100,10 +100,7 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Return rotations (:class:`Turn`) with the total Hamiltonian H + w.P.
-
-    H is the total Hamiltonian of ``turns``, and P is the momentum.
-    """
+    """Add w.P to the sum of the Hamiltonians of ``turns``, where P is the momentum (:class:`Turn`)."""
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)
         ratio = w[i] / turn.axis[i]

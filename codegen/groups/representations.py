@@ -138,8 +138,7 @@ class Representation(ABC):
 class AlgebraVectors(Representation):
     """One or more copies of the Lie algebra. The group acts on each copy by Ad.
 
-    For this representation, x.v is the bracket [x, v]. Let e be a symbol with e^2 = 0. The bracket of two
-    pairs (x, u) and (y, w) is computed as [x + u e, y + w e] with dual numbers.
+    For this representation, x.v is the bracket [x, v].
     """
 
     of_algebra = True

@@ -98,7 +98,6 @@ class Semidirect(
         return (tuple(v[i : i + self.width]) for i in range(0, len(v), self.width))
 
     def _each(self, operation: Callable[..., Vector[S]], *vectors: Vector[S]) -> Vector[S]:
-        """Split ``vectors`` with :meth:`_copies`, apply ``operation`` to each copy, and join the results."""
         rows = zip(*map(self._copies, vectors), strict=True)
         return tuple(chain.from_iterable(operation(*row) for row in rows))
 
@@ -286,9 +285,9 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        Let exp(x) = (exp y, t), and let J be the momentum map. The result is
-        (dexp*_y (m - J(t, p)) + D_y <p, t>, D_u <p, t>). Here D_y and D_u denote gradients with respect to y
-        and u.
+        The vector t = t(y, u) is defined by exp(x) = (exp y, t). Let J be the momentum map. The result is
+        (dexp*_y (m - J(t, p)) + D_y <p, t>, D_u <p, t>). The gradients D_y and D_u are partial derivatives of
+        <p, t(y, u)> for fixed p.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -310,9 +309,7 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # The argument v is a pair (w, ``vectors``). If ``dual`` is true, ``first`` is the sum of ``head``
-            # over all passes of the loop. The vector w must contribute only once to this sum. Therefore, if
-            # ``dual`` is true, ``own`` is w in the first pass and zero in all later passes.
+            # If ``dual`` is true, the loop adds the results ``head``, so w is used only once.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -446,7 +443,7 @@ class Semidirect(
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return (s, a) for q = (r, a). The covering map of the linear factor maps r to s."""
+        """Return (s, a) for q = (r, a), where the covering map of the linear factor maps r to s."""
         g, a = self._over(q)
         return self._covered().covering(d, g) + a
 

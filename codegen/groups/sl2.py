@@ -1,4 +1,4 @@
-"""SL(2): real 2 x 2 matrices of determinant 1, with its exponential in closed form."""
+"""The group SL(2) of real 2 x 2 matrices with determinant 1."""
 
 from __future__ import annotations
 

@@ -135,11 +135,10 @@ def _valued(
         yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
         return
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
-    # ``kept`` maps each symbol to itself. Below, numbers replace only the symbols ``ROW`` and ``COLUMN``.
+    # ``evaluate`` needs a value for each symbol, so each symbol is mapped to itself.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # A formula may compare indices. Numbers can be compared, but the scalars of ``domain`` cannot always
-        # be compared.
+        # A formula may compare indices, so numbers replace the indices first.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]

@@ -51,7 +51,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
 
 def _bare(node: Expr) -> Expr:
     """Return a node without its minus signs and its numeric factors: x for -(3 x)."""
-    # ``Space.mul`` makes a constant the first factor of a product.
+    # In a product with a constant, ``Space.mul`` puts the constant first.
     while node.op == "neg" or (node.op == "mul" and node.args[0].op == "const"):
         node = node.args[-1]
     return node
@@ -95,8 +95,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
     """Return True if a node equals c y^n with a number c and y = 1/sqrt x.
 
-    ``inside`` contains the pair (node number of y, n) for each argument c y^n of the node. Two arguments may
-    have different y.
+    ``inside`` contains one pair (node number of y, n) for each argument of the same form.
     """
     # The first argument may be a number.
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
@@ -178,7 +177,7 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # An atom must not be a linear combination, so it is made without simplification.
+        # A simplified atom could be a linear combination, so ``space._make`` is used.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 

@@ -148,7 +148,7 @@ def _selection(node: Expr) -> list[Expr]:
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # The chain rule ignores the derivative with respect to a constant, so 0 replaces it.
+    # The derivative with respect to a constant argument is never used and set to 0.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     # For x != 0, a small change of x does not change the selected formula.

@@ -491,5 +491,5 @@ class ExprDomain:
         return self.samples[t.id][1]
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Raise :class:`NotConverged` in every call."""
+        """Raise :class:`NotConverged`, because expressions cannot be compared."""
         raise NotConverged("the values of an iteration are expressions, so they cannot be compared")

@@ -44,8 +44,9 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
 
 
 class _Graph:
-    """The graph of the expressions. Both ``before[v][u]`` and ``after[u][v]`` contain the label of the edge
-    from u to v.
+    """The graph of the expressions. An edge from u to v means that v depends directly on u. Both
+    ``before[v][u]`` and ``after[u][v]`` contain the label of this edge: the partial derivative of v with
+    respect to u.
 
     The vertex -1 - i is the result i. Every other vertex u is the expression with ``id`` u.
     """

@@ -101,7 +101,7 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """If ``residuals`` is true, the number of steps between two inversions of the matrix, otherwise 0."""
+        """The number of steps for which one inverse of ``matrix`` is used, or 0 if ``residuals`` is false."""
         # The inversion of an n x n matrix costs O(n^3) operations. If one inversion serves n/2 steps of the
         # integrator, the cost of inversions is only O(n^2) operations in each step.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
@@ -155,9 +155,7 @@ class Loop:
     @property
     def close(self) -> float:
         """The factor ``close`` in the second case of the stopping rule (see :class:`Loop`)."""
-        # If ``only_unknowns_read`` is true, the code after the loop reads the unknowns, but not the values of
-        # ``body``. The error of the unknowns is smaller than the last change of the unknowns. For this
-        # reason, the result is larger than ``tolerance``.
+        # Only the unknowns are read later, and their error is smaller than their last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         # If Newton's matrix is expanded to first order in h, convergence is slower and the factor is larger.
@@ -195,7 +193,7 @@ class Start:
     ROUGH: ClassVar[float] = 0.5
     # Successful continuations need far fewer than 100 attempts.
     TRIES: ClassVar[int] = 100
-    # With a smaller growth factor, the step size would hardly grow.
+    # With a growth factor below 1 + ``SHORTEST``, the step size would hardly grow.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -294,8 +292,8 @@ class Expansion:
     of the kernel ``coefficients``. The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
-    ``sums`` is the number of inner sums, one for each product. The kernel ``following`` has these outputs, in
-    this order:
+    ``sums`` is the number of inner sums, one for each product. In pass n, the loop computes the inner sums.
+    Then the loop executes the kernel ``following``, which has these outputs, in this order:
     - a_n for each product,
     - b_n for each product,
     - the Taylor coefficients of order n + 1.

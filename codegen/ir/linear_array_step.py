@@ -78,8 +78,8 @@ class TimeMatrix:
 class Element:
     """A linear combination of matrices h A(t_i) and of commutators, for example an exponent.
 
-    ``letter`` is an index in :attr:`LinearArrayStep.letters`. If the element contains only commutators,
-    ``letter`` is None. ``commutators`` contains pairs of a coefficient and an index in
+    The part without commutators is ``LinearArrayStep.letters[letter]``. If the element contains only
+    commutators, ``letter`` is None. ``commutators`` contains pairs of a coefficient and an index in
     :attr:`LinearArrayStep.commutators`.
     """
 

@@ -149,7 +149,7 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
         k = 4 * group
         if group < groups - 1:
             total = product(n, level, total, b4)
-        # The terms of low degree, the largest terms, are added last to reduce rounding errors.
+        # Adding the largest terms last reduces rounding errors.
         terms = zip(total, b3, b2, b1, strict=True)
         total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
         for i in range(n):

@@ -83,7 +83,7 @@ class BilinearFunction(VectorFunction):
         return self.arithmetic(args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the entries of f(a, b) for matrices of mpmath numbers."""
+        """Return the entries of f(a, b), where f is this function and ``args`` are mpmath numbers."""
         return self.arithmetic(args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:

@@ -85,7 +85,7 @@ class Multiplier:
             # At 0, POWER has the value 0, EXP has the value 1, and PHI and BERNOULLI have the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # All multiples of z must have the same monomial, so ``scale`` is the coefficient.
+            # The coefficient contains ``scale``, so that sums of multiples of z can be simplified.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -240,8 +240,8 @@ class ModeStep:
     - ``nonlinearity`` is the nonlinear part N.
     - ``wave`` is the name of the symbol for the wave number.
     - ``space`` is the name of the symbol for x.
-    - ``symbol`` computes the eigenvalue lambda of L from the wave number. The outputs are the real part and,
-      if L may have eigenvalues that are not real, the imaginary part.
+    - ``symbol`` computes an eigenvalue of the linear operator L from the wave number. The outputs are the
+      real part and, if L may have eigenvalues that are not real, the imaginary part.
     - ``length`` computes the length of the periodic interval.
     - ``initial`` computes the initial state at the point x.
     """
@@ -271,7 +271,7 @@ class ModeStep:
 
     @property
     def factors(self) -> tuple[Factor, ...]:
-        """All different factors of the coefficients, sorted by :attr:`Factor.order`."""
+        """The factors of all coefficients, without repetitions, sorted by :attr:`Factor.order`."""
         factors = dict.fromkeys(f for table in self.tables for f in table.multiplier.factors)
         # Sorting makes the result independent of the order of the coefficients in ``tables``.
         return tuple(sorted(factors, key=lambda f: f.order))

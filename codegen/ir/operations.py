@@ -36,7 +36,7 @@ class Problem(Protocol):
     """
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of the function ``name`` of the group, of its action or of the scene.
+        """Return the results of the function ``name`` for the arguments ``args``.
 
         ``order`` is the order of truncation (for dexp^{-1} and its derivative), the degree of a Taylor
         polynomial, or None.

@@ -113,7 +113,7 @@ class Energy(OfGroup):
 
 @dataclass(frozen=True)
 class Differential(OfGroup):
-    """The differential of the energy H at y, a covector.
+    """The covector dH(y), the differential of the energy H at the point y.
 
     The pairing of this covector with an element e of the Lie algebra is d/deps H(exp(eps e).y) at eps = 0.
     """

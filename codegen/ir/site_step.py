@@ -66,12 +66,12 @@ class Sweep:
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
     - ``outside`` is a kernel for sites at the boundary of the lattice, or None. If a load refers to a
-      neighbour that does not exist, an output of ``outside`` is the value of the load. The kernel ``outside``
-      has one output for each load in the property ``read_outside``, in this order.
+      neighbour that does not exist, ``outside`` computes the value of the load. The kernel ``outside`` has
+      one output for each load in the property ``read_outside``, in this order.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
-      single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, ``neighbour`` numbers the two sites of a
-      pair: :data:`OWN` denotes the first site of the pair, and 0 denotes the second site of the pair. The
-      second half of ``stores`` contains the rows for the second site.
+      single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, :attr:`Load.neighbour` is
+      :data:`OWN` for the first site of a pair and 0 for the second site. The second half of ``stores``
+      contains the rows for the second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
       values g(u). In fixed-point iteration, the sweep stores g(u). In Newton's method, the sweep stores
       the difference g(u) - u.
@@ -154,7 +154,7 @@ class SiteNewton:
         # The matrix of a periodic chain is not block-tridiagonal, because the last site is a neighbour of the
         # first site.
         if periodic:
-            # Each of the n columns for the last site is an additional right-hand side.
+            # The block-tridiagonal system is solved for each of the n columns of the last site.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written
@@ -221,7 +221,8 @@ class SiteStep:
 
     - ``dimension`` is the dimension of the lattice. ``offsets[k]`` is the position of neighbour k relative to
       a site.
-    - ``sweeps`` are the loops over all sites. Without ``flows``, they are executed in this order.
+    - ``sweeps`` are the loops over all sites. If ``flows`` is empty, the step executes the sweeps in the
+      order of the tuple.
     - ``size`` is the number of rows of the state.
     - ``rows`` is the number of rows of the workspace for intermediate results.
     - ``flows`` are the exact flows of a splitting method, in the order of execution. The first flow reads the

@@ -92,7 +92,10 @@ class PiecewisePolynomial(str):
         return self.on_interval(domain, x, first)
 
     def on_interval(self, domain: Domain, x: Scalar, place: int) -> Scalar:
-        """Return the value at x of the polynomial of interval ``place``. x may be outside this interval."""
+        """Return p(x), where p is the polynomial for the interval with the index ``place``.
+
+        The number x may be outside this interval.
+        """
         *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[place])
         # Horner's rule begins with the leading coefficient.
         step = x - domain.rational(*self.bases[place].as_integer_ratio())

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 class VectorFunction(ABC):
     """A function whose arguments are arrays of scalars, and whose result is an array of ``size`` scalars.
 
-    A matrix is stored row by row in its array. The attribute ``n`` is the number of rows.
+    An array may contain the entries of a matrix, row by row. The attribute ``n`` is the number of rows of
+    this matrix.
     """
 
     n: int
@@ -59,9 +60,9 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return scalar formulas for the results of a call with the arguments ``args``.
+        """Return scalar formulas that replace a call with the arguments ``args``.
 
-        The result is None if emitted code should call the vector function.
+        If emitted code must contain the call, return None.
         """
 
     @abstractmethod

@@ -301,9 +301,7 @@ class _Builder:
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
-        # The statements above write ``displacement`` to parts of ``core`` that overlap ``below`` and
-        # ``right``. Therefore the unit matrix is added to ``below``, and subtracted from ``right``, after
-        # these statements.
+        # The statements above would overwrite a unit matrix that was added earlier.
         self.body += [AddUnit(below, 1), AddUnit(right, -1)]
         return core
 

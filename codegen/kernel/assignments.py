@@ -130,8 +130,7 @@ class Assignments:
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("the initial guess of an iteration depends on unknowns")
         for node in walk(values):
-            # Subexpressions in ``later`` are assigned before the start statement, because a warm start skips
-            # the start statement.
+            # A warm start skips the statement ``Start``, but later statements read these subexpressions.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []

@@ -83,7 +83,7 @@ def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteF
     sites, size = scene.sites, len(scene.symbols)
     # No flow stores intermediate values, so the workspace has no rows.
     step = SiteStep(sites.dimension, sites.offsets, sites.periodic, tuple(sweeps), size, 0, tuple(flows))
-    about = "coordinates of each site; coordinate k is stored in row k of the state array"
+    about = "coordinates of each site; row k of a state array contains coordinate k of all sites"
     name = "y" if scene.paired else scene.state[0].name
     state = (StateBlock(name, scene.symbols, about),)
     return Kernel(label, state, (TIME, "h", *scene.runtime), (), (), sites=step)

@@ -64,7 +64,7 @@ class Frames:
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Return ``new`` with the momentum converted to the frame of ``state``.
+        """Return ``new`` with the momentum in the frame that ``state`` uses (space or body frame).
 
         ``state`` is the state before the step. ``start`` is the result of :meth:`begin` for this state.
         ``new`` is the state after the step, with the momentum in the frame of the program.

@@ -110,7 +110,7 @@ def _kernel(program: Program, problem: Problem, step: SiteStep) -> Kernel:
     assert problem.sites is not None
     # The sweeps read the states of neighbours from arrays, so these states are not arguments of the step.
     known = tuple(s for s in problem.runtime if s not in problem.sites.names)
-    about = "coordinates of each site; coordinate k is stored in row k of the state array"
+    about = "coordinates of each site; row k of a state array contains coordinate k of all sites"
     name = "y" if problem.paired else problem.state[0].name
     state = (StateBlock(name, problem.symbols, about),)
     return Kernel(program.name, state, (TIME, "h", *known), (), (), sites=step)

@@ -119,7 +119,7 @@ def test_the_times_at_which_inputs_are_read_are_in_the_head():
 def test_some_inputs_and_the_formulas_of_the_others():
     emission = emitted("cf:cf4", "c", ("u2", "u0"))
     assert emission.manifest["interface"]["inputs"] == ["u2", "u0"]
-    assert "inputs for u1 are not needed: the scene contains formulas" in emission.manifest["left_out"]
+    assert "inputs for u1 are not needed: the scene contains their formulas" in emission.manifest["left_out"]
     assert "--input u2 --input u0" in emission.manifest["command"]
     start = emission.manifest["initial"]
     both = load(emission).run(start, 0.1, 5, inputs=lambda t: torques(t)[::-2])
@@ -169,7 +169,7 @@ def test_without_inputs_a_module_knows_nothing_of_them():
     for target in ("c", "python"):
         text = "".join(emitted("rkmk:rk4", target, ()).files.values())
         assert "inputs" not in text.replace(
-            "inputs for u0, u1, u2 are not needed: the scene contains formulas", ""
+            "inputs for u0, u1, u2 are not needed: the scene contains their formulas", ""
         )
         assert "context" not in text
 
