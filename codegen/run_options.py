@@ -36,8 +36,8 @@ def extension_of(method: Method, scene: Problem) -> Continuous:
             f"{method.label} has no continuous extension",
             where=scene.name,
             expected='the family rk or rkmk(r), and an explicit tableau that has the key "dense"',
-            hint="to find an extension, run: orderconds extend TABLEAU; or use --integrate, which reaches "
-            "output times by shorter steps",
+            hint="to find an extension, run: orderconds extend TABLEAU; or use --integrate, which "
+            "computes the state at each output time by a separate step",
         )
     order = min(computed.order, certified_order(method, scene).order)
     return continuous(program, problem, order)

@@ -1,8 +1,8 @@
 """The Legendre transform: compute the momentum of a stage from the velocity.
 
 The pass is exact. Let P be the momentum of a stage. The velocity must be w = W P with a constant invertible
-matrix W. A block of implicit equations computes an unknown v of the stage in three steps:
-1. Invertible linear maps compute P from another momentum M.
+matrix W. A block of implicit equations computes an unknown v of the stage from a momentum M in three steps:
+1. Invertible linear maps compute P from M.
 2. The velocity is w = W P.
 3. Further invertible linear maps compute v from w.
 
@@ -188,9 +188,9 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if ``route.inward`` is a single map Ad*_{exp x} and its argument is a sum of certain terms.
+    """Return True if ``route.inward`` is one map Ad*_{exp x}, applied to a sum of terms f(ad*_y) v.
 
-    Each term must be f(ad*_y) v with a function f, where x = s y for a rational number s.
+    The terms can differ in f, y and v. For each y, a rational number s with x = s y must exist.
     """
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
@@ -207,7 +207,7 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return ``block`` with assignments that compute ``route.base`` from ``route.unknown``."""
+    """Return ``block`` with additional assignments, which compute ``route.base`` from ``route.unknown``."""
     # A later pass removes the new variables that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()

@@ -20,10 +20,10 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return a tuple with one line of text.
+    """Return a tuple with at most one line of text.
 
-    The line lists the run-time inputs and the times at which the inputs are evaluated. If the kernel has no
-    inputs, the tuple is empty.
+    If the kernel has run-time inputs, the line lists the inputs and the times at which the inputs are
+    evaluated. If the kernel has no inputs, the tuple is empty.
     """
     if not kernel.inputs:
         return ()

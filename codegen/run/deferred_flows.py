@@ -214,7 +214,7 @@ class _Deferring:
         return Function("run", "", run_parameters(plan), body, Kind.STATUS, public=True)
 
     def attempt(self) -> tuple[Statement, ...]:
-        """Return the statements of one attempt to make all steps."""
+        """Return the statements that make the steps of a run, but stop if a tested state is not finite."""
         state = self.plan.state()
         failed = (
             # If ``careful`` is True, this attempt has tested the state after every step. DONE is the number
@@ -230,7 +230,7 @@ class _Deferring:
             *begun,
             *Rows(self.plan).begin(state),
             Assign(self.moving, state),
-            # ``complete`` is the last finite state to which all deferred flows have been applied.
+            # ``complete`` is the last state that passed the test for infinities and NaNs.
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),

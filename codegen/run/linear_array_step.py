@@ -162,7 +162,8 @@ class _Step:
     def element(self, element: Element, done: set[int]) -> Function:
         """Return the function that computes result = X x, where the matrix X is ``element``.
 
-        If the function of an element e exists, ``done`` contains ``id(e)``. The method adds ``id(element)``.
+        If the function of an element e exists, ``done`` contains ``id(e)``. ``id(element)`` is added to
+        ``done``.
         """
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))

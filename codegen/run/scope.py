@@ -5,8 +5,8 @@ exception. Suppose that the variable is used only inside several separate inner 
 inner blocks assigns the variable before reading it. Then each of these inner blocks declares the variable.
 
 Let S be the first statement of the block that mentions the variable. If S assigns only this variable and does
-not read it, S also declares it, as in ``double x = 1.0;``. If then no other statement of the block assigns
-the variable, the variable is constant.
+not read it, S also declares it, as in ``double x = 1.0;``. If moreover no other statement of the block
+assigns the variable, S declares a constant, as in ``const double x = 1.0;``.
 """
 
 from __future__ import annotations

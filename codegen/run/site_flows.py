@@ -102,7 +102,7 @@ class _Kick:
         # In the kernel of a kick, the symbol h denotes the duration of the kick.
         given = {STEP.text: duration, TIME.text: moment}
         scalars = tuple(given.get(x.text, x) for x in self.loop.scalars)
-        # A kick is never the first flow of a step, so it changes the new state in place.
+        # A flow before the kick has written the new state, so only RESULT is passed.
         return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 
@@ -183,7 +183,7 @@ class _Part:
             # Adjacent indices allow compilers to load both sites of a pair with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # Flows of pairs need no test, because each step ends with a flow of single sites.
+        # Each step ends with a flow of single sites, which tests for infinities and NaNs.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
@@ -220,7 +220,8 @@ class _Part:
         """Return the call of the function ``part_K`` for K = ``flow.sweep``.
 
         If ``first`` is True, the function reads the old state and writes the new state. Otherwise, the
-        function changes the new state in place. For a flow of pairs, ``first`` must be False.
+        function changes the new state in place. A function for pairs of sites always changes the new state in
+        place, so ``first`` must be False.
         """
         old, new = ARRAYS[STATE], ARRAYS[RESULT]
         # In the kernel of a flow, the symbol h denotes the duration of the flow.
@@ -228,7 +229,7 @@ class _Part:
         if self.paired:
             given = (WHOLE, shape_of(self.step), whole(flow.colour), SITES, new, *scalars)
             return Call(f"part_{flow.sweep}", given)
-        # Each call overwrites the counter BAD. The last call of a step tests all sites.
+        # The last flow of a step tests all sites, so each call may overwrite BAD.
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
@@ -280,10 +281,9 @@ class _Part:
         body: list[Statement]
         if self.strided:
             body = [Assign(_ROW, first_site(outer, shape))]
-            # In a periodic row, the last and the first site are a pair, too. ``pairs`` does not count it.
+            # ``pairs`` omits the pair of the last and the first site of a periodic row.
             pairs = (COLUMNS - _COLOUR) // 2
-            # Different processors compute different rows. A chain has one row, which is divided
-            # into chunks.
+            # In one dimension, the only row is divided into chunks for several processors.
             if last:
                 body += self._called((_ROW + _COLOUR, pairs))
             else:
@@ -303,8 +303,8 @@ class _Part:
         parameters = (WHOLE, shape, _COLOUR, SITES, *self.arrays, *self.scalars)
         first = [Assign(COLUMNS, shape[last])]
         about = (
-            f"Pairs of sites: {self.own.about}. Along this axis, the first site of each pair has an even "
-            "index for colour 0 and an odd index for colour 1."
+            f"Pairs of sites: {self.own.about}. If colour is 0, the first site of each pair has an even "
+            "index along the axis of the pairs. If colour is 1, this index is odd."
         )
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 

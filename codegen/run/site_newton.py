@@ -259,7 +259,7 @@ class ChainSolver:
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # In a chain of two sites, the blocks LEFT and RIGHT of site 0 are added.
+            # If ``_LAST`` is 0, both blocks are added to the same entries of the border.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -274,7 +274,7 @@ class ChainSolver:
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # The right neighbour of the last site is site 0, and the left neighbour is site ``_LAST``.
+        # Site ``_INNER`` has the right neighbour 0 and the left neighbour ``_LAST``.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (

@@ -119,7 +119,7 @@ def with_stride(function: Function) -> Function:
 
     A function that does not read the stride is returned unchanged.
     """
-    # If no statement read the stride, C compilers would warn about an unused variable.
+    # C compilers warn about variables that are computed but not used.
     used = any(term.text == STRIDE.text for term in terms(function.body))
     return replace(function, body=(Assign(STRIDE, padded(SITES)), *function.body)) if used else function
 

@@ -252,7 +252,7 @@ class Loop:
         return f"{of}_{self.index}"
 
     def sweep(self) -> Function:
-        """Return ``sweep_K``, the function for consecutive sites away from open boundaries."""
+        """Return ``sweep_K`` for K = ``index``, a loop over consecutive sites whose neighbours exist."""
         before, inside, ends = split(self.own.kernel, self.shared)
         starts = [count(f"start_{k}") for k in self.neighbours]
         nears = {k: start + INDEX for k, start in zip(self.neighbours, starts, strict=True)}
@@ -332,7 +332,7 @@ class Loop:
             loop = For(outer[e], shape[e], tuple(body))
             body = [loop if e else distributed(loop, bad)]
         parameters = (WHOLE, shape, SITES, *self.arrays, *self.scalars)
-        about = f"All sites of sweep {self.index}."
+        about = f"Compute sweep {self.index} at all sites of the lattice."
         first = [Assign(COLUMNS, shape[step.dimension - 1])]
         return self.function(self.name("pass"), about, parameters, [*first, *body])
 
@@ -364,7 +364,7 @@ class Loop:
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
         lead = self._peeled(_LEAD, INDEX)
-        # In one dimension, this loop is parallel. If WHOLE is true, the loop computes all sites.
+        # In one dimension, this loop is parallel, because it may compute all sites.
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER
@@ -415,7 +415,7 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
-        # The sweeps of a block of equations are repeated together, so they are first collected in ``calls``.
+        # A block of equations repeats all its sweeps, so ``calls`` collects them first.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls

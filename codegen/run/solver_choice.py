@@ -54,7 +54,7 @@ The second trial makes one step. The step size is the usual size, multiplied by 
 """
 
 SWEEPS = 50
-"""The largest number of sweeps that a robust solver may need in its second trial.
+"""A solver is robust only if it needs at most SWEEPS sweeps in its second trial.
 
 SWEEPS is half of ``Loop.limit``, the largest number of sweeps of an iteration.
 """
@@ -319,10 +319,7 @@ class _Selection:
         return candidate.kernel, self.choices(candidate.kernel, reasons)
 
     def consider(self, solver: str) -> None:
-        """Build and try the kernel of a solver.
-
-        If a lower bound of the step time shows that the solver would not be chosen, no kernel is built.
-        """
+        """Build and try the kernel of a solver, unless a lower bound of its step time is too large."""
         least = self.least(solver)
         # For linear equations a robust solver is preferred even if it is slow.
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust
@@ -375,7 +372,7 @@ class _Selection:
             n = len(loop.unknowns)
             # The product of the inverse and a vector takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
-            # In the best case, Newton's method keeps the same inverses for the whole trial.
+            # In the best case, Newton's method inverts each matrix only once in ``trial_steps`` steps.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -392,10 +389,9 @@ class _Selection:
 
         In this combination, the solver ``best[k]`` solves block number k, for each k.
 
-        ``robust`` contains the allowed candidates. In spite of the name, ``robust`` can contain candidates
-        that are not robust. The fastest candidate f in ``robust`` is returned in place of the combination
-        ``best`` in two cases. In the first case, the combination does not converge. In the second case, f is
-        robust and the combination is not robust.
+        ``robust`` contains the allowed candidates, and some of them may not be robust. The fastest candidate
+        f in ``robust`` is returned in place of the combination ``best`` in two cases. In the first case, the
+        combination does not converge. In the second case, f is robust and the combination is not robust.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
@@ -430,8 +426,8 @@ class _Selection:
         for k in range(len(self.fixed.loops)):
             if able:
                 reasons.append(
-                    f"{failed} without continuation in h; with continuation, the solver needs "
-                    f"{counted(trials[solver], k)}"
+                    f"{failed} without continuation in h (initial guesses from shorter steps); with "
+                    f"continuation, the solver needs {counted(trials[solver], k)}"
                 )
             else:
                 # Continuation was tried only if ``small`` is True.

@@ -155,7 +155,7 @@ def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
 def composed_step(plan: Plan) -> Function:
     """Return the emitted function that makes one step as a sequence of substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
-    # Each substep needs the solutions that the same substep had in earlier steps.
+    # Each substep has its own memory for data from earlier steps.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)

@@ -261,9 +261,7 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step is often shortened, so the size of the last step can be much smaller than
-                # ``length``. Therefore ``length`` is changed after the last step only if ``factor`` is
-                # below 1.
+                # A short last step must not reduce ``length``, unless the error demands a shorter step.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),

@@ -55,12 +55,15 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""The stopping test for equations r(u) = 0 adds this number to the rate of convergence."""
+"""A number that :meth:`Stopping.converged_by_residuals` adds to rates of convergence below 1/2.
+
+Measured rates below this number are inaccurate.
+"""
 
 FOUR_ROUNDINGS = 2.0**-50
 """A factor in the stopping test for equations r(u) = 0 (:meth:`Stopping.converged_by_residuals`).
 
-The factor is four times 2^-52, the distance between 1 and the next double.
+The factor is 4 * 2^-52. The number 2^-52 is the distance between 1 and the next double.
 """
 
 CHANGE, SCALE = real("change"), real("scale")
@@ -148,13 +151,13 @@ class Stopping:
         # The tolerances are multiples of the unit roundoff, so they are larger in single precision.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # In the first sweep, ``previous`` is zero, so the second test avoids a division.
+        # A division by ``previous`` is avoided, because ``previous`` is 0 in the first sweep.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        # If rounding errors keep ``close`` false, a small change that no longer decreases is accepted.
+        # Changes that no longer decrease may consist of rounding errors only.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -172,9 +175,9 @@ class Stopping:
         the state), the test uses the rounding errors of the variation in place of the rounding errors of the
         state.
         """
-        # The array ``vector`` contains the variation.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
+        # The array ``vector`` contains the tangent vector, and the other arrays contain the state.
         tests = [
             moved <= bound * largest(place.term)
             for place in self.places

@@ -254,9 +254,9 @@ class FullMatrix(StoredMatrix):
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
         """Return the statements that fill the array ``target``.
 
-        The first entries of ``target`` are the coefficients of ``letter``, multiplied by the step size h.
-        Copies of the arrays in ``nodes`` follow. Matrix entries are computed from ``target`` when they are
-        needed.
+        The parameter ``letter`` is a linear combination of the matrices A(t_i). The first entries of
+        ``target`` are the coefficients, multiplied by the step size h. Copies of the arrays in ``nodes``
+        follow. Matrix entries are computed from ``target`` when they are needed.
         """
         weights = dict(letter)
         # If the linear combination does not contain the matrix A(t_i), its coefficient is zero.

@@ -332,7 +332,7 @@ def given(argument: Term) -> Term:
 
 
 def absent(parameter: Term) -> Term:
-    """Return the argument for a call that omits the optional parameter ``parameter``."""
+    """Return the term for NULL (C) or None (Python), passed as the optional argument ``parameter``."""
     # The new term keeps the kind and the shape of ``parameter``, because kind and shape determine how it is
     # printed.
     return replace(parameter, op="none", args=())
@@ -349,7 +349,7 @@ def fresh(of: Term) -> Term:
 
 
 def wide(x: Term) -> Term:
-    """Return the term that converts a real or a count to a double."""
+    """Return the term that converts ``x`` to double precision."""
     return Term("wide", (x,), Kind.WIDE)
 
 

@@ -72,8 +72,7 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Return True if Python may raise an exception where C computes an infinity or a NaN."""
-    # In Python, the function for a step catches exceptions, but ``run`` does not. Therefore ``run`` calls the
-    # function for a step if the kernel may raise an exception.
+    # Python catches exceptions only in the function for a step, not in an inlined kernel.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
@@ -101,7 +100,7 @@ class Rows:
         ]
 
     def due(self, step: Term = DONE) -> Term:
-        """Return the condition under which the state after ``step`` steps is written to the trajectory."""
+        """Return the condition for recording the state with the step number ``step``."""
         # ``recording`` is tested first. If it is true, the stride is positive, and the remainder is defined.
         return both(self.recording, (step % STRIDE).equals(0))
 

@@ -50,7 +50,10 @@ FEW = 12
 """The largest number of unknowns for which backward differences are computed in scalar variables."""
 
 SELDOM = 8
-"""If the ring buffer is full, the degree of the polynomial is adapted once in SELDOM steps."""
+"""The degree of the polynomial is adapted in each step until the ring buffer is full.
+
+Then the degree is adapted in every SELDOM-th step.
+"""
 
 _I = count("i")
 
@@ -142,7 +145,7 @@ class WarmStart:
         )
         self.first = plan.memory.field("first")
         self.guess = plan.memory.field("guess", Kind.REAL, (self.n,))
-        # The ring buffer contains each solution twice.
+        # Each solution is stored twice, so that the latest ``depth`` solutions are contiguous.
         self.values = plan.memory.field("values", Kind.REAL, (2 * self.depth, self.n))
         self.factors = _factors(plan.start)
 
@@ -174,8 +177,8 @@ class WarmStart:
                 ),
             ]
         about = (
-            "Compute 'sign' times the backward difference of the given order. If 'first' is 1, the "
-            "difference omits the solution of the next step."
+            "Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with "
+            "the unknown solution of the next step is omitted."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
@@ -246,8 +249,8 @@ class WarmStart:
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
-            "Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its "
-            "value is the guess for the next step."
+            "Store a solution. Then compute the guess for the next step by polynomial extrapolation of the "
+            "latest stored solutions."
         )
         return Function("remember", about, (self.memory, solution), tuple(body), often=True)
 

@@ -37,7 +37,7 @@ OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 
 
 class Conservative(Protocol):
-    """A problem y' = f(y).y with an optional Hamiltonian and named invariants."""
+    """A problem with an optional Hamiltonian and named invariants."""
 
     @property
     def group(self) -> LieGroup:

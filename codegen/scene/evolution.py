@@ -44,7 +44,8 @@ class Evolution:
 
     - ``inner``: the equations, as a problem on R^m for m coordinates.
     - ``outer``: the scene as a field y' = f(y).y.
-    - ``body``: the group G if the coordinates contain the momentum in the body frame of T*G, otherwise None.
+    - ``body``: the group of the configuration if the coordinates contain the momentum in the body frame,
+      otherwise None.
     - ``missing``: the indices of the omitted coordinates of the state.
     """
 
