@@ -139,7 +139,6 @@ class _CanonicalSystem:
     - ``summands``: the parts of H.
     - ``roots``: the components of xi and n.
     - ``loads``: the components of the wrench, or an empty tuple.
-    - ``open_roots``: the components of xi and of the sum n + wrench.
     """
 
     reader: Reader

@@ -135,10 +135,7 @@ def _of_bonds(
 def _with_momenta(
     outside: Column | Mapping[Sequence[int], Column] | None, mu: Column
 ) -> Column | dict[Sequence[int], Column] | None:
-    """Return ``outside`` with ``mu`` appended to each column.
-
-    The values of ``mu`` have no effect: the equations contain no momenta of neighbours.
-    """
+    """Return ``outside`` with ``mu`` appended to each column. Each column is then a state (q, mu)."""
     if outside is None:
         return None
     if isinstance(outside, Mapping):

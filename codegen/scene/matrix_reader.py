@@ -194,10 +194,7 @@ class _Compiler:
                 return self.reader.space.one, (self.factor(formula, transposed),)
 
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
-        """Yield products whose sum is c times the product of ``factors``.
-
-        A factor is expanded if it is a large sum, or a sum with a constant matrix.
-        """
+        """Yield products whose sum is c times the product of ``factors``."""
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
             alone = [inner for _, inner in parts if len(inner) == 1 and inner[0].constant is not None]
@@ -371,7 +368,6 @@ def _transposed(given: Constant) -> Constant:
 
 
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
-    """In column i of a matrix, the entry of the diagonal ``offset`` is in row i - ``offset``."""
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 
 

@@ -34,7 +34,7 @@ of the sum are rounding errors.
 """
 
 POINTS = 4
-"""The number of sample points, if f is finite at each of these points."""
+"""The largest number of sample points of an :class:`Orbit`."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ class Orbit:
         return values is not None and all(isinstance(x, context.mpf) and context.isfinite(x) for x in values)
 
     def velocity(self, point: dict[str, mpmath.mpf]) -> tuple[mpmath.mpf, ...]:
-        """Return f.y, the time derivatives of the coordinates of the state, at a sample point."""
+        """Return the time derivatives of the coordinates at a sample point."""
         f = tuple(evaluate(self.roots, self.domain, point))
         y = tuple(point[s] for s in self.symbols)
         return self.action.velocity(self.domain, self.group, f, y)

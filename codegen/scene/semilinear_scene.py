@@ -57,10 +57,10 @@ def SemilinearScene(
 ) -> Problem:
     """Return the scene u_t = L u + N(u) for a function u of x and t that is periodic in x.
 
-    - ``L``: the factor by which the linear operator multiplies exp(i k x), a formula in the wave number ``k``
-      and parameters, for example I*k for d/dx.
-    - ``N``: a formula g0 plus terms c Dx(g, m). Here g0 and g are formulas in ``u``, its derivatives
-      Dx(u, m), ``x``, t and parameters, and c depends on neither u nor x.
+    - ``L``: the Fourier symbol of the linear operator, a formula in the wave number ``k`` and parameters. The
+      symbol of d/dx is I*k.
+    - ``N``: a formula g0 plus terms c Dx(g, m). Here g0 and g are formulas in ``x``, t, parameters, ``u`` and
+      the derivatives Dx(u), Dx(u, 2), ..., and c depends on neither u nor x.
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
     - ``dealias``: the fraction of the Fourier modes of N that is kept. True means 2/3, False means 1.
 

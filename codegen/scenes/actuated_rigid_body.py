@@ -1,4 +1,4 @@
-"""Actuated rigid body: three thrusters or wheels turn a body, on T*SO(3).
+"""Actuated rigid body: three thrusters or wheels turn a body.
 
 In the space frame, the angular momentum mu satisfies mu' = g u. The vector u contains the torques in the body
 frame, and the attitude g rotates the torques to the space frame. Each torque is a signal: a function of the

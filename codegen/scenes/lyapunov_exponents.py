@@ -1,12 +1,12 @@
 """Lyapunov exponents of Lorenz's system.
 
-The scene is the method of L. Dieci and E. Van Vleck in section 2.4.4 of H. Marthinsen's thesis. The
-trajectory satisfies x' = F(x), and A is the Jacobian of F. The frame Q, an element of St(3, k), has k
-orthonormal columns. Let P = Q Q^T. The generator of the frame is (1 - P) A P - P A^T (1 - P) + Q S Q^T. Here
-S is the skew matrix that equals Q^T A Q below the diagonal. In equation (2.24) the thesis prints the
-generator as A - P A + Q S Q^T, but this matrix is not skew for k < 3. The state also contains the integrals
-of the k diagonal entries of Q^T A Q over time. Each integral, divided by the time, tends to an exponent:
-0.9056, 0 or -14.5723 (J. C. Sprott, Chaos and Time-Series Analysis, Oxford 2003).
+Section 2.4.4 of H. Marthinsen's thesis describes this method of L. Dieci and E. Van Vleck. The trajectory
+satisfies x' = F(x), and A is the Jacobian of F. The frame Q, an element of St(3, k), has k orthonormal
+columns. Let P = Q Q^T. The generator of the frame is (1 - P) A P - P A^T (1 - P) + Q S Q^T. Here S is the
+skew matrix that equals Q^T A Q below the diagonal. In equation (2.24) the thesis prints the generator as
+A - P A + Q S Q^T, but this matrix is not skew for k < 3. The state also contains the integrals of the k
+diagonal entries of Q^T A Q over time. Each integral, divided by the time, tends to an exponent: 0.9056, 0 or
+-14.5723 (J. C. Sprott, Chaos and Time-Series Analysis, Oxford 2003).
 """
 
 from sympy import Matrix, Rational, Symbol, eye, symbols

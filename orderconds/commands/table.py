@@ -40,8 +40,8 @@ def command(methods: tuple[str, ...], write: str | None, against: str | None, as
     the table in FILE is out of date.
 
     For each given METHOD, print its order and its Butcher tableau. METHOD is the name of a tableau, or
-    FAMILY:NAME. FAMILY is the family in which the order is computed. On a vector space, a commutator-free
-    method or a composition is a Runge-Kutta method. The tableau of this Runge-Kutta method is printed.
+    FAMILY:NAME. FAMILY is the family in which the order is computed. For a commutator-free method or a
+    composition, the Butcher tableau describes the method on vector spaces only.
 
     \b
     Examples:

@@ -92,8 +92,8 @@ class Reason:
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return the reason to skip a file, or an empty text if the file must be read.
 
-    A damaged file must be read, because reading it shows the error to the user. If ``strict`` is true, a file
-    that resembles a tableau must be read, too, for example a JSON file with a matrix.
+    Damaged files are not skipped, so that the user sees an error message. If ``strict`` is true, a file that
+    resembles a tableau must be read, too, for example a JSON file with a matrix.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root

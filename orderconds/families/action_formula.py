@@ -106,7 +106,8 @@ class ActionFormula(ABC):
         return index_sum((stage,), (), product(coefficient("b", stage), self.tau(tree, stage)))
 
     def tau(self, tree: Velocity, stage: str) -> Formula:
-        """Return the coefficient of a tree in the velocity of ``stage``, times ``multiplier(tree)``."""
+        """The velocity of ``stage`` is a series of trees. Return the coefficient of ``tree`` in this series,
+        times ``multiplier(tree)``."""
         return product(self.word(stage, tree.word), self._psi_product(tree.momenta, stage))
 
     def _psi_product(self, momenta: Momenta, stage: str) -> Formula:
@@ -246,7 +247,7 @@ class CrouchGrossmanFormula(ExponentialsFormula):
 class CommutatorFreeFormula(ExponentialsFormula):
     """The index sums of commutator-free methods. The stages and the update are products of exponentials.
 
-    The exponent with index J is ``sum_j alpha_iJj xi_j`` in stage i, and ``sum_j beta_Jj xi_j`` in the
+    The exponent of exponential J is ``sum_j alpha_iJj xi_j`` in stage i, and ``sum_j beta_Jj xi_j`` in the
     update. Here xi_j is the velocity of stage j, and alpha_iJj and beta_Jj are the coefficients of the
     method. The weights are ``b_j = sum_J beta_Jj``.
 
@@ -331,8 +332,8 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in X_i^n for i = ``row``. If ``row`` is None, Y^n replaces
-        X_i^n."""
+        """Return the coefficient of ``word`` in the n-th power of an exponent. The exponent belongs to stage
+        ``row``, or to the update if ``row`` is None."""
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -359,8 +360,7 @@ class MuntheKaasFormula(ActionFormula):
         """Return the coefficient of ``word`` in X_i for i = ``row``, or in Y if ``row`` is None.
 
         The class docstring defines the exponents X_i and Y. Both exponents are linear combinations of
-        products ``X_j^n xi_j X_j^m``. Here xi_j is the velocity of stage j. The factor xi_j contributes one
-        letter of ``word``, and the powers of X_j contribute all other letters.
+        products ``X_j^n xi_j X_j^m``. Here xi_j is the velocity of stage j.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)

@@ -104,8 +104,8 @@ def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
 def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) -> Formula:
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
-    The function ``row(i)`` returns the coefficient of k_i in exponent i. The symbol ``row_sum`` denotes the
-    sum of ``row(i)`` over i.
+    The product consists of the exponentials of ``row(1)`` k_1, ``row(2)`` k_2, .... Here k_i is the value of
+    the vector field at stage i. The symbol ``row_sum`` denotes the sum of ``row(i)`` over i.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:

@@ -113,8 +113,8 @@ def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
 
 
 def has_weights(tableau: Tableau, *, nonzero: bool = False) -> bool:
-    """Return True if ``weights_of(tableau)`` is not None. If ``nonzero`` is true, return False unless all
-    weights are proved to be non-zero.
+    """Return True if ``weights_of(tableau)`` is not None. If ``nonzero`` is true, all weights must also be
+    proved to be non-zero.
 
     >>> from orderconds.tableau import find
     >>> cg4 = Tableau.load(find("cg4"))

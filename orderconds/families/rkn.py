@@ -124,9 +124,10 @@ class NystroemFamily(Family):
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return pairs (label, bound), where ``label`` is the label of a family. If a symmetric method has at
-        least the order ``order`` in the family ``rkn``, its order in the family ``label`` is at least
-        ``bound``.
+        """Return pairs (label, bound), where ``label`` is the label of a family.
+
+        For a symmetric method of order ``order`` in the family ``rkn``, ``bound`` is a lower bound of the
+        order in the labelled family.
 
         The bound for the family ``rkn`` is ``order``. The bound for the family ``splitting`` is
         min(``order``, 4). Both families have the same conditions up to order 3, and a symmetric method of
@@ -291,8 +292,7 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return all products of total order ``order``. The factors are functionals from :func:`independent`
-    of order at most ``heaviest``."""
+    """Return all products of total order ``order``. The order of each factor is at most ``heaviest``."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:

@@ -47,8 +47,7 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because tableau files do not state the order in the family ``slgi``. Tableau files
-        state the order in the family ``vrkmk(0)``, and the two orders are equal."""
+        """Return None, because tableau files do not state the order in the family ``slgi``."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:

@@ -1,8 +1,8 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i. The tableau (a, b)
 is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 
-Each edge of a tree is an arrow from one of its two vertices to the other. If the arrow points away from the
-root, the edge gives a factor a_ij in the elementary weight. If the arrow points towards the root, the edge
+The conditions belong to trees with directed edges, and all choices of the directions occur. An edge that
+points away from the root gives a factor a_ij in the elementary weight. An edge that points towards the root
 gives a factor ahat_ij.
 
 Let i and j be the two vertices of an edge in a free tree. The root of the tree can be i or j. Because b_i
@@ -107,8 +107,8 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a Runge-Kutta tableau or a composition, if all weights are proved to be
-        non-zero. Otherwise return None."""
+        """Return None if ``tableau`` is neither a Runge-Kutta tableau nor a composition, or if a weight is
+        not proved to be non-zero. Otherwise return this family."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

@@ -86,10 +86,10 @@ class SymmetricCompositionFamily(CompositionFamily):
         return tuple(lyndon_words(range(1, order + 1, 2), order, int)) if order % 2 else ()
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return a polynomial in Lyndon words of odd weight (sum of the letters).
+        """Return the coefficient of ``word`` in the series of one step, as a polynomial.
 
-        In the polynomial, replace each Lyndon word by its coefficient in the series of one step. The value is
-        then the coefficient of ``word``.
+        The variables of the polynomial are the coefficients of Lyndon words of odd weight (sum of the
+        letters). Each variable is denoted by its Lyndon word.
         """
         return dict(_polynomial(word))
 

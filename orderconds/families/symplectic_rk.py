@@ -52,7 +52,8 @@ class SymplecticFamily(Family):
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the independent conditions of the given order. A free tree gives no condition if it consists
-        of two equal rooted trees with joined roots. Each other free tree gives one condition."""
+        of two equal rooted trees and an edge between the two roots. Each other free tree gives one
+        condition."""
         return _conditions(essential_free_trees(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:

@@ -5,7 +5,8 @@ coefficients of a method are alpha_iJj and beta_Jj. The following formulas defin
 
 - The position of stage i is ``Q_i = exp(X_im) ... exp(X_i1) q0``. The number m may depend on i.
 - The exponents are ``X_iJ = h sum_j alpha_iJj xi_j`` for J = 1, ..., m.
-- The formulas for Q_i and X_iJ, with beta_Jj instead of alpha_iJj, define the position after the step.
+- The position after the step is ``exp(Y_n) ... exp(Y_1) q0``.
+- The exponents of the step are ``Y_J = h sum_j beta_Jj xi_j`` for J = 1, ..., n.
 - The weight of stage i is ``b_i = sum_J beta_Ji``.
 - The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)``.
 

@@ -249,10 +249,10 @@ class _Members(Samples):
     def root(self, x: Sample, index: int) -> Sample:
         """Return the element that replaces the root x^(1/index).
 
-        The root need not exist modulo ``prime``. Therefore random residues replace the root. If a polynomial
-        identity holds for random residues, the identity very probably holds for all values of the root. If
-        the argument ``square_root`` of the constructor is an integer, this integer replaces every square
-        root. Equal arguments give equal residues.
+        The root need not exist modulo ``prime``. Therefore the element is random. If a polynomial identity
+        holds for random residues, the identity very probably holds for all values of the root. If the
+        argument ``square_root`` of the constructor is an integer, this integer replaces every square root.
+        Equal arguments give equal residues.
         """
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)

@@ -1,8 +1,8 @@
 """The independent conditions of a sub-family of methods.
 
 Formulas such as ``b3 = "1 - b1 - b2"`` in a tableau file restrict a family to a sub-family. In the
-sub-family, the left-hand side of an omitted condition is a polynomial in the left-hand sides of retained
-conditions. The same polynomial in the right-hand sides gives the right-hand side of the omitted condition.
+sub-family, the left-hand side of a dependent condition is a polynomial in the left-hand sides of independent
+conditions. The same polynomial in the right-hand sides gives the right-hand side of the dependent condition.
 
 The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). Each polynomial is verified
 in exact arithmetic for one random method (:mod:`orderconds.proof.exact_member`). A wrong polynomial passes

@@ -40,7 +40,7 @@ class Jets:
         return self.name
 
     def variable(self, place: int, value: arb) -> Jet:
-        """Return the jet of the variable with index ``place``. The ball ``value`` encloses the variable."""
+        """Return the jet of the variable with index ``place``."""
         return Jet(value, self.width, arb_mat(1, self.width, [int(k == place) for k in range(self.width)]))
 
     def constant(self, value: arb) -> Jet:

@@ -64,8 +64,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the coefficients of a polynomial, by ascending powers. The polynomial represents the vector
-        x. The length of the list is the number of entries of x."""
+        """Return the coefficients of the polynomial that represents x, by ascending powers. The length of the
+        list is the number of entries of x."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 

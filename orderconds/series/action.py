@@ -242,7 +242,6 @@ class CommutatorFreeSeries(ActionSeries):
         )
 
     def _exponent(self, exponential: Exponential, tree: Velocity) -> Element:
-        """Return the coefficient of ``tree`` in the exponent ``exponential``."""
         values = self.tau(tree)
         return self._sum(value * values[stage] for stage, value in exponential)
 

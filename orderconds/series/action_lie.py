@@ -170,8 +170,6 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """For each stage j, return the coefficients of the word (``before``, x, ``after``) in the series
-        dexpinv_{(r),X_j} xi_j. The module docstring defines this series and the letter x."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -220,16 +218,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. The exponent X_j of stage j
-        depends on the velocities xi_1, xi_2, .... The map for stage j describes the truncated series
-        dexpinv_X z, where X is the exponent X_j, and z is a letter. The module docstring defines the
-        velocities, the exponents, the truncation, and the letter x.
-
-        To obtain entry i of the map for stage j, replace the velocity xi_i by xi_i + x in the exponent X_j.
-        Entry i is the coefficient of the word (``first``, z, ``before``, x, ``after``) in the changed series.
-        Here ``first``, ``before`` and ``after`` are words of trees. The word ``before`` is between z and x.
-        The word ``after`` follows x.
-        """
+        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
+        word (``first``, z, ``before``, x, ``after``) in the series dexpinv_{(r),X_j} z. Here z is a letter
+        that is not a tree. The module docstring defines the series and the letter x."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

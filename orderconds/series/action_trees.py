@@ -101,9 +101,7 @@ class Velocity(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. The order is a product of factorials. Each distinct
-        element of each multiset in the tree contributes one factor n!, where n is the multiplicity of the
-        element in the multiset."""
+        """The order of the symmetry group of the tree."""
         return _symmetry(self.word, self.momenta)
 
 
@@ -254,7 +252,7 @@ def multiset(momenta: Momenta) -> Momenta:
 
 def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
     """Return the :class:`Velocity` with the word ``word`` and the multiset ``momenta``. The trees in
-    ``momenta`` may have any order.
+    ``momenta`` need not be sorted.
 
     >>> velocity((velocity(),), (force(), transport((velocity(),))))
     o(o|f(*) L(o))
@@ -277,8 +275,8 @@ def hamiltonian(tree: Velocity) -> str:
     [x, y].
 
     The letters after ``H_`` are the variables in which H is differentiated. In the parentheses, a semicolon
-    separates the directions in q from the directions in mu. A dot represents the argument of a linear
-    function (covector).
+    separates the directions in q from the directions in mu. A covector is a linear function, and a dot
+    denotes the argument of this function.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

@@ -83,8 +83,8 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
 
 def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
     """Return a lower bound for the number of brackets in every program that computes ``arguments``. The list
-    ``arguments`` contains the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u
-    of the exponential of the step.
+    contains u_1, ..., u_s and u. Here exp(u_i) is the exponential of stage i, and exp(u) is the exponential
+    of the step.
 
     In u_1, ..., u_s, the terms of grade ``algebra.largest`` are ignored, because they do not affect the order
     of the method.

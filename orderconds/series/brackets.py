@@ -218,7 +218,6 @@ class _Search:
     """A search for a :class:`BracketProgram` with at most ``most`` brackets.
 
     ``pool`` contains a pair (element, row) for each element that the program has computed so far.
-    :class:`BracketProgram` defines rows.
     """
 
     def __init__(

@@ -20,7 +20,7 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""A pair of the removed parts (components) and the remaining part (rest)."""
+"""A pair (components, rest). A cut removes the components from a tree or a forest, and leaves the rest."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 

@@ -4,7 +4,7 @@ forest.
 The left-hand sides for random methods form a matrix with one row for each method and one column for each
 condition. A condition is omitted if two requirements are met. First, its left-hand side is a linear
 combination of earlier left-hand sides and of products of left-hand sides of lower order. Second, the
-right-hand sides (coefficients of the exact flow) satisfy the relation of the left-hand sides.
+right-hand sides (coefficients of the exact flow) satisfy the same relation.
 """
 
 from __future__ import annotations

@@ -158,8 +158,6 @@ def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
 
 
 def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
-    """Return True if the columns ``solved`` of the Jacobian of the order conditions form a matrix without
-    singular values near zero."""
     if not solved:
         return True
     _, slopes = problem.tape.jacobians(point[None])

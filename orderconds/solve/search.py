@@ -41,7 +41,8 @@ higher orders, computing the principal error of every solution is too expensive.
 
 
 SINGULAR = 1e6
-"""The penalty in the score of a solution at which the gradients of the conditions are linearly dependent."""
+"""This number is added to the score of a solution if the gradients of the conditions are linearly
+dependent."""
 
 
 @dataclass(frozen=True)

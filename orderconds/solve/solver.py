@@ -138,7 +138,8 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         outcome.best = min(outcome.best, batch.best)
         least = min((s for b in seen for s, _ in b.solutions), default=None)
         shown = (
-            f", least score of a solution (principal error or largest coefficient) {least:.4g}"
+            f", least score of a solution (principal error up to order 4 or with --minimise, else largest "
+            f"coefficient) {least:.4g}"
             if least is not None
             else ""
         )

@@ -87,8 +87,8 @@ def decimal_text(text: str) -> str:
 
 
 def is_short(x: float) -> bool:
-    """Return True if a double counts as an exact number. The limits are :data:`SHORT` for the significant
-    bits, and :data:`LARGE` for the bits of the numerator and of the denominator.
+    """Return True if a double counts as an exact number. An exact number has at most :data:`SHORT`
+    significant bits, and its numerator and its denominator have at most :data:`LARGE` bits each.
 
     >>> is_short(0.375), is_short(0.1)
     (True, False)

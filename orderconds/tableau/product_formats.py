@@ -207,8 +207,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             )
 
     def coefficients(self) -> Places:
-        """Yield the position in the file and the entry of every coefficient. The coefficients are the nodes
-        c_i and the factors of the terms in the Lie algebra elements and in the exponents."""
+        """Yield the position in the file and the entry of every coefficient."""
         yield from row_places(self.c, "c")
         for place, table in self._tables():
             for key, coefficient in table.items():

@@ -22,8 +22,8 @@ EXPECTED = (
 
 
 SMALL = 1024
-"""A NumPy float of 16 or 32 bits counts as exact if it is a fraction with at most this denominator. All other
-such floats count as rounded decimals."""
+"""The largest denominator of an exact NumPy float of 16 or 32 bits. Such a float with a larger denominator
+counts as a rounded decimal."""
 
 
 class _Listed(Protocol):

@@ -30,7 +30,8 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
 """The number of bits of a random number. The limit :data:`orderconds.tableau.evaluate.MAX_SIZE` keeps the
-degree D of tested functions far below 2^40. Hence the probability of an error, D / 2^128, is negligible."""
+degree D of tested functions far below 2^40. A non-zero function of degree D vanishes at random numbers with
+probability at most D / 2^128."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """The errors that :meth:`RandomMember.method` raises."""

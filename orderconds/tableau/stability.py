@@ -25,7 +25,7 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import RungeKutta
 
 Polynomial = list[Element]
-"""The ascending coefficients of a polynomial. The last coefficient is not zero."""
+"""The coefficients of a polynomial, in ascending order of the powers. The last coefficient is not zero."""
 
 
 LARGEST = 100

@@ -185,7 +185,7 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 def _nested(cutoff: int | None) -> int:
     """Return the number of brackets in one evaluation of dexpinv_u, where the series sum_k (B_k / k!) ad_u^k
     ends at k = ``cutoff``. The result is the largest k <= ``cutoff`` for which the Bernoulli number B_k is
-    not zero, or 0 if ``cutoff`` is None."""
+    not zero. If ``cutoff`` is None, brackets are not counted, and the result is 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

@@ -80,8 +80,8 @@ def symmetry(tree: DirectedTree) -> int:
 
 @lru_cache(maxsize=1 << 16)
 def text(tree: DirectedTree) -> str:
-    r"""Return a tree as text in brackets. The sign ``^`` precedes each subtree below an edge of kind 1
-    (module docstring).
+    r"""Return a tree as text in brackets. The sign ``^`` precedes each subtree below an edge that points
+    to the root.
 
     >>> text(b"\0\3\2")
     '[^..]'

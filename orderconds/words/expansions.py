@@ -99,7 +99,7 @@ def fer_remainder(word: Word) -> Fraction:
 
 
 def dexp(length: int) -> Series:
-    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! as a series of words of at most ``length`` letters U and X.
+    """Return the series dexp_U(X) = sum_k ad_U^k X/(k+1)! up to words with ``length`` letters.
 
     Here ad_U X = U X - X U, and the word UX denotes the product U X.
 
