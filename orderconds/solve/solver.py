@@ -137,12 +137,7 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         seen.append(batch)
         outcome.best = min(outcome.best, batch.best)
         least = min((s for b in seen for s, _ in b.solutions), default=None)
-        shown = (
-            f", least score of a solution (principal error up to order 4 or with --minimise, else largest "
-            f"coefficient) {least:.4g}"
-            if least is not None
-            else ""
-        )
+        shown = f", least score {least:.4g}" if least is not None else ""
         done = f"structure {structure}: {len(seen) * BATCH} of {count * BATCH} random starts completed"
         report(f"{done}, least residual norm {outcome.best:.1e}{shown}")
         if order.minimised:
