@@ -385,8 +385,8 @@ static void dipole_vcf_cf4_count_matrix(dipole_vcf_cf4_statistics *statistics)
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
- * omits the solution of the next step.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with the
+ * unknown solution of the next step is omitted.
  */
 static inline void dipole_vcf_cf4_difference(const struct dipole_vcf_cf4_memory *memory,
     size_t order, size_t first, double sign, double sum[static 12])
@@ -449,8 +449,8 @@ static double dipole_vcf_cf4_difference_size(const struct dipole_vcf_cf4_memory 
 }
 
 /*
- * Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its value
- * is the guess for the next step.
+ * Store a solution. Then compute the guess for the next step by polynomial extrapolation of the latest
+ * stored solutions.
  */
 static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
     const double solution[static 12])
@@ -1345,9 +1345,9 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
 }
 
 /*
- * Repeat a step that failed. The first attempt does not use the solutions of earlier steps. If this
- * attempt fails, the equations are first solved for shorter steps. Each solution is the initial guess
- * for the next longer step (continuation in h).
+ * Repeat a failed step without the solutions of earlier steps. If the repetition fails, the equations
+ * are first solved for shorter steps. Each solution is the initial guess for the next longer step
+ * (continuation in h).
  */
 static int dipole_vcf_cf4_continued(double state[static 12], double h,
     struct dipole_vcf_cf4_memory *memory, dipole_vcf_cf4_statistics *statistics)
@@ -1443,8 +1443,8 @@ static inline void dipole_vcf_cf4_to_space(const double state[static 12],
 }
 
 /*
- * Write the state with the momentum in the body frame into 'moving'. Convert the momentum in 'moving'
- * to the space frame, and write the result into 'before'.
+ * Copy the state to 'moving', and convert the momentum in 'moving' to the body frame. Then convert
+ * this momentum back to the space frame, and write the result into 'before'.
  */
 static void dipole_vcf_cf4_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])

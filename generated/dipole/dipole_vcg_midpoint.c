@@ -285,8 +285,8 @@ static void dipole_vcg_midpoint_count_matrix(dipole_vcg_midpoint_statistics *sta
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
- * omits the solution of the next step.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with the
+ * unknown solution of the next step is omitted.
  */
 static inline void dipole_vcg_midpoint_difference(const struct dipole_vcg_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -322,8 +322,8 @@ static double dipole_vcg_midpoint_difference_size(const struct dipole_vcg_midpoi
 }
 
 /*
- * Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its value
- * is the guess for the next step.
+ * Store a solution. Then compute the guess for the next step by polynomial extrapolation of the latest
+ * stored solutions.
  */
 static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memory *memory,
     const double solution[static 3])
@@ -578,9 +578,9 @@ static inline int dipole_vcg_midpoint_advance(double state[static 12], double h,
 }
 
 /*
- * Repeat a step that failed. The first attempt does not use the solutions of earlier steps. If this
- * attempt fails, the equations are first solved for shorter steps. Each solution is the initial guess
- * for the next longer step (continuation in h).
+ * Repeat a failed step without the solutions of earlier steps. If the repetition fails, the equations
+ * are first solved for shorter steps. Each solution is the initial guess for the next longer step
+ * (continuation in h).
  */
 static int dipole_vcg_midpoint_continued(double state[static 12], double h,
     struct dipole_vcg_midpoint_memory *memory, dipole_vcg_midpoint_statistics *statistics)
@@ -677,8 +677,8 @@ static inline void dipole_vcg_midpoint_to_space(const double state[static 12],
 }
 
 /*
- * Write the state with the momentum in the body frame into 'moving'. Convert the momentum in 'moving'
- * to the space frame, and write the result into 'before'.
+ * Copy the state to 'moving', and convert the momentum in 'moving' to the body frame. Then convert
+ * this momentum back to the space frame, and write the result into 'before'.
  */
 static void dipole_vcg_midpoint_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])

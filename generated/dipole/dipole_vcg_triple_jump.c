@@ -293,8 +293,8 @@ static void dipole_vcg_triple_jump_count_matrix(dipole_vcg_triple_jump_statistic
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
- * omits the solution of the next step.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with the
+ * unknown solution of the next step is omitted.
  */
 static inline void dipole_vcg_triple_jump_difference(const struct dipole_vcg_triple_jump_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -330,8 +330,8 @@ static double dipole_vcg_triple_jump_difference_size(const struct dipole_vcg_tri
 }
 
 /*
- * Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its value
- * is the guess for the next step.
+ * Store a solution. Then compute the guess for the next step by polynomial extrapolation of the latest
+ * stored solutions.
  */
 static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump_memory *memory,
     const double solution[static 3])
@@ -588,9 +588,9 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
 }
 
 /*
- * Repeat a substep that failed. The first attempt does not use the solutions of earlier steps. If this
- * attempt fails, the equations are first solved for shorter steps. Each solution is the initial guess
- * for the next longer step (continuation in h).
+ * Repeat a failed substep without the solutions of earlier steps. If the repetition fails, the
+ * equations are first solved for shorter steps. Each solution is the initial guess for the next longer
+ * step (continuation in h).
  */
 static int dipole_vcg_triple_jump_continued(double state[static 12], double h,
     struct dipole_vcg_triple_jump_memory *memory,
@@ -712,8 +712,8 @@ static inline void dipole_vcg_triple_jump_to_space(const double state[static 12]
 }
 
 /*
- * Write the state with the momentum in the body frame into 'moving'. Convert the momentum in 'moving'
- * to the space frame, and write the result into 'before'.
+ * Copy the state to 'moving', and convert the momentum in 'moving' to the body frame. Then convert
+ * this momentum back to the space frame, and write the result into 'before'.
  */
 static void dipole_vcg_triple_jump_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])

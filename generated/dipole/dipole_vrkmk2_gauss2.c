@@ -378,8 +378,8 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
- * omits the solution of the next step.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with the
+ * unknown solution of the next step is omitted.
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -424,8 +424,8 @@ static double dipole_vrkmk2_gauss2_difference_size(const struct dipole_vrkmk2_ga
 }
 
 /*
- * Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its value
- * is the guess for the next step.
+ * Store a solution. Then compute the guess for the next step by polynomial extrapolation of the latest
+ * stored solutions.
  */
 static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_memory *memory,
     const double solution[static 6])
@@ -883,9 +883,9 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
 }
 
 /*
- * Repeat a step that failed. The first attempt does not use the solutions of earlier steps. If this
- * attempt fails, the equations are first solved for shorter steps. Each solution is the initial guess
- * for the next longer step (continuation in h).
+ * Repeat a failed step without the solutions of earlier steps. If the repetition fails, the equations
+ * are first solved for shorter steps. Each solution is the initial guess for the next longer step
+ * (continuation in h).
  */
 static int dipole_vrkmk2_gauss2_continued(double state[static 12], double h,
     struct dipole_vrkmk2_gauss2_memory *memory, dipole_vrkmk2_gauss2_statistics *statistics)
@@ -982,8 +982,8 @@ static inline void dipole_vrkmk2_gauss2_to_space(const double state[static 12],
 }
 
 /*
- * Write the state with the momentum in the body frame into 'moving'. Convert the momentum in 'moving'
- * to the space frame, and write the result into 'before'.
+ * Copy the state to 'moving', and convert the momentum in 'moving' to the body frame. Then convert
+ * this momentum back to the space frame, and write the result into 'before'.
  */
 static void dipole_vrkmk2_gauss2_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])

@@ -331,7 +331,7 @@ static inline void fast_heavy_top_splitting_blanes_moan_rkn4_advance(double stat
     state[11] = new_mu2;
 }
 
-/* Apply the first flow of a step, unless the step before includes it. */
+/* Apply the first flow of a step. */
 static inline void fast_heavy_top_splitting_blanes_moan_rkn4_begin(double state[static 12],
     double h)
 {

@@ -297,7 +297,7 @@ def _advance(state, h, lead_h):
 
 
 def _begin(state, h):
-    """Apply the first flow of a step, unless the step before includes it."""
+    """Apply the first flow of a step."""
     try:
         g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
         new_g00 = g00

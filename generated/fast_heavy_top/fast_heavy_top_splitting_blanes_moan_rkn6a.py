@@ -498,7 +498,7 @@ def _advance(state, h, lead_h):
 
 
 def _begin(state, h):
-    """Apply the first flow of a step, unless the step before includes it."""
+    """Apply the first flow of a step."""
     try:
         g01 = state[1]
         g02 = state[2]

@@ -326,8 +326,8 @@ static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigi
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
- * omits the solution of the next step.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with the
+ * unknown solution of the next step is omitted.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -363,8 +363,8 @@ static double free_rigid_body_s3_discrete_gradient_midpoint_difference_size(cons
 }
 
 /*
- * Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its value
- * is the guess for the next step.
+ * Store a solution. Then compute the guess for the next step by polynomial extrapolation of the latest
+ * stored solutions.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     const double solution[static 3])
@@ -1067,9 +1067,9 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
 }
 
 /*
- * Repeat a step that failed. The first attempt does not use the solutions of earlier steps. If this
- * attempt fails, the equations are first solved for shorter steps. Each solution is the initial guess
- * for the next longer step (continuation in h).
+ * Repeat a failed step without the solutions of earlier steps. If the repetition fails, the equations
+ * are first solved for shorter steps. Each solution is the initial guess for the next longer step
+ * (continuation in h).
  */
 static int free_rigid_body_s3_discrete_gradient_midpoint_continued(double state[static 4],
     double h, struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,

@@ -428,8 +428,8 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the difference
- * omits the solution of the next step.
+ * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with the
+ * unknown solution of the next step is omitted.
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -474,8 +474,8 @@ static double heavy_top_slgi_midpoint_difference_size(const struct heavy_top_slg
 }
 
 /*
- * Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its value
- * is the guess for the next step.
+ * Store a solution. Then compute the guess for the next step by polynomial extrapolation of the latest
+ * stored solutions.
  */
 static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoint_memory *memory,
     const double solution[static 6])
@@ -879,9 +879,9 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
 }
 
 /*
- * Repeat a step that failed. The first attempt does not use the solutions of earlier steps. If this
- * attempt fails, the equations are first solved for shorter steps. Each solution is the initial guess
- * for the next longer step (continuation in h).
+ * Repeat a failed step without the solutions of earlier steps. If the repetition fails, the equations
+ * are first solved for shorter steps. Each solution is the initial guess for the next longer step
+ * (continuation in h).
  */
 static int heavy_top_slgi_midpoint_continued(double state[static 12], double h,
     struct heavy_top_slgi_midpoint_memory *memory,

@@ -407,7 +407,7 @@ def _count_matrix(statistics):
 
 def _difference(memory, order, first, sign, sum):
     """Compute 'sign' times the backward difference of the given order. If 'first' is
-    1, the difference omits the solution of the next step.
+    1, the term with the unknown solution of the next step is omitted.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -452,8 +452,8 @@ def _difference_size(memory, order):
 
 
 def _remember(memory, solution):
-    """Store a solution. The polynomial through the latest solutions is extrapolated
-    by one step. Its value is the guess for the next step.
+    """Store a solution. Then compute the guess for the next step by polynomial
+    extrapolation of the latest stored solutions.
     """
     # the guess is tested only if at least three solutions are stored
     if memory.known > 2:
@@ -834,10 +834,9 @@ def _advance(state, h, memory, statistics):
 
 
 def _continued(state, h, memory, statistics):
-    """Repeat a step that failed. The first attempt does not use the solutions of
-    earlier steps. If this attempt fails, the equations are first solved for
-    shorter steps. Each solution is the initial guess for the next longer step
-    (continuation in h).
+    """Repeat a failed step without the solutions of earlier steps. If the repetition
+    fails, the equations are first solved for shorter steps. Each solution is the
+    initial guess for the next longer step (continuation in h).
     """
     if not (h < 0.0 or h > 0.0):
         return OK if all(map(isfinite, state)) else NOT_FINITE
