@@ -32,9 +32,8 @@ from orderconds.commands.place import FOLDER
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
     """Rewrite the emitted modules that regenerate.toml lists. With --check, report the files that differ.
 
-    An emitted file is stale if regenerate.toml no longer lists its module.
-    Stale files are reported and, without --check, removed. Files that were not emitted are reported as
-    unknown.
+    An emitted file is stale if regenerate.toml no longer lists its module. Stale files are reported and,
+    without --check, removed. All other files in the folder are reported as unknown.
 
     \b
     Examples:

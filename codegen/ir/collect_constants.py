@@ -196,7 +196,7 @@ class _Gathering:
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
-        # x^m does not depend on sqrt x, so a processor can compute both at the same time.
+        # The formula does not divide sqrt x by x, so a processor computes its factors at the same time.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}

@@ -478,6 +478,7 @@ class AdSeries(Operation):
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Apply all functions in ``word`` to the last argument, and return the result."""
+        """Return f_1(L) ... f_n(L) y for ``args`` = (x, y). Here f_1, ..., f_n are the functions in
+        ``self.word``, and L is ad_x, or ad*_x if ``self.dual`` is true."""
         # The factors are functions of the same operator ad_x and commute.
         return (problem.series(domain, self.word, self.dual, *args),)

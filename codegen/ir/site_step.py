@@ -154,7 +154,8 @@ class SiteNewton:
         # The matrix of a periodic chain is not block-tridiagonal, because the last site is a neighbour of the
         # first site.
         if periodic:
-            # The block-tridiagonal system is solved for each of the n columns of the last site.
+            # The linear system is solved n more times, because a periodic chain couples its last site to all
+            # sites.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written

@@ -80,9 +80,8 @@ _RESULT = re.compile(r"(v_\d+)\.(\d+)")
 
 
 def result_of(symbol: str) -> tuple[str, int] | None:
-    """Return the name of the call and the index of the result in the symbol ``name.index``.
-
-    If the symbol does not denote a result of a call, return None.
+    """Split a symbol ``name.index`` that denotes a result of a function call. Return the name of the call,
+    and the index of the result as an integer. For all other symbols, return None.
 
     >>> result_of("v_12.3"), result_of("vary.3")
     (('v_12', 3), None)

@@ -46,7 +46,7 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
 
 
 def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
-    """Return ``kernel`` with the Taylor coefficients of the solution.
+    """Return a kernel that also computes the Taylor coefficients of the solution.
 
     A run can choose its step size from the Taylor coefficients.
     """

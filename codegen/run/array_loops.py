@@ -169,7 +169,8 @@ class ArrayLoops:
             yield self.over(part, more, flat=False)
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
-        """Return the entry at ``place`` of the sum of ``terms``.
+        """Return one entry of the matrix that is the sum of ``terms``. ``place`` is the position of the
+        entry.
 
         ``weights`` maps the id of a term to the emitted value of its coefficient (see :meth:`weight`).
         """

@@ -143,7 +143,7 @@ def check_equal(
     """Raise :class:`SceneError` if the formulas ``stated`` by the scene differ from the ``derived`` formulas.
 
     If ``derived`` is None, ``stated`` is compared with the velocity y' = f.y, where f is the field of the
-    scene. ``what`` is the name of the formulas in messages.
+    scene. Error messages call the formulas ``what``.
     """
     source = "f.y" if derived is None else "the derivatives of H"
     for point in orbit.points:

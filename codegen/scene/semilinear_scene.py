@@ -59,18 +59,18 @@ def SemilinearScene(
 
     - ``L``: the Fourier symbol of the linear operator, a formula in the wave number ``k`` and parameters. The
       symbol of d/dx is I*k.
-    - ``N``: a formula g0 plus terms c Dx(g, m). Here g0 and g are formulas in ``x``, t, parameters, ``u`` and
-      the derivatives Dx(u), Dx(u, 2), ..., and c depends on neither u nor x.
+    - ``N``: a formula g0 plus terms c Dx(g, m), where Dx(g, m) is the m-th derivative of g with respect to x.
+      The formulas g0 and g may contain ``x``, t, parameters, ``u``, Dx(u), Dx(u, 2), .... The factor c
+      depends on neither u nor x.
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
     - ``dealias``: the fraction of the Fourier modes of N that is kept. True means 2/3, False means 1.
 
     Emitted code computes with the values of u at n equally spaced points, where n is a run-time argument.
-    Explicit methods of the families rkmk, cf and cg are possible. These methods act on u by affine maps
-    u -> exp(t L) u + c.
+    Explicit methods of the families rkmk, cf and cg are possible.
 
-    :class:`SceneError` is raised if L does not map real functions to real functions, or if a formula g
-    contains Dx of an expression other than ``u``. Other reasons for SceneError are unknown symbols, and
-    functions such as Piecewise and Max.
+    :class:`SceneError` is raised if L does not map real functions to real functions, or if a derivative Dx
+    inside g is not a derivative of ``u``. Other reasons for SceneError are unknown symbols, and functions
+    such as Piecewise and Max.
     """
     parser = _Parser(name, u, k, x)
     reader, symbol = parser.reader, parser.symbol(L)

@@ -29,7 +29,8 @@ class Neighbours(MetaPathFinder):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return the import specification of the module ``fullname``, or None if it is not in ``names``."""
+        """Return the import specification of the module ``fullname``. If the module is not in ``self.names``,
+        return None."""
         if path is not None or fullname not in self.names:
             return None
         return PathFinder.find_spec(fullname, [str(self.folder)], target)

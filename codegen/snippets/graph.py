@@ -37,7 +37,8 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
     """Return all helpers of emitted code.
 
     If ``batch`` is True, sine, cosine and the Stumpff functions also have variants without branches. If
-    ``batch`` is False, Stumpff functions in double precision use short polynomials for z <= stumpff.SMALL.
+    ``batch`` is False, Stumpff functions in double precision use short polynomials for small arguments
+    (stumpff.SMALL).
     """
     listed = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
     listed.append(Snippet("choose", "choose"))

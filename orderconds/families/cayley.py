@@ -72,10 +72,9 @@ class CayleyFamily(MagnusFamily):
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Express the coefficient of ``word`` in Omega by the coefficient of an independent word.
-
-        The method :meth:`independent` returns the independent words. The factor between the two coefficients
-        is 1, -1 or 0. If the factor is 0, the result is empty.
+        """Express the coefficient of ``word`` in the series Omega as a multiple of another coefficient. The
+        factor is 1, -1 or 0. The other coefficient belongs to one of the words that :meth:`independent`
+        returns. If the factor is 0, the result is empty.
         """
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}

@@ -47,7 +47,8 @@ class SecondKind(CoordinateMap):
         """Return the solution v of the linear system dtau_x v = y."""
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # Multiplying both sides by Ad_g^-1, where g = exp(x_1 e_1), makes the matrix cheaper to compute.
+        # Multiplication of the linear system by Ad_g^-1, where g = exp(x_1 e_1), makes the matrix cheaper to
+        # compute.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]

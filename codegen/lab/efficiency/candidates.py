@@ -133,8 +133,8 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
 
     The cut-off of a method is its number of commutators, such as the 2 in ``rkmk(2)``. For each order, only
     the smallest cut-off that gives this order is used. A method is omitted if its order is below half the
-    classical order of the tableau. A tableau can have an additional recipe that has no cut-off. For this
-    recipe, the compiler searches for the smallest number of commutators (:data:`SEARCHED`).
+    classical order of the tableau. For some tableaux, the compiler can search for a formula with few
+    commutators (:data:`SEARCHED`). These tableaux have an additional recipe without a cut-off.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()

@@ -37,7 +37,7 @@ def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
 
     Each coordinate is a power series in the step size h up to h^``order``, with coefficients in ``ring``.
     ``scene`` is the problem for which the program was generated. Raises ArithmeticError if the coefficients
-    cannot be computed exactly, for example if the field calls ``sqrt``.
+    cannot be computed exactly, for example if the vector field of the scene contains ``sqrt``.
     """
     domain = SeriesDomain(ring, order)
     inputs: dict[str, Scalar] = {"t": _time(scene, domain)}
