@@ -42,9 +42,9 @@ class Drift(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a :class:`Part` with the flow of ``formula`` if this flow is a drift. Otherwise return None.
+    """Return a part with the flow :class:`Drift`.
 
-    The flow is a drift if the group is abelian, and the part depends on the momentum mu alone.
+    If the group is not abelian, or the formula depends on the time or on the group element, return None.
     """
     if formula.timed or not formula.problem.group.abelian or not formula.orbit.vanish(formula.by_q):
         return None

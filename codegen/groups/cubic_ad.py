@@ -53,8 +53,7 @@ class CubicAd(ClosedFormSeries):
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
         In each triple, f is a number, and W is a product of functions. If ``dual`` is true, ad*_x replaces
-        ad_x. If ``total`` is given, ``total(indices)`` must be the sum of f v over the triples ``terms[i]``
-        with i in ``indices``. This method calls ``total`` once, with the indices of all triples.
+        ad_x. The argument ``total`` is described in :meth:`ClosedFormSeries.series_sum`.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim

@@ -177,8 +177,7 @@ class SO3(
         Here f is a scalar, W is a product of functions of ad_x, and v is a vector. If ``dual`` is true,
         ad*_x = -ad_x replaces ad_x.
 
-        If ``total`` is given, ``total(indices)`` must be the sum of f v over the triples ``terms[i]`` with i
-        in ``indices``.
+        The argument ``total`` is described in :meth:`ClosedFormSeries.series_sum`.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:

@@ -24,7 +24,8 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
 
     If this does not reduce the number of operations, ``roots`` is returned unchanged.
 
-    If ``kept`` contains c x with a number c, the expression x is not rewritten.
+    Expressions in ``kept`` are computed elsewhere, so only their numeric factors are combined with other
+    constants.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -237,6 +238,6 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
             # The sign of the first term is factored out of the whole group.
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # If ``first`` is true, the sum of the group is -``part``.
+        # A minus sign that was factored out above becomes a subtraction.
         result = result - part if first else result + part
     return result

@@ -96,7 +96,7 @@ class _Reader:
         name = e.func.__name__
         if isinstance(e, sympy.Function) and name in CALLS:
             argument = self.node(e.args[0])
-            # A function that is not in ``SAFE`` is finite at every finite double.
+            # ``SAFE[name]`` is an argument at which the function is finite.
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
@@ -196,7 +196,7 @@ class _Reader:
         for a in _sorted(e):
             # A quotient a/b is the product a b^-1 in sympy.
             if isinstance(a, sympy.Pow) and a.exp.is_Rational and a.exp < 0:
-                # In a Piecewise branch that is not selected, 1 replaces the divisor, which may be zero.
+                # Every branch of a Piecewise is evaluated, so unused branches must not divide by zero.
                 below.append(self._power(self.guarded(self.node(a.base), 1), -a.exp, a))
             else:
                 above.append(self.node(a))
@@ -215,8 +215,7 @@ class _Reader:
             # A negative power is infinite for the base 0.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # In a Piecewise branch that is not selected, 1 replaces the base, because the derivative of a
-            # root is infinite at 0.
+            # Every branch of a Piecewise is evaluated, so unused roots must have finite derivatives.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
             # For odd n > 0, the power x^(n/2) is x^m sqrt(x) with m = (n - 1)/2.

@@ -59,7 +59,7 @@ class _Graph:
             # A variable has no incoming edges and is never eliminated.
             if node.id in columns:
                 continue
-            # A node without variables is not a vertex, because all its derivatives are zero.
+            # A node without variables is skipped, because all its derivatives are zero.
             if any(a.id in self.after for a in node.args):
                 self.inner.append(node.id)
                 self.before[node.id], self.after[node.id] = {}, {}

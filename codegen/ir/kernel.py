@@ -158,7 +158,7 @@ class Loop:
         # Only the unknowns are read later, and their error is smaller than their last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # If Newton's matrix is expanded to first order in h, convergence is slower and the factor is larger.
+        # ``first_order`` is true if Newton's matrix is expanded to first order in h.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -212,14 +212,12 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """Flows of a splitting method that are computed only at the beginning or at the end of a run.
+    """Flows of a splitting method that are applied before the first step or after the last step of a run.
 
     A run has at most :data:`LONGEST` steps. The run calls ``begin``, then the kernel of the step once for
     each step, and then ``finish``.
 
-    The last flow of a step includes the first flow of the next step. The symbol :data:`LEAD` is the duration
-    of this combined flow: h times the number ``later``. In the last step of a run, :data:`LEAD` is h times
-    the number ``last``. The symbol :data:`ELAPSED` is the duration of the whole run.
+    The symbol :data:`LEAD` has the value ``last`` * h in the last step, and ``later`` * h in all other steps.
     """
 
     begin: Kernel | None

@@ -143,7 +143,7 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
-    # The first pass of the loop does not multiply by ``b4``, because the next line does.
+    # Horner's rule in powers of ``b4`` begins with the coefficient of the highest power.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group
@@ -164,7 +164,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     The bound is exp(``scale`` b). Gershgorin's circles give an upper bound b of the eigenvalues of the
     symmetric part of ``a``.
     """
-    # ``largest`` becomes the bound b. The diagonal entries keep their signs, so b may be negative.
+    # The maximum does not begin at 0, because all row sums may be negative.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]
@@ -181,13 +181,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 
 
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
-    """Return the result of ``squarings`` successive squarings of ``total`` by :func:`product`.
-
-    ``total`` is a jet: a list with the entries of several n x n matrices (a matrix and its derivatives).
-
-    The first matrix of ``total`` (its first n^2 entries) has a spectral norm of at most ``growth``. The error
-    of the first matrix of the result is estimated. If the estimate is too large (:data:`LEAST_DIGITS`), all
-    entries of the result are NaN.
+    """Square ``total`` repeatedly, and test the accuracy of the result.
 
     Let E be a computed n x n matrix with the spectral norm |E|, and let e be a bound of its error. The error
     of the computed square of E is at most about 2 |E| e + n^2 u |E|^2, where u is the unit roundoff.
@@ -219,7 +213,9 @@ def in_digits(context: Any, n: int, level: int, a: Sequence[Scalar]) -> tuple[Sc
 
 
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exact exponential of the jet ``a``. The entries of the jet are power series.
+    """Return the exponential of a jet with power series as entries.
+
+    ``a`` contains the entries of the 2^``level`` matrices of the jet (see the module docstring).
 
     If the Taylor series of the exponential has more than ``longest`` non-zero terms, ArithmeticError is
     raised.

@@ -73,7 +73,7 @@ class MatrixExponential(VectorFunction):
         """
         # Where the k-th power of ``pattern`` has a zero, A^k has a zero, too.
         pattern = power = [int(not x.is_zero) for x in args]
-        # The sum is finite if the first matrix of A is nilpotent. The derivatives do not matter.
+        # This test avoids the computation of powers if the sum is infinite.
         if not is_nilpotent(self.n, pattern):
             return None
         # The loop counts the nonzero powers of A, beginning with A^0.

@@ -68,7 +68,7 @@ class BilinearFunction(VectorFunction):
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
-        # Scalar formulas for the result are short, because E has only one non-zero entry.
+        # Scalar formulas are short here, because most entries of ``unit`` are zero.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:

@@ -45,7 +45,7 @@ class Path:
 
     @property
     def base(self) -> Var:
-        """The variable of the momentum from which ``unknown`` is computed."""
+        """The momentum at the beginning of the path."""
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 

@@ -319,7 +319,7 @@ def constant_entry(
         return [], real(table, len(given))[place]
     read = {node.payload for node in walk([given]) if node.op == "sym"}
     indices = ((ROW, row), (COLUMN, column))
-    # Only an index in the formula gets a variable, because C compilers report unused variables.
+    # C compilers report unused variables, so unused indices are skipped.
     before: list[Statement] = [Assign(own(s), narrow(wide(at))) for s, at in indices if s in read]
     return before, value(given)
 

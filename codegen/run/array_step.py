@@ -206,7 +206,7 @@ class _Exponential:
         square, norm, scale = real("square"), real("norm"), real("scale")
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
-        # ``self.matrix`` is the leading m x m block of ``self.gram`` times ``self.core``.
+        # ``part`` selects the leading m x m block of the Gram matrix.
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]

@@ -19,7 +19,7 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # With run-time inputs, the cause may also be an input that is a NaN at a later time.
+    # A step may also fail because a run-time input is a NaN.
     return plan.start is None and not plan.kernel.inputs
 
 

@@ -123,17 +123,14 @@ class _Continuation:
         part = "substep" if plan.parts else "step"
         # If a step consists of substeps, the function repeats only the substep that failed.
         about = (
-            f"Repeat a failed {part} without the solutions of earlier steps. If the repetition fails, "
-            "the equations are first solved for shorter steps. Each solution is the initial guess for the "
-            "next longer step (continuation in h)."
+            f"Repeat a failed {part} with a new initial guess. If the {part} fails again, the step size is "
+            f"halved until the {part} succeeds. Each solution is then the initial guess for a longer {part} "
+            "(continuation in h)."
         )
         return Function(CONTINUED, about, parameters, body, Kind.STATUS)
 
     def cause(self) -> Term:
-        """Return the status of the last failed attempt.
-
-        If a shorter step succeeded and there are no run-time inputs, TOO_FAR replaces NOT_FINITE.
-        """
+        """Return the status that is reported for the failed step."""
         # A run-time input may be the cause of the failure, and not the length of the step.
         if self.plan.kernel.inputs:
             return self.failure

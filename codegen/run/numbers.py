@@ -16,7 +16,7 @@ def numbers_held(unit: Unit) -> int:
     """Return an upper bound of the number of scalars on the stack during a call of a public function."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
-    # If a private function calls a public function, the bound includes both.
+    # ``called`` contains the names of all functions that private functions call.
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]

@@ -238,7 +238,7 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the condition that the sign of ``values[i]`` differs from the stored sign."""
-        # If the stored sign is 0, the condition is false.
+        # An event function that leaves zero does not cross zero.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 

@@ -226,7 +226,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # A call of ``invert`` needs additional memory. An inlined kernel saves the memory of one call.
+    # The function ``invert`` adds one call, and an inlined kernel removes one call.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],

@@ -90,7 +90,7 @@ class Terms(Infix):
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return the texts of a fast test and an exact test whether all values are finite."""
+        """Return C code for two checks that all values are finite: a fast check and an exact check."""
         # The first test is fast, but it may fail for finite values, because their sum may overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         # The second test has no overflow: it adds the differences x - x. For an infinity or a NaN, x - x is a
