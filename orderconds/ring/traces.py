@@ -97,7 +97,7 @@ class Traces:
         return self._record(Operation(kind, left, right))
 
     def root(self, x: Trace, index: int) -> Trace:
-        """Record the ``index``-th root of x, and return the result as an element."""
+        """Return the element x^(1/``index``)."""
         place = x.placed()
         return self._record(Operation(ROOT, place, place, Fraction(index)))
 

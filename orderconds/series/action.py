@@ -8,17 +8,19 @@ L(w). Let b_i be the weight of stage i, and let Phi_w(i) be the coefficient of t
 of stage i. Let tau_t(i) be the coefficient of the tree t in the velocity of stage i. Let psi_p(i) be the
 coefficient of the tree p in the momentum of stage i.
 
-The formulas for psi_p(i) use changed group elements. Replace the velocity xi_i of one stage i by xi_i + x,
-where x is an additional letter, and leave the velocities of all other stages unchanged. Let
-c_{(u, x, v)}(j, i) be the coefficient of the word (u, x, v) in the changed group element of stage j. The
-update is the group element that takes q0 to the final position. Let d_{(u, x, v)}(i) be the coefficient of
-the word (u, x, v) in the changed update. The coefficients of the trees in the expansions of stage i are
+The update is the group element that takes q0 to the final position. The formulas for psi_p(i) use changed
+group elements. Replace the velocity xi_i of one stage i by xi_i + x, where x is an additional letter, and
+leave the velocities of all other stages unchanged. The coefficients of the trees in the expansions of stage i
+are
 
-- ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
-- ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) c_{(u, x, v)}(j, i)``,
-- ``psi_{L(w)}(i) = (1/b_i) d_{(x, reverse(w))}(i)``.
+- for the tree t = (w, M): ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)``,
+- for the tree p = H(u*v|M): ``psi_p(i) = (1/b_i) sum_j b_j c_j g_j``. Here c_j is the coefficient of the word
+  (u, x, v) in the changed group element of stage j, and g_j is the product of psi_m(j) over all m in M.
+- for the tree p = L(w): ``psi_p(i) = d/b_i``. Here d is the coefficient of the word (x, reverse(w)) in the
+  changed update.
 
-The order condition of a tree t is: ``sum_i b_i tau_t(i)`` is equal to the coefficient of t in the exact flow.
+Let e_t be the coefficient of the tree t in the exact flow. The order condition of t is the equation
+``sum_i b_i tau_t(i) = e_t``.
 A method has order n if and only if the conditions of all trees t = (w, M) with at most n vertices hold.
 """
 

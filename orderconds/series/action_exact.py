@@ -1,12 +1,11 @@
-"""The action series of the exact flow: iterated integrals over [0, 1] of univariate polynomials over Q.
+"""The action series of the exact flow.
 
 The formulas for numerical methods are given in :mod:`orderconds.series.action`. The formulas for the exact
 flow have a time s in place of the index i of a stage, and integrals over times in place of sums over stages.
-The function :func:`tau` returns ``tau_t(s)`` for a tree t of a velocity. The function :func:`psi` returns
-``psi_p(s)`` for a tree p of a momentum. There are two kinds of trees p
-(:mod:`orderconds.series.action_trees`). The tree H(u*v|M) consists of two words u and v of trees and a
-multiset M of trees. The tree L(w) consists of one word w of trees. Let w be a word with the letters t_1, ...,
-t_k:
+The functions :func:`tau` and :func:`psi` return ``tau_t(s)`` and ``psi_p(s)`` as polynomials in s, with
+rational coefficients. There are two kinds of trees p (:mod:`orderconds.series.action_trees`). The tree
+H(u*v|M) consists of two words u and v of trees and a multiset M of trees. The tree L(w) consists of one word
+w of trees. Let w be a word with the letters t_1, ..., t_k:
 
 - ``Phi_w(s)`` is the integral of the product ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)`` over all times with 0 <=
   s_1 <= ... <= s_k <= s. The integral of the same product over all times with s <= s_1 <= ... <= s_k <= s' is

@@ -28,10 +28,7 @@ Terms = tuple[tuple[Fraction, int, int], ...]
 product acts first. Hence X^m acts before xi, and X^n acts after xi."""
 
 Varied = dict[int, Element]
-"""A map from stage indices to coefficients. If a key is missing, the coefficient is zero.
-
-Let u and v be words of trees, and let x be a letter that is not a tree. Entry j is the coefficient of the
-word (u, x, v) in a series in which the velocity xi_j of stage j is replaced by xi_j + x."""
+"""A map from stage indices to coefficients. If a key is missing, the coefficient is zero."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -189,9 +186,7 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the coefficient of the word (``before``, z, ``behind``) in the series dexpinv_{(r),X_j} z
-        for each stage j. Here z is a letter that is not a tree. The module docstring defines the series. The
-        result None means that all coefficients are zero."""
+        """The result None denotes the zero vector."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -206,9 +201,6 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
-        word (``before``, x, ``after``, z, ``behind``) in the series dexpinv_{(r),X_j} z. Here z is a letter
-        that is not a tree. The module docstring defines the series and the letter x."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -218,9 +210,6 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
-        word (``first``, z, ``before``, x, ``after``) in the series dexpinv_{(r),X_j} z. Here z is a letter
-        that is not a tree. The module docstring defines the series and the letter x."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -229,8 +218,6 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms of the series dexpinv_X xi that can contain words with ``before`` letters before
-        xi and ``behind`` letters after xi. The type :data:`Terms` defines the triples (q, m, n)."""
         known = self._in_sight.get((before, behind))
         if known is None:
             known = self._in_sight[before, behind] = [
@@ -275,9 +262,9 @@ class PadeActionSeries(MuntheKaasActionSeries):
 
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
-    """Return the terms with at most ``most`` factors X in the solution v of the equation dexp_{(r),X} v = xi.
-    The map dexp_{(r),X} is dexp_X truncated after the r-th power of X, where r is ``cutoff``. Each term is a
-    triple (q, m, n), see :data:`Terms`.
+    """Solve the equation dexp_{(r),X} v = xi, and return the terms of v up to degree ``most`` in X. The map
+    dexp_{(r),X} is dexp_X truncated after the r-th power of X, where r is ``cutoff``. A triple (q, m, n)
+    denotes the term q X^n xi X^m.
 
     Let S(z) be the sum of z^j/(j+1)! for j = 0, ..., r, and let q_k be the coefficient of z^k in the power
     series of 1/S(z). Then q = (-1)^m comb(k, m) q_k for k = m + n. Terms with q = 0 are omitted.

@@ -38,10 +38,10 @@ multiplied by the left-hand sides of the order conditions of these trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a map from trees to polynomials. Let n be the length of ``independent``. The keys of the map are
-    the trees that have n vertices and do not occur in ``independent[-1]``. The polynomials
-    (:data:`Polynomial`) contain only trees from ``independent``. For each method of the family, the
-    polynomial of a tree is equal to the left-hand side of the order condition of this tree.
+    """Return a map from trees to formulas for the left-hand sides of their order conditions. Let n be the
+    length of ``independent``. The keys of the map are the trees that have n vertices and do not occur in
+    ``independent[-1]``. Each formula is a polynomial (:data:`Polynomial`) in the left-hand sides of the order
+    conditions of the trees in ``independent``. The formulas hold for each method of the family.
 
     ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
     ..., n. The polynomials are wrong with a probability of about 10^-8.
@@ -93,13 +93,12 @@ def hold_over_rationals(
     series: Callable[[RandomRing, np.random.Generator], ActionSeries],
     polynomials: Mapping[Velocity, Polynomial],
 ) -> bool:
-    """Return True if certain relations hold for the exact flow and for one method with random rational
-    coefficients. There is one relation for each tree in ``polynomials``: the left-hand side of the order
-    condition of the tree is equal to ``polynomials[tree]``.
+    """Return True if the formulas in ``polynomials`` hold for the exact flow and for one method with random
+    rational coefficients. The function :func:`relations` returns such formulas.
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
-    ``ring``. Assume that a relation is false for some method of the family. Then it is very unlikely that the
-    relation holds for the random method (Schwartz-Zippel lemma).
+    ``ring``. Assume that a formula is false for some method of the family. Then it is very unlikely that the
+    formula holds for the random method (Schwartz-Zippel lemma).
 
     >>> from functools import partial
     >>> from orderconds.families import get

@@ -72,7 +72,6 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return the list of the classes that are already known, and an iterator over the other classes."""
     return [], _classes(vertices)
 
 

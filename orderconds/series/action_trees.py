@@ -12,8 +12,8 @@ right-invariant vector field on G. There are three kinds of trees:
   trees in M denote.
 - A :class:`Force` is a g*-valued tree with two words u and v and a multiset M, written ``H(u * v | M)`` or
   ``f(u * v | M)``. The tree denotes a covector. The value of the covector at an element x of g is a mixed
-  derivative of H. The directions of the derivatives are the same as for the tree ``o(u x v | M)``, with x as
-  one more letter.
+  derivative of H. Use the definition of the :class:`Velocity`, but differentiate H in place of dH/dmu, and
+  take the word (u, x, v) in place of w.
 - A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. The tree denotes the covector that
   maps an element x of g to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here
   ``<mu, y>`` is the pairing of mu with y.

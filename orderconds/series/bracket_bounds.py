@@ -27,9 +27,11 @@ Improvement of the second bound: a Lie element in the old letters is a linear co
 of (nested) brackets of old letters. Let L be the space of all sums sum_n ad_(P_n) q_n with Lie elements P_n
 in the old letters. If d > 0, and if zero is the only common element of S and L, then N is at least d + 1.
 
-Proof: each factor of the first of the N brackets is a linear combination of new letters plus a Lie element in
-the old letters. Therefore the linear part of this bracket is in L. If N were d, the linear parts of the N
-brackets would be a basis of S. The linear part of the first bracket would be a nonzero element of S and of L.
+Proof: the first of the N brackets has the form [a + A, b + B]. Here a and b are linear combinations of new
+letters, and A and B are Lie elements in the old letters. The linear part of this bracket is [A, b] - [B, a],
+which is an element of L. Assume N = d. The linear parts of the N brackets span a space of dimension at most d
+that contains S. Hence this space is S, and the linear parts are a basis of S. Then the linear part of the
+first bracket is a nonzero element of S and of L, a contradiction.
 
 The brackets that the arguments u_1, ..., u_m require contain no new letters. Therefore the lower bound for
 u_1, ..., u_m can be added to the lower bound for N.
@@ -44,11 +46,12 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return a map from n to the polynomial P_n, where ``sum_n ad_(P_n) q_n`` is the linear part of x (see
-    the module docstring).
+    """Select the words of x that have at least two letters and whose last letter is the only letter >=
+    ``first``. Remove the last letter n of each selected word. Return a map from n to the polynomial that
+    consists of the shortened words.
 
-    The polynomial x must be a sum of letters and brackets. A word is a tuple of indices, and the index n
-    denotes the letter q_n. The letters with n >= ``first`` are the new letters.
+    A word is a tuple of letters, and a letter is a number. If x is a sum of letters and brackets, the result
+    contains the polynomials P_n in the module docstring.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -104,8 +107,6 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
-    """Return a lower bound for the number of brackets with new letters in every program that computes the
-    elements of ``span``. A letter is new if its index is at least ``first``."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)

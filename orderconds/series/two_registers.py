@@ -3,9 +3,8 @@
 The registers are y and k, where k is zero at the start of a step. Stage i replaces k by A_i k + h f(y), and
 then replaces y by exp(B_i k) y. The series of a step is a linear combination of words in the letters K and D.
 The letter K (kick) is the derivative along the vector field k' = f(y). The letter D (drift) is the derivative
-along the vector field y' = k y. The last letter of a word acts first. A word contributes to the series only
-if the numbers of letters K and D are equal, and no suffix (the last n letters, for some n) contains more
-letters K than letters D (docs/explanation/two_registers.md).
+along the vector field y' = k y. The last letter of a word acts first. Only the words that :func:`words`
+returns contribute to the series (docs/explanation/two_registers.md).
 
 Each word denotes a differential operator. A linear combination of these operators vanishes on all groups if
 and only if it vanishes on all vector spaces (proof: docs/explanation/two_registers.md). Hence the order of a
@@ -76,10 +75,8 @@ def on_group(word: str) -> dict[Forest, int]:
 
 
 def on_vector_space(word: str) -> dict[Forest, int]:
-    """Return the series of ``word`` on a vector space, as a map from forests to coefficients. The letters of
-    ``word`` are K (kick) and D (drift).
-
-    The branches and trees of each forest are sorted by :func:`unordered`.
+    """Apply :func:`unordered` to the keys of ``on_group(word)``, and add the coefficients of equal forests.
+    Return the resulting map. On a vector space, the order of branches and trees has no effect.
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_vector_space("KDKDKD").items()}

@@ -2,24 +2,20 @@
 
 Stage i of a variational method on a Lie group has three abscissae: c_i for the position q, chat_i for the
 forces on the momentum, and m_i for the transport of the momentum by Ad* (the coadjoint action). Let beta_J^i
-be the coefficient of stage i in the J-th exponential of the update. Let b_i = sum_J beta_J^i be the weight of
-stage i, and y_J = sum_i beta_J^i the sum of the coefficients in the J-th exponential. The abscissa m_i is
-defined by
+be the coefficient of stage i in the J-th exponential of the update. Let
+b_i = sum_J beta_J^i and y_J = sum_i beta_J^i. The numbers b_i are the weights. The abscissa m_i is defined by
 
     1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K).
 
 For Crouch-Grossman methods, m_i = b_1 + ... + b_{i-1} + b_i/2.
 
 A method of order three satisfies sum_i b_i x_i z_i = 1/3, where each of x and z is one of c, chat and m.
-Hence the sum of b_i (c_i - m_i)^2 over i is 1/3 - 2/3 + 1/3 = 0, and likewise for chat. If the weights are
-positive, the three abscissae are equal.
+Hence the sum of b_i (c_i - m_i)^2 over i is 1/3 - 2/3 + 1/3 = 0. The sum of b_i (chat_i - m_i)^2 is
+zero, too. If the weights are positive, the three abscissae are equal.
 
 Let a_ij be the coefficient with which stage j enters stage i, and let A be the matrix of these coefficients.
 If the three abscissae are equal, A satisfies the equations of a transportation problem: sum_j a_ij = m_i for
 each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j.
-
-The rows and columns of A are the nodes of a graph with the edges a_ij. All entries a_ij that are not
-edges of a spanning tree can be chosen freely. The equations then determine the other entries.
 """
 
 from __future__ import annotations
@@ -112,7 +108,7 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
             component = [row if x == column else x for x in component]
     if len(kept) != 2 * s - 1:
         raise InputError(
-            "the equations for the rows and columns of A cannot be solved for the free entries of A",
+            "too many entries of A are fixed",
             where=WHERE,
             expected="more free entries",
         )

@@ -45,8 +45,8 @@ def eliminated(
 
 @dataclass(frozen=True)
 class Cells:
-    """The texts of coefficients in a tableau file. Each text is a number or a name. Some names have formulas.
-    ``extra`` maps names to additional formulas."""
+    """The texts of coefficients in a tableau file. Each text is a number or a name. ``extra`` maps
+    names to formulas."""
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None

@@ -237,8 +237,6 @@ def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for coefficients of a symmetric method
-    (:func:`orderconds.solve.abscissae.symmetric_transport`)."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -296,7 +294,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # Elimination solves for the last name. Hence ``total`` determines a step size in the middle.
+    # The step sizes in the middle come last.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)

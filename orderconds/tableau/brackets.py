@@ -38,8 +38,7 @@ class Bracket(Struct, frozen=True):
 
 
 class Product(Struct, frozen=True):
-    """The product of two or more terms. The last term acts first. Nodes are counted from 0, but from 1 in
-    texts.
+    """The product of two or more terms. The last term acts first.
 
     >>> spell(Product((0, "a", 0)))
     '1*a*1'

@@ -370,7 +370,7 @@ def _claims(entry: Format, where: str) -> Claims:
                 raise TableauError(
                     f"unknown property {key!r}",
                     where=f"{where}: claims",
-                    expected=f"one of {', '.join(PROPERTIES)}, or the order for a family, such as rk = 4",
+                    expected=f"one of {', '.join(PROPERTIES)}, or an order, such as rk = 4",
                 )
             properties[key] = value
         elif isinstance(value, int):

@@ -121,7 +121,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"rkn = {self.rkn!r} with parts {known}",
                 where=f"{where}: rkn",
-                expected="two names in the list parts, one of them as the value of rkn",
+                expected="exactly two parts, and the name of a part as the value of rkn",
             )
 
     def coefficients(self) -> Places:

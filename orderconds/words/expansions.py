@@ -73,12 +73,12 @@ def cayley(word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def fer(n: int, word: Word) -> Fraction:
-    """Return the coefficient of a word in the series F_n of the Fer expansion at t = 1.
+    """Return the coefficient of a word in F_n(1), where F_n is the n-th exponent in the Fer expansion.
 
     Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The Fer expansion is
     Y = exp(F_1) exp(F_2) ..., an infinite product of exponentials. The series F_n is the integral of a series
     A_n from 0 to t. Here A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where
-    ad_F X = F X - X F. The word (2, 1) denotes X_1 X_2.
+    ad_F X = F X - X F. A word denotes the product of its letters in reverse order: (2, 1) denotes X_1 X_2.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')

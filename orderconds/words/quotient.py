@@ -36,7 +36,7 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # The vectors of ``kernel`` start with the rightmost possible columns, here the Lyndon words.
+        # With the Lyndon words last, many functionals begin with a Lyndon word.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
