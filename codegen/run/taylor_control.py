@@ -177,7 +177,7 @@ class _Controlled:
         if leave is not None:
             about = (
                 "Convert the value of the Taylor polynomial to the state after the step. The first array "
-                "contains the state before the step, followed by this value."
+                "contains two vectors: the state before the step and the value of the polynomial."
             )
             listed.append(filling(Plan(leave, self.plan.format), LEAVE, about, self.trial))
         return tuple(listed)

@@ -39,7 +39,7 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
     """Return the function that computes the exponential of a matrix in su(3)."""
     a, result, work = real("a", COORDINATES), real("result", 2 * SIZE), real("work", 2 * SIZE)
     y, scale, norm, squarings = real("y", COORDINATES), real("scale"), real("norm"), count("squarings")
-    # The Taylor polynomials are accurate only for matrices whose norm does not exceed ``least``.
+    # No Taylor polynomial is accurate for a matrix whose norm exceeds this number.
     least = largest_norms(precision.bits)[-1]
     body: tuple[Statement, ...] = (
         Array(y),

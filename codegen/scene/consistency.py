@@ -25,7 +25,7 @@ ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1,
 """The hint for an initial state that is wrong by a rounding error."""
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
-"""Pairs of formulas that must be equal, by name.
+"""A map from names to pairs of formulas. The two formulas of each pair must be equal.
 
 If the second formula is None, the first formula must equal the velocity f.y in the equation y' = f.y.
 """

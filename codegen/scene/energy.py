@@ -4,11 +4,11 @@ the discrete gradient (secant), and the bivector (section 2.6 of H. Marthinsen's
 Consider the equation x' = f(x).x, where f(x) is in the Lie algebra g, and the dot denotes the action of g on
 the state x. Let gamma be the trivialised differential of the energy H (:func:`differential`). The bivector
 omega is a skew bilinear form on the dual g*, and <lambda, f> = omega(gamma, lambda) for all lambda in g*.
-Therefore H is constant along the solutions.
+Therefore H is constant along the solutions: <gamma, f> = omega(gamma, gamma) = 0.
 
 For Hamilton's equations on T*G, omega is the canonical bivector. For all other equations, f is given, and
-omega is (gamma wedge f)/|gamma|^2. This formula identifies gamma with the element of g that has the same
-coordinates. The formula requires that f is zero wherever gamma is zero.
+the matrix of omega is (gamma f^T - f gamma^T)/|gamma|^2, where gamma and f are columns of coordinates. The
+formula requires that f is zero wherever gamma is zero.
 """
 
 from __future__ import annotations

@@ -57,8 +57,7 @@ class Evolution:
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
         """Convert the state y to these coordinates.
 
-        ``frame`` is the group of the configuration if y contains the momentum in the body frame, otherwise
-        None.
+        If y contains the momentum in the body frame, pass the group of the configuration as ``frame``.
         """
         if self.body is not None and frame is None:
             q, mu = self._split(y)

@@ -100,9 +100,9 @@ class MatrixFormula(ABC):
         return ()
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield all logarithms, and the exponentials of matrices that may be outside the Lie algebra.
+        """Yield the exponentials and logarithms in this formula that are computed by closed forms.
 
-        The closed forms of these functions exist only for 2 x 2 matrices.
+        The closed forms exist only for 2 x 2 matrices.
         """
         for part in self.parts():
             yield from part.closed_forms()

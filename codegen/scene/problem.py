@@ -74,10 +74,11 @@ class Problem:
     - ``paired``: True if the state is (q, mu).
     - ``parts``: summands of the Hamiltonian, by name.
     - ``flows``: the exact flow of each part.
-    - ``stated``: formulas from the scene for exact flows. They give q and mu as functions of the time tau.
+    - ``stated``: the exact flows that the scene defines by formulas for q and mu at the time tau.
     - ``runtime``: the parameters that are arguments of emitted code.
     - ``fixed``: pairs (name, value) of the parameters that the user has set.
-    - ``open_roots``: like ``roots``, but each name in ``signals`` is a symbol.
+    - ``signals``: the formula of each signal, by the name of the signal.
+    - ``open_roots``: like ``roots``, but with the names of signals in place of the formulas of signals.
     - ``inputs``: the signals that emitted code reads at run time.
     - ``forced``: True if n contains a force that is not a derivative of the Hamiltonian.
     - ``body_group``: the group if emitted code uses momenta in the body frame, otherwise None.
@@ -88,7 +89,7 @@ class Problem:
     - ``carries_momentum``: True for a linear problem whose last coordinate is the momentum conjugate to the
       time (:mod:`codegen.scene.linear_extension`).
     - ``steps``: the methods that the scene defines by formulas (:mod:`codegen.scene.matrix_step`).
-    - ``sites``: the lattice, if the problem is the equation of one site (:mod:`codegen.scene.sites`). Then
+    - ``sites``: the lattice of a lattice problem, otherwise None (:mod:`codegen.scene.sites`). On a lattice,
       ``roots`` also contain the coordinates of neighbours.
     - ``semilinear``: the formulas of u' = L u + N(u) (:mod:`codegen.scene.semilinear`).
     - ``figures``: the figures in the file of the scene (:mod:`codegen.scene.figure`).

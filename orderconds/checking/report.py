@@ -134,8 +134,7 @@ class Report:
     """The result of ``check`` for one tableau.
 
     ``orders`` contains the orders of the main method, with a verdict on each claimed order. ``broken_claims``
-    contains one message for each other claim or requirement that fails, such as the claimed order of the
-    embedded method.
+    describes the failures that are not in ``orders``.
     """
 
     name: str

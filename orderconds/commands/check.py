@@ -78,8 +78,8 @@ WIDTH = 200
     "--require-claims",
     is_flag=True,
     help="Exit with status 1 if at least one tableau contains no claim for the checked families. Exit with "
-    "status 2 if a file in a DIR resembles a tableau but contains none, such as a JSON file with only a "
-    "matrix.",
+    "status 2 if a file in a DIR seems to be an incomplete tableau. An example is a JSON file that contains "
+    "only a matrix.",
 )
 @click.option(
     "--skip-others",

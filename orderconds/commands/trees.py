@@ -54,9 +54,9 @@ def command(
     graded       Lyndon words; letter k has the weight k       composition, magnus
     letters      Lyndon words of letters A and B               splitting
 
-    The last column lists families. Each order condition of these families belongs to one tree or word. In an
-    alternating tree, each edge joins two vertices of different colours. A tree has two equal halves if the
-    removal of one edge leaves two equal trees.
+    The last column lists families of methods. Each tree or word gives one order condition of these methods.
+    In an alternating tree, each edge joins two vertices of different colours. A tree has two equal halves if
+    the removal of one edge leaves two equal trees.
 
     In text drawings, the root is in the first line. In pictures (--svg), the root is at the bottom.
 
@@ -67,8 +67,8 @@ def command(
     The vertices of an action tree are dots and diamonds. A diamond denotes a coadjoint action on mu. With
     --ascii, a dot is drawn as o and a diamond is drawn as L. All edges at a diamond begin at the diamond.
 
-    In a text drawing, a note such as (>*>) can follow a vertex. The note shows the order of the edges that
-    begin at this vertex. The sign > is an edge to a child. The sign * is the edge to the parent.
+    In a text drawing, a note such as (>*>) can follow a vertex. The note lists edges of this vertex from
+    left to right. The sign > is an edge to a child. The sign * is the edge to the parent.
 
     \b
     Examples:

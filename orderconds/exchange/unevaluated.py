@@ -144,7 +144,7 @@ class UnevaluatedNumbers:
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
             raise CoefficientTooLong(
-                "a coefficient is too long without named numbers",
+                "the text of a coefficient is too long",
                 expected="format json, which stores named numbers",
             )
         return text

@@ -52,9 +52,9 @@ class Vertex:
 
     If ``sign`` is ``letter``, ``label`` is the printed text of the letter. Otherwise ``label`` is empty.
 
-    In an action tree, a vertex can be a force (a derivative of the Hamiltonian in q). If a force has n > 0
-    outward edges, ``legs`` is the pair (m, n). From left to right, the edge to the parent follows the first m
-    outward edges. For all other vertices, ``legs`` is None.
+    The module docstring defines forces and outward edges. For a force with n > 0 outward edges, ``legs`` is
+    the pair (m, n): m outward edges are to the left of the edge to the parent, and n - m are to the right.
+    For all other vertices, ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

@@ -127,9 +127,7 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """The index sums of methods whose stages and update are products of exponentials.
-
-    The argument ``place`` is the index of an exponential.
+    """The conditions of Crouch-Grossman methods and commutator-free methods as sums over indices.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -237,9 +235,9 @@ class CrouchGrossmanFormula(ExponentialsFormula):
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
-        velocity of each stage is a linear combination of letters. The letter x denotes a
-        perturbation of the velocity of stage ``stage``.
+        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. Only
+        one velocity contains the letter x: the velocity with the index ``stage``. In this velocity, x has the
+        coefficient one.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -274,9 +272,9 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
-        velocity of each stage is a linear combination of letters. The letter x denotes a
-        perturbation of the velocity of stage ``stage``.
+        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. Only
+        one velocity contains the letter x: the velocity with the index ``stage``. In this velocity, x has the
+        coefficient one.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -321,8 +319,9 @@ class MuntheKaasFormula(ActionFormula):
 
         The exponential belongs to stage ``row``, or to the update if ``row`` is None.
 
-        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. The
-        letter x denotes a perturbation of the velocity of stage ``stage``.
+        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. Only
+        one velocity contains the letter x: the velocity with the index ``stage``. In this velocity, x has the
+        coefficient one.
         """
         return self._exponential(row, (*before, stage, *after))
 

@@ -329,10 +329,10 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a :class:`Substitute` with another family, or None if no such family is known.
+        """Return a substitute for this family, or None if no substitute is known.
 
-        If ``method`` satisfies the conditions of the other family, ``method`` satisfies the conditions of
-        this family.
+        If ``method`` satisfies the conditions of the substitute, ``method`` satisfies the conditions of this
+        family.
         """
         return None
 

@@ -3,15 +3,14 @@
 Let x and y be functions of q alone. Then [x,y] = 0. Because T is quadratic in p, [x,[T,y]] is also a function
 of q alone. For example, [V,[V,T]] is a function of q alone, so [V,[V,[V,T]]] = 0. The free algebra over T and
 V has no such relations. In this algebra, let B be the smallest set that contains V and contains [x,[T,y]] for
-all x and y in B. The brackets [x,y] of all x and y in B generate an ideal of the free algebra. If T is
-quadratic in p and V depends on q only, every element of the ideal is zero. Therefore the part of the local
-error that lies in the ideal is zero, and this part gives no order conditions.
+all x and y in B. The brackets [x,y] of all x and y in B generate an ideal of the free algebra. For the
+functions T and V, all these brackets are zero. Therefore the part of the local error that lies in the ideal
+is zero, and this part gives no order conditions.
 
-The value of a word at an element of the free algebra is the coefficient of the word in the element. A
-functional is a linear combination of words over T and V. The functionals that are zero on the ideal form a
-vector space. Each element of a basis of this vector space gives one condition. The numbers of independent
-conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16
-(1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+A functional maps each element of the free algebra to a linear combination of the element's coefficients. The
+functionals that are zero on the ideal form a vector space. Each element of a basis of this vector space gives
+one condition. The numbers of independent conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ...
+(McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations

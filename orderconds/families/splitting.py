@@ -63,9 +63,7 @@ class SplittingFamily(WordFamily):
     }
     trees = "letters"
     illustrates = ("letters",)
-    implies: ClassVar[Mapping[str, str]] = {
-        "rkn": "the order holds for every pair of vector fields, so it also holds for T and V"
-    }
+    implies: ClassVar[Mapping[str, str]] = {"rkn": "a Runge-Kutta-Nystroem splitting is a splitting"}
     unknowns = "splitting"
 
     def __init__(self, parts: int = 2) -> None:

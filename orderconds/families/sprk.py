@@ -65,7 +65,7 @@ class SymplecticPartitionedFamily(Family):
     needs_nonzero_weights = True
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {
-        "rk": "for H = p.f(q), the Runge-Kutta method (A, b) is applied to q' = f(q)"
+        "rk": "if H = p.f(q), the SPRK method computes q with the Runge-Kutta method (A, b)"
     }
     low_order = "rk"
     bounds_others = True

@@ -66,8 +66,8 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the tree ``o(o|L(o ... o))`` with ``order`` vertices. Return None if
-        dexpinv is not truncated. Return None if ``order`` is less than 3.
+        """Return one condition of the given order. Return None if dexpinv is not truncated. Return None if
+        ``order`` is less than 3.
 
         For ``order`` = R + 3, this condition contradicts the other conditions of orders 1, ..., R + 3. The
         module docstring defines R.

@@ -235,11 +235,7 @@ class _Sampling:
 
 class _Members(Samples):
     """A ring for the coefficients of ``count`` random methods. An element contains one residue modulo
-    ``prime`` for each method.
-
-    Random residues replace the roots in the formulas. A polynomial identity for all values of the roots also
-    holds for the true values.
-    """
+    ``prime`` for each method."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)

@@ -5,7 +5,7 @@ Without a reduction, the system contains one equation for every independent cond
 reduction is a theorem that makes some equations unnecessary. The assumptions of a reduction are verified
 exactly, from the formulas in the file and not from the decimals:
 
-- ``symmetric``: a palindromic composition of a symmetric method. The conditions of even order follow
+- ``symmetric``, for a palindromic composition of a symmetric method: the conditions of even order follow
   from conditions of lower order. There is one condition for each Lyndon word in the letters 1, 3, 5, ...
   (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). A composition of
   midpoint rules is a Runge-Kutta method (family ``rk``) on a vector space, and a Crouch-Grossman method
@@ -13,11 +13,11 @@ exactly, from the formulas in the file and not from the decimals:
   proof of the order of one method proves the order of both methods.
 - ``symmetric``, for a Magnus method on s Gauss nodes: up to order 2s, the conditions for words in the letters
   1, ..., s are sufficient (Iserles and Norsett 1999).
-- ``low-storage``: a scheme with two registers (2N scheme). The order on a group is equal to the order on a
-  vector space (:mod:`orderconds.series.two_registers`).
+- ``low-storage``, for a scheme with two registers (2N scheme): the conditions for vector spaces are
+  sufficient for groups, too (:mod:`orderconds.series.two_registers`).
 - ``simplifying``: Butcher's simplifying assumptions B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2)
   (Butcher 1964; Hairer, Norsett and Wanner, Theorem II.7.4).
-- ``spelling``: the formulas in the file define a sub-family of methods. In this sub-family, some conditions
+- ``spelling``, for a file that defines coefficients by formulas: because of the formulas, some conditions
   follow from the others (:mod:`orderconds.proof.subfamily`).
 
 For the embedded method of a 2N scheme, all conditions of the family ``rk`` are used
@@ -62,7 +62,7 @@ class Equations:
     letters: int | None = None
     """If the value is an integer s, only conditions for words in the letters 1, ..., s are used."""
     kept: tuple[OrderCondition, ...] | None = None
-    """If the value is a tuple, only the conditions in the tuple and in ``lower`` are used."""
+    """If the value is a tuple, only these conditions of the main method are used."""
     lower: tuple[OrderCondition, ...] = ()
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
     conditions follow the conditions of the scheme."""

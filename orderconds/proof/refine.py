@@ -46,9 +46,9 @@ class Refined:
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """Compute the unknowns of the ``[proof]`` table of a tableau file to ``digits`` decimal places.
 
-    If there are more unknowns than independent equations, some decimals do not change. The list ``pins``
-    of the resulting file contains the names of these decimals. The table ``[proof.printed]`` contains the
-    original digits.
+    If the equations do not determine all unknowns, some unknowns keep their digits. The list ``pins`` of the
+    resulting file contains the names of these unknowns. The table ``[proof.printed]`` contains the original
+    digits.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
     decimals.

@@ -125,7 +125,9 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
     - ``ring`` is not a :class:`NumberField`, or its degree is 1.
     - Two nodes are equal.
     - The polynomial M with the roots c_i has an irrational coefficient.
-    - The method does not have both properties in the list of the module docstring.
+    - For some k and some A in ``matrices``, no polynomial over Q has the values A (c_1^k, ..., c_s^k) at the
+      nodes c_1, ..., c_s.
+    - For some k, the number sum_i b_i c_i^k is irrational.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))
