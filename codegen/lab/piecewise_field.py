@@ -52,7 +52,6 @@ SUBSTEPS = 24
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that :meth:`PiecewiseField.beyond` returns."""
 
 
 @dataclass(frozen=True)
@@ -116,7 +115,7 @@ class PiecewiseField:
 
         An operation such as abs(x) has several cases. ``sides`` contains, for each such operation, the case
         that applies before the event. The smoothness is the number of continuous derivatives of the field, or
-        -1 if the field is discontinuous.
+        -1 if the field is discontinuous. The largest returned smoothness is :data:`MOST`.
         Raises :class:`SceneError` if the solution slides along a discontinuity of the field.
         """
         before, _ = self.on(sides)

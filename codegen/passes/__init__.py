@@ -174,7 +174,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # The pass "functions of ad" may leave an operation Ad_{exp x} unchanged if another operation reads
         # exp(x). The pass "rows of products" removes operations that read exp(x). For this reason, the pass
         # "rows of products" comes before the pass "functions of ad".
-        Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
+        Pass("rows of products", "one operation computes q exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # This pass uses operations that the pass "functions of ad" creates.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),

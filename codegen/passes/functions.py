@@ -116,7 +116,6 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Apply the function with the factors ``word`` to each term of the sum ``total``, and add the results."""
     terms = []
     for scale, (y, inner, v) in parts:
         joined = simplified((*inner, *(f.scaled(scale) for f in word)))

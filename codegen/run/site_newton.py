@@ -259,7 +259,7 @@ class ChainSolver:
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # If ``_LAST`` is 0, both blocks are added to the same entries of the border.
+            # LEFT and RIGHT are added, because site ``_LAST`` can be site 0.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))

@@ -364,7 +364,7 @@ class Loop:
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
         lead = self._peeled(_LEAD, INDEX)
-        # In one dimension, this loop is parallel, because it may compute all sites.
+        # A chain has no outer loop, so this loop is distributed over several processors.
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER

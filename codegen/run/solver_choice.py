@@ -389,9 +389,8 @@ class _Selection:
 
         In this combination, the solver ``best[k]`` solves block number k, for each k.
 
-        ``robust`` contains the allowed candidates, and some of them may not be robust. The fastest candidate
-        f in ``robust`` is returned in place of the combination ``best`` in two cases. In the first case, the
-        combination does not converge. In the second case, f is robust and the combination is not robust.
+        If the fastest candidate in ``robust`` is more reliable than the combination, the result is this
+        candidate.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:

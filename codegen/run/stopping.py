@@ -55,10 +55,7 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""A number that :meth:`Stopping.converged_by_residuals` adds to rates of convergence below 1/2.
-
-Measured rates below this number are inaccurate.
-"""
+"""Rates of convergence below LEAST_RATE cannot be measured accurately."""
 
 FOUR_ROUNDINGS = 2.0**-50
 """A factor in the stopping test for equations r(u) = 0 (:meth:`Stopping.converged_by_residuals`).

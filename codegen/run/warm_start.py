@@ -177,8 +177,8 @@ class WarmStart:
                 ),
             ]
         about = (
-            "Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with "
-            "the unknown solution of the next step is omitted."
+            "Compute 'sign' times the backward difference of the given order. The latest solution is "
+            "multiplied by the coefficient with the index 'first'."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)

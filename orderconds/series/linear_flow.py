@@ -35,8 +35,7 @@ of the transform, without the constant term 1. The second function returns the c
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:
     """Return the logarithm of the product of the exponentials of ``exponents``, as a function that maps a
-    word to its coefficient. The exponential of ``exponents[0]`` acts first, and so does the first letter of a
-    word.
+    word to its coefficient. The exponential of ``exponents[0]`` acts first.
 
     If ``transform`` is ``cay``, the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2) replaces the
     exponential, and its inverse replaces the logarithm.

@@ -155,13 +155,11 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
     """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
 
     No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as
-    :attr:`Refinement.settled` is True. A run is excluded if the run fails, or if the error of the run is too
-    small to be measured. The doubling ends when an error is too small to be measured, provided that an
-    earlier run is not excluded.
+    :attr:`Refinement.settled` is True.
 
     The usable runs are the runs in :attr:`Refinement.clean`. After the doubling, the function adds runs if
-    all of the following three conditions hold: the slopes have not settled, the last run is excluded, and at
-    least one run is usable. The added runs are:
+    all of the following three conditions hold: the slopes have not settled, the last run is excluded
+    (:attr:`Run.excluded`), and at least one run is usable. The added runs are:
 
     - runs with the numbers of steps in :data:`LONGER`,
     - two runs with 6/5 n and 7/5 n steps for each usable run with n steps.

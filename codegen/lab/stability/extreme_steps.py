@@ -96,7 +96,7 @@ class Answer:
 
     ``verdict`` is ``accurate``, or a text that begins with ``status``, ``undetermined`` or ``WRONG``.
     ``error`` is the largest relative error of a component (for example a momentum) of the state.
-    Rounding in double precision leaves about ``determined`` correct decimal digits in the result of the step.
+    ``determined`` is the approximate number of decimal digits that can be correct in double precision.
     If the result is not compared with an exact result, ``error`` and ``determined`` are None.
     """
 
