@@ -309,7 +309,6 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # If ``dual`` is true, the loop adds the results ``head``, so w is used only once.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -443,7 +442,7 @@ class Semidirect(
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return (s, a) for q = (r, a), where the covering map of the linear factor maps r to s."""
+        """Return the image of q under the covering map."""
         g, a = self._over(q)
         return self._covered().covering(d, g) + a
 

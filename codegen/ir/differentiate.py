@@ -148,8 +148,8 @@ def _selection(node: Expr) -> list[Expr]:
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # The derivative with respect to a constant argument is never used and set to 0.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     # For x != 0, a small change of x does not change the selected formula.
+    # Gradients do not depend on derivatives with respect to constants.
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

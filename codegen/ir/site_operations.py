@@ -97,7 +97,7 @@ class Wedge(Operation):
     takes, gives = D + A + R + R + R, A
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return (p f - q gamma)/s for ``args`` = (gamma, f, p, q, s). If s = 0, return the zero vector."""
+        """Return the vector that is defined at :class:`Wedge`."""
         gamma, f, p, q, s = args
         # The quotients p/s and q/s are the same for all components of the result.
         along, across = (domain.call("quotient", x, s) for x in (p, q))

@@ -66,12 +66,12 @@ class Sweep:
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
     - ``outside`` is a kernel for sites at the boundary of the lattice, or None. If a load refers to a
-      neighbour that does not exist, ``outside`` computes the value of the load. The kernel ``outside`` has
-      one output for each load in the property ``read_outside``, in this order.
+      neighbour that does not exist, ``outside`` computes the value of the load. Output k of ``outside``
+      belongs to the load ``read_outside[k]``.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
-      single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, :attr:`Load.neighbour` is
-      :data:`OWN` for the first site of a pair and 0 for the second site. The second half of ``stores``
-      contains the rows for the second site.
+      single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, the value 0 of
+      :attr:`Load.neighbour` denotes the second site of the pair. The second half of ``stores`` contains the
+      rows for the second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
       values g(u). In fixed-point iteration, the sweep stores g(u). In Newton's method, the sweep stores
       the difference g(u) - u.

@@ -216,7 +216,7 @@ class _Builder:
                 self.cores[target] = self.inverse(
                     target.name, self.cores[args[0]], self.cores[args[1]], order
                 )
-            # An element of the algebra and its exponential are represented by the same matrix.
+            # The statement ``Move`` computes the exponential, so only its argument is stored here.
             case Exp():
                 self.cores[target] = self.cores[args[0]]
             case Act() | ActExp():
@@ -301,7 +301,7 @@ class _Builder:
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
-        # The statements above would overwrite a unit matrix that was added earlier.
+        # J contributes two blocks: the unit matrix, and minus the unit matrix.
         self.body += [AddUnit(below, 1), AddUnit(right, -1)]
         return core
 

@@ -159,7 +159,7 @@ class _Chains:
                 # For a square ``arg * arg``, ``others`` is empty.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # A product can be expanded if its other factor has a lower level than ``arg``.
+                # A product of two factors with the same level counts as nonlinear.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )

@@ -72,8 +72,8 @@ def compared(
 
     The function also changes ``env``. A sweep computes values v(u), and then adds a change d to the unknowns
     u. The sum v(u) + v'(u) d approximates v(u + d), where v'(u) is expanded to first order in h. The sum
-    replaces v(u) in ``env`` if v(u) costs more than twice as much as the sum. Only elements of a
-    Lie algebra or of its dual space are replaced.
+    replaces v(u) in ``env`` if v is expensive to evaluate. Only elements of a Lie algebra or of its dual
+    space are replaced.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:

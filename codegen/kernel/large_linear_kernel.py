@@ -180,7 +180,7 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # :class:`_Value` contains multiples of h A(t), so A(t) needs the denominator h.
+            # A(t) is stored as h A(t)/h, so the exponent of 1/h is 1.
             case Field():
                 # An autonomous matrix A is constant, so any time gives the same value.
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
@@ -313,7 +313,6 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
 
 
 def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
-    """Return x - c y and y. The function chooses the number c."""
     totals = [_total(x), _total(y)]
     # If a sum in ``totals`` is almost zero, x and y are returned unchanged.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:

@@ -124,10 +124,7 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Replace None by zero expressions if neighbours outside the lattice may have nonzero coefficients.
-
-        In ``terms``, None represents a coefficient that is zero at all sites.
-        """
+        """In ``terms``, None represents a coefficient that is zero at all sites."""
         if degree == self.degree:
             return terms
         if all(self._follows(x, k) for column in self.sites.outside for k, x in enumerate(column)):

@@ -153,8 +153,8 @@ class Bar:
     - ``seconds``: the largest accepted CPU time in seconds.
     - ``least``: triples (family, explicit, e) for :meth:`too_high`. Each triple describes either the explicit
       methods of a family (``explicit`` is True) or the implicit methods (``explicit`` is False). The number e
-      is the least predicted error that these methods reach in ``seconds`` seconds of CPU time. The orders of
-      these methods are given at :data:`FAR`. The name '' represents all families.
+      is the least predicted error that these methods reach in ``seconds`` seconds of CPU time (see
+      :data:`FAR`). The name '' represents all families.
     - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
       this run.
     - ``explicit``: True if a recipe with an implicit method is not accepted.
@@ -175,9 +175,9 @@ class Bar:
         - The bar requires explicit methods, and the argument ``explicit`` is False.
         - The number e, defined below, exceeds :data:`FAR` times the attribute ``error`` of the bar.
 
-        The attribute ``least`` of the bar contains triples. The number e is the last entry of the triple
-        (``family``, ``explicit``, e). If this triple is missing, the triple ('', ``explicit``, e) is used.
-        The empty name '' represents all families. If both triples are missing, the third case does not occur.
+        The number e belongs to the pair (``family``, ``explicit``) in the attribute ``least`` of the bar. If
+        this pair is missing, the pair ('', ``explicit``) is used. The empty name '' represents all families.
+        If both pairs are missing, the third case does not occur.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True

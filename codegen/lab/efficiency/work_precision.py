@@ -182,7 +182,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield 0, the value of ``control`` in the row that reports the failure."""
+        """Yield the single number 0."""
         yield 0.0
 
     def prepare(self) -> None:
