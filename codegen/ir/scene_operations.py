@@ -133,7 +133,7 @@ class Secant(OfGroup):
     <c, x> = H1 - H0 that is closest to g in the Euclidean norm.
     """
 
-    # The result is g + x (H1 - H0 - <g, x>)/<x, x>. For x = 0, the result is g.
+    # For x = 0, the result is g.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"

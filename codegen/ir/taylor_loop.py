@@ -49,7 +49,7 @@ class OrderLoop:
 
     - ``first`` are expressions that are computed before the loop.
     - ``names`` are the names of the symbols that represent the values of ``first`` in the loop.
-    - ``coordinates`` are the names of the symbols for coefficient n of each coordinate.
+    - ``coordinates`` are the names of the symbols for Taylor coefficient n of each coordinate.
     - ``sums`` are the names of the symbols for the inner sums, the sums of a_j b_{n-j} over 0 < j < n.
     - ``left[k]`` and ``right[k]`` are the expressions for a_n and b_n, where a and b are the two series in
       the inner sum with the name ``sums[k]``.
@@ -295,7 +295,7 @@ def _operands(series: Series) -> Sequence[Series]:
         case Angle(slopes=slopes):
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
-            # The formula for coefficient n of the logarithm of a contains coefficient n of a. The formula
+            # The formula for coefficient n of log(a) contains coefficient n of the series ``a``. The formula
             # does not contain coefficient n of the derivative of the logarithm.
             return (a,)
         case Given() | Start():

@@ -1,9 +1,9 @@
 """The exponential of a matrix of su(3) by the Cayley-Hamilton theorem.
 
 Let X = i H with a Hermitian 3 x 3 matrix H of trace zero, and let I be the unit matrix. Then H^3 = p H + q I,
-where p = tr(H^2)/2 and q = det H. Hence exp X is a linear combination of I, H and H^2. Horner's rule computes
-the three coefficients from the Taylor polynomial of exp X. No step divides by differences of eigenvalues
-(M. Luescher, SU(3) matrix functions, notes of openQCD).
+where p = tr(H^2)/2 and q = det H. Hence exp X is a linear combination of I, H and H^2. In the Taylor
+polynomial of exp X, the formula for H^3 eliminates the powers H^3, H^4, .... No step divides by differences
+of eigenvalues (M. Luescher, SU(3) matrix functions, notes of openQCD).
 
 All eigenvalues of H are bounded by 2 (p/3)^(1/2) in absolute value. If this bound is large, the Taylor
 polynomial is evaluated for X/2^s instead of X. The matrix exp(X/2^s) is then squared s times.

@@ -1,7 +1,8 @@
 """Vector functions: functions of arrays whose result is an array, for example the matrix exponential.
 
 In an expression, ``NAME.k`` denotes entry k of the result of the vector function ``NAME``
-(:mod:`codegen.ir.vector_calls`). The arguments are the entries of all argument arrays.
+(:mod:`codegen.ir.vector_calls`). The arguments of ``NAME.k`` are the entries of all argument arrays of
+``NAME``.
 """
 
 from __future__ import annotations

@@ -261,7 +261,7 @@ class _Builder:
         # If the field does not depend on time, the program has no time variable, and t is set to 0.
         t = self.times[time[0]] if time else self.domain.rational(0)
         self.body += [self.at_time(s, t, name) for s in self.matrices.program.moved(x, w, name)]
-        # Let V be the value of the vector field at the point X. The next statement computes X^T V.
+        # Let V be the value of the vector field at the point X. The matrix ``products`` is X^T V.
         products, halved = Matrix(f"{name} gram", k, k), Matrix(f"{name} correction", k, k)
         self.body.append(Multiplication(products, x, w, True))
         # Let V be the value of the vector field at the point X. The next two statements compute the matrix

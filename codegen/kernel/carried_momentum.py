@@ -5,11 +5,11 @@ converted in the following cases:
 
 - The program uses the space frame, and the emitted code uses the body frame. In this case, each step converts
   the momentum to the space frame and back.
-- The program uses the body frame, the caller of the emitted code uses the space frame, and the option
-  ``whole`` is true. In this case, each step converts the momentum to the body frame and back.
-- The program uses the body frame, the caller of the emitted code uses the space frame, and the option
-  ``whole`` is false. In this case, the momentum is converted to the body frame before the first step, and to
-  the space frame after the last step (:class:`codegen.ir.kernel.Carried`).
+- The program uses the body frame, the emitted code uses the space frame, and the option ``whole`` is true.
+  In this case, each step converts the momentum to the body frame and back.
+- The program uses the body frame, the emitted code uses the space frame, and the option ``whole`` is false.
+  In this case, the momentum is converted to the body frame before the first step, and to the space frame
+  after the last step (:class:`codegen.ir.kernel.Carried`).
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ class Frames:
     """The frames of the momentum in a program and in emitted code.
 
     Suppose that the program uses the body frame, and the emitted code uses the space frame. If ``whole`` is
-    true, each step converts the momentum to the body frame and back. If ``whole`` is false, the steps do not
-    convert the momentum.
+    true, each step converts the momentum to the body frame and back. If ``whole`` is false, the momentum
+    is converted only before the first step and after the last step.
     """
 
     scene: Problem

@@ -22,9 +22,6 @@ TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1,
 
 On x86 processors an addition or a product of doubles takes about four cycles, and a division takes about 14
 cycles. ``benchmarks/emitted.py`` measures the run times of emitted steps.
-
-If the latency of a division is set to 2 or 8, the code of five explicit methods does not change. If the
-latency of a call is set to 3 or 12, only the code of splitting:blanes_moan_rkn4 on fast_heavy_top changes.
 """
 
 ATOMS = frozenset({"call", "div"})
@@ -42,7 +39,7 @@ Sum = dict[Expr | None, tuple[int, Expr, Expr]]
 
 The key of a product is its late factor, or None if it has no late factor. A value describes the product
 without its late factor. The value contains a sign, the product of the factors that are constant in a run, and
-the product of the other factors.
+the product of the factors that vary in a run.
 """
 
 
@@ -233,8 +230,8 @@ class _Chains:
         """Change the order of the multiplications in a product, so that constant factors are multiplied
         first.
 
-        Suppose that c1 and c2 are constant in a run, and x is not. If ``node`` is the product of c1 and c2 x,
-        return the product of c1 c2 and x. Otherwise return ``node``.
+        Suppose that c1 and c2 are constant in a run, and x is not. If ``node`` is c1 (c2 x), return
+        (c1 c2) x. Otherwise return ``node``.
         """
         if node.op != "mul":
             return node

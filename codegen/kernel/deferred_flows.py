@@ -29,7 +29,8 @@ class Parted:
     - ``begin`` is executed before the first step. It is None if no flows of successive steps are joined.
     - ``core`` is executed in each step. The duration of a joined flow in ``core`` is the variable
       :data:`LEAD`.
-    - LEAD has the value ``last`` * h in the last step of a run, and ``later`` * h in all other steps.
+    - ``last`` and ``later`` are two factors. LEAD is ``last`` * h in the last step of a run, and
+      ``later`` * h in all other steps.
     - ``finish`` is executed after the last step, and is None if no flow is deferred to the end of the run.
       The flows in ``finish`` have the duration :data:`ELAPSED`, the sum of the durations of all steps.
     """

@@ -284,8 +284,8 @@ class _Execution:
         return _sum([(Multiplier.of(EXP, g.a), point), (_constant(ONE), g.b)])
 
     def _bracket(self, x: _Element, y: _Element) -> _Element:
-        # The bracket of (a, b) and (c, d) is (0, lambda (a d - c b)). Because lambda = z/h, the power of h
-        # decreases by one.
+        # The bracket of (a, b) and (c, d) is (0, lambda (a d - c b)). The factor lambda is z/h. The factor
+        # 1/h decreases ``power`` by one.
         z = Multiplier.of(POWER, ONE)
         b = _sum([(z.scaled(x.a), y.b), (z.scaled(-y.a), x.b)])
         return _Element(ZERO, b, x.power + y.power - 1)
@@ -319,7 +319,7 @@ class _Execution:
 
     def _terms(self, point: Sum) -> tuple[Term, ...]:
         """Return a linear combination as a sequence of terms."""
-        # The values of N are multiplied by h. The old state is not.
+        # All sources except the old state are multiplied by h.
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
 
     def _table(self, multiplier: Multiplier, power: int) -> int | None:

@@ -94,8 +94,8 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     # In one sweep each site belongs to only one pair, so a sweep over pairs can work in place.
     array = RESULT if part.symbols else STATE
     # ``side`` is 0 for the site itself, and 1 for the other site of the pair. The third argument of ``Load``
-    # is the number of a neighbour. Here the other site of the pair is neighbour 0, and the number -1 denotes
-    # the site itself.
+    # is the number of a neighbour. For ``side`` = 0, this number is -1, which denotes the site itself. For
+    # ``side`` = 1, this number is 0.
     loads = [Load(s, Row(array, k), side - 1) for side, own in enumerate(names) for k, s in enumerate(own)]
     stores = [Row(RESULT, k) for _ in names for k in range(size)]
     about = f"flow of {part.name}" + (f", pairs along axis {part.axis}" if part.symbols else "")

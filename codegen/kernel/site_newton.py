@@ -87,7 +87,7 @@ class Linearisation:
             for block, there in zip(blocks, self._columns(), strict=True):
                 for j in range(size):
                     slope = space.zero if there is None else next(parts)
-                    # The matrix is 1 - g'(u). The unit matrix occurs only in the block of the site itself.
+                    # The matrix is 1 - g'(u). The unit matrix occurs only in the columns of the site itself.
                     block.append((space.one if there == OWN and i == j else space.zero) - slope)
         # Every neighbour in a periodic chain exists, so the kernel needs no flags.
         exists = () if self.sites.periodic else tuple(map(self._exists, range(len(self.sites.offsets))))

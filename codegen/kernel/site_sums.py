@@ -1,4 +1,6 @@
-"""Discrete gradients on a lattice: inner products and energies are sums over all sites.
+"""Discrete gradients on a lattice.
+
+Inner products and energies are sums over all sites.
 
 The discrete differential of the total energy is D = g + (e/|eta|^2) eta with e = H1 - H0 - <g, eta>. The
 covector g approximates the differential of the energy, and eta is the displacement of a step. The energies

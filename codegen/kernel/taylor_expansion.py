@@ -79,8 +79,8 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     # values.
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
-    # Let n be the loop index. ``left`` and ``right`` contain a_n and b_n for each product a b of power
-    # series.
+    # Let n be the loop index. For each product of two power series a and b, ``left`` contains a_n, and
+    # ``right`` contains b_n.
     following = _kernel(kernel, (), (*loop.left, *loop.right, *loop.following), name)
     return Expansion(degree, first, enter, leave, following, len(loop.sums))
 

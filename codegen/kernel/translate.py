@@ -51,7 +51,7 @@ AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
 """Four ways to treat the critical path (the longest chain of dependent operations).
 
 - AS_WRITTEN leaves the operations unchanged.
-- COMBINED changes c1 (c2 x) into (c1 c2) x if c1 and c2 are constant in a run, and x is not.
+- COMBINED changes c1 (c2 x) into (c1 c2) x if c1 and c2 are constant in a run, and x is not constant.
 - ORDERED sorts the assignments by the estimated time at which each value is available.
 - SHORTENED does what COMBINED and ORDERED do, and rewrites the longest chains
   (:mod:`codegen.kernel.critical_path`).
@@ -77,17 +77,17 @@ def to_kernel(
     - ``chains`` selects a treatment of the critical path: AS_WRITTEN (no change), COMBINED, ORDERED or
       SHORTENED. The docstring of these constants describes the treatments. If the program has implicit
       equations, ``chains`` must be AS_WRITTEN.
-    - If ``whole`` is true, each step converts the momentum between the space frame and the body frame. If
-      ``whole`` is false, a run converts the momentum once at its beginning and once at its end
-      (:mod:`codegen.kernel.carried_momentum`). ``whole`` matters only if the program uses the body frame
-      and the emitted code uses the space frame.
+    - ``whole`` matters only if the program uses the body frame and the emitted code uses the space frame. If
+      ``whole`` is true, each step converts the momentum between the two frames. If ``whole`` is false, a run
+      converts the momentum once at its beginning and once at its end
+      (:mod:`codegen.kernel.carried_momentum`).
     - If ``outlining`` is true, repeated computations of a long step become functions
       (:mod:`codegen.kernel.outlining`).
 
     :class:`codegen.errors.SceneError` is raised if an operation of the group has no closed form.
     :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a derivative in the matrix of Newton's
-    method does not exist. ZeroDivisionError is raised if the expansion of this matrix in h contains 1/0 or a
-    value such as log(0).
+    method does not exist. For some programs, this matrix is expanded in powers of h. ZeroDivisionError is
+    raised if the expansion contains 1/0 or a value such as log(0).
     """
     return _Translation(program, scene, solvers, variations, chains, whole, outlining).kernel()
 
@@ -173,7 +173,7 @@ class _Translation:
     def begin(self) -> State:
         """Set the values of the program's inputs to symbols, and return the initial state."""
         space = self.domain.space
-        # The momentum in ``start`` has the frame of ``self.program``: space frame or body frame.
+        # ``self.program`` uses the space frame or the body frame. The momentum in ``start`` is in this frame.
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
@@ -313,7 +313,7 @@ class _Translation:
             shorter, functions = _outlined(self.outline, self.blocks, ends, self.hints, self.name)
             if shorter is not None and _count(shorter.body) + _count(functions) < WORTH * _count(body):
                 schedule, body, outlined = shorter, tuple(shorter.body), functions
-        # Outlining creates new assignments. Therefore the assignments are sorted after outlining.
+        # The assignments that outlining creates must be sorted, too.
         if self.chains in (ORDERED, SHORTENED):
             body = critical_path.ordered([let for let in body if isinstance(let, Let)])
         return body, schedule.outputs, outlined

@@ -200,7 +200,7 @@ def _step_size(compiled: Compiled, step: SiteStep) -> float:
     """Return the step size for the measurement."""
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # Rotation angles above about one radian need a slow loop. A small step size avoids such angles.
+    # Rotation angles above about one radian need a slow loop.
     return h if step.blocks else h / SHORTER
 
 

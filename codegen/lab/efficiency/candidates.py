@@ -92,7 +92,7 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes in which the equations use the coordinates of the scene.
 
-    On an abelian group, several families can give the same method. Only the first family is then used. The
+    On an abelian group, several families can give the same method. Only one of these families is used. The
     function does not check whether a recipe can be compiled for the scene.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
