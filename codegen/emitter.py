@@ -309,7 +309,7 @@ def emit(
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module in a target language.
 
-    - ``scene``: a name of the gallery, the path of a Python file, or a problem.
+    - ``scene``: the name of a built-in scene, the path of a Python file, or a problem.
     - ``method``: ``FAMILY:TABLEAU``, ``TABLEAU``, or an object of :class:`orderconds.Tableau`.
     - ``family``: the family of a tableau, by default the family in which the order of the tableau is highest.
     - ``prefix``: the beginning of external names, by default the names of the scene and the method.

@@ -17,8 +17,8 @@ from codegen.scene.flow import Flow
 class Drift(Flow):
     """The flow of a kinetic energy H = T(mu) on an abelian group, where mu is the momentum.
 
-    After the time tau, the group element is exp(tau xi) q. Here xi = dT/dmu is the velocity. The momentum is
-    constant.
+    The flow over the time tau replaces the group element q by exp(tau xi) q. Here xi = dT/dmu is the
+    velocity. The momentum is constant.
     """
 
     velocity: tuple[Expr, ...]

@@ -63,7 +63,7 @@ def site_flows(scene: Problem) -> list[Part]:
     """Return the parts of a lattice scene and their exact flows.
 
     For a Hamiltonian lattice, each part is a term of the Hamiltonian, and the potential energy is the last
-    part. For another lattice, the list contains the parts of the field:
+    part. If the lattice is not Hamiltonian, the list contains the parts of the vector field:
 
     - The parts that couple no sites are first in the list.
     - Each part that couples neighbours along an axis is split into two parts, one for the even pairs and one

@@ -35,8 +35,8 @@ class Turn(Flow):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return the new state (q, mu) after the time tau.
 
-        Let g be the group element exp(a e). Here a = tau (r e.P + c) is the angle of the turn
-        (:class:`Turn`).
+        Let g be the group element exp(a e). Here e is the axis, and a is the rotation angle after the time
+        tau (:class:`Turn`).
 
         - If the axis is fixed in the body, the new state is (q g, mu).
         - If the axis is fixed in space, the new state is (g q, Ad*_{g^-1} mu).

@@ -52,8 +52,8 @@ class CubicAd(ClosedFormSeries):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        In each triple, f is a number, and W is a product of functions. If ``dual`` is true, ad*_x replaces
-        ad_x. The argument ``total`` is described in :meth:`ClosedFormSeries.series_sum`.
+        In each triple, f is a number, W(t) is a product of functions of t, and v is a vector. If ``dual`` is
+        true, ad*_x replaces ad_x. The argument ``total`` is described in :meth:`ClosedFormSeries.series_sum`.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim

@@ -27,8 +27,8 @@ class Matrix:
     """A matrix that is stored row by row in the array ``name``. The first entry of the matrix has the index
     ``start`` in the array.
 
-    ``stride`` is the distance in the array between the first entries of successive rows. The value 0 denotes
-    the number of columns.
+    ``stride`` is the distance in the array between the first entries of successive rows. If
+    ``stride`` is 0, this distance is the number of columns.
     """
 
     name: str
@@ -257,7 +257,8 @@ class ArrayProgram:
 
         # Without the prefix, an array of this program might have the name of an array of the other program.
         def now(matrix: Matrix) -> Matrix:
-            # The matrices ``argument`` and ``result`` keep their names. All other names get the prefix.
+            # The matrices ``argument`` and ``result`` keep their names. All other names get the prefix
+            # ``name``.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")
@@ -319,7 +320,7 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
-        # The entry C[row, column] is ``a``. The loop adds M[b, row] ``a`` to target[b, column].
+        # The entry C[row, column] is ``a``. The first loop adds M[b, row] * ``a`` to target[b, column].
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column

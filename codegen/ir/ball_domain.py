@@ -2,8 +2,8 @@
 
 An operation is about six times faster than in :class:`codegen.ir.domain.PreciseDomain`.
 
-After each operation of a step program (such as exp or Ad), each ball is replaced by its midpoint. Hence the
-results have no rigorous error bounds.
+A step program consists of operations such as exp and Ad. After each operation, each ball in the result is
+replaced by its midpoint. Hence the results have no rigorous error bounds.
 
 The working precision of balls is a global variable of python-flint. Code that uses this domain therefore runs
 inside ``with domain.precision():``.

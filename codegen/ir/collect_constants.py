@@ -135,7 +135,8 @@ class _Gathering:
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
         """Return the term c times ``atom`` as a pair (number, expression).
 
-        If ``atom`` is 1/y, the pair is (c/e, e/y). The first call for 1/y sets e = |c|. Later calls reuse e.
+        For an atom 1/y, let e be the value of |c| in the first call for this atom. Then the pair is
+        (c/e, e/y). For every other atom, the pair is (c, ``atom``).
         """
         if not _is_inverse(atom):
             return c, atom

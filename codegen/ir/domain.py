@@ -458,8 +458,9 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # Each key is the node number of a time t. The value is the pair (t, symbols). The dictionary
-        # ``symbols`` maps the name of a function of time to the symbol for the value of this function at t.
+        # A time is an expression t, and its key is ``t.id``. The value is the pair (t, symbols). The
+        # dictionary ``symbols`` maps the name of a function of time to the symbol for the value of this
+        # function at t.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:

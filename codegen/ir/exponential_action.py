@@ -2,8 +2,8 @@
 
 In doubles, the number s is chosen such that the matrix B = A/2^s has a small norm. The vector y is multiplied
 2^s times by the Taylor polynomial of exp(B) (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011)
-488). Let m be the degree of the Taylor polynomial, and let the vector p be the sum of (m!/j!) B^(j-1) y over
-j = 1, ..., m. A multiplication by the polynomial replaces y by y + B q with q = p/m!.
+488). A multiplication by the Taylor polynomial of degree m replaces y by y + B p/m!. Here the vector p is the
+sum of (m!/j!) B^(j-1) y over j = 1, ..., m.
 
 Unlike the coefficients 1/j! of the Taylor polynomial, the integers m!/j! need no rounding.
 """
@@ -154,8 +154,8 @@ class ExponentialAction(VectorFunction):
 
         - If ``pattern`` is not 0, the result is None.
         - If A is zero, the result is y.
-        - If A has at most :data:`SPARSE` rows, the results are calls of a function. Its arguments
-          are the non-zero entries of A, and y.
+        - If A has at most :data:`SPARSE` rows, the expressions are calls of another
+          :class:`ExponentialAction`. Its arguments are the non-zero entries of A, and y.
         - If A has more rows, the result is None.
         """
         # If ``pattern`` is not 0, the arguments already omit the zero entries of A.

@@ -127,7 +127,7 @@ def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tupl
 def outward(
     problem: Problem, domain: Domain, state: Mapping[str, Value], *ends: Mapping[str, Value]
 ) -> tuple[Scalar, ...]:
-    """Return the momentum in the space frame after a step that was computed in the body frame.
+    """Return the space momentum after a step. The step itself computes body momenta.
 
     ``state`` contains the space momentum mu before the step. ``ends`` are two states with body momenta: the
     state before the step and the state after the step. Both body momenta are converted to the space frame.

@@ -48,7 +48,7 @@ class _Graph:
     ``before[v][u]`` and ``after[u][v]`` contain the label of this edge: the partial derivative of v with
     respect to u.
 
-    The vertex -1 - i is the result i. Every other vertex u is the expression with ``id`` u.
+    The vertex -1 - i represents ``roots[i]``. Every other vertex u is the expression with ``id`` u.
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:

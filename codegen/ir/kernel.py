@@ -23,7 +23,7 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""The name of a symbol in splitting methods: the duration of the last flow.
+"""The name of a symbol. In a step of a splitting method, the symbol is the duration of the last flow.
 
 In a run of several steps, the last flow of a step includes the first flow of the next step. The dot
 distinguishes the name from all names that a user can choose.
@@ -85,7 +85,8 @@ class Newton:
       inverted again after :attr:`period` steps.
 
     If ``inverted`` is true, ``matrix`` is the inverse of the matrix described above. If ``residuals`` is
-    true, the variable with the name ``changes[k]`` contains the change of unknown k in a sweep.
+    true, ``changes`` contains one variable name for each unknown. The variable stores the change of this
+    unknown in a sweep.
     """
 
     body: tuple[Let, ...]
@@ -117,11 +118,12 @@ class Loop:
     ``label`` is the name of the equations in messages and statistics, for example "stage 2". ``starts`` are
     the first values of the unknowns. If a :class:`Start` computes the first values, ``starts`` is empty.
 
-    One iteration of the loop is called a sweep. In fixed-point iteration, the change of the unknowns in a
-    sweep is g(u) - u. The change is added to the unknowns in every sweep except the last sweep. With
-    ``newton``, the change is the inverse of Newton's matrix times g(u) - u. For equations r(u) = 0, Newton's
-    matrix approximates -r'(u), and the change is the inverse of Newton's matrix times r(u). With ``newton``,
-    the change is added to the unknowns in every sweep, including the last sweep.
+    One iteration of the loop is called a sweep. Each sweep computes a change of the unknowns:
+    - Fixed-point iteration (``newton`` is None): g(u) - u.
+    - Newton's method for u = g(u): the inverse of Newton's matrix times g(u) - u.
+    - Newton's method for r(u) = 0: the inverse of Newton's matrix times r(u).
+
+    The change is added to the unknowns, except in the last sweep of a fixed-point iteration.
 
     ``limit`` is the largest number of sweeps. For equations u = g(u), the stopping rule
     (:mod:`codegen.run.stopping`) ends the loop in two main cases:
@@ -173,9 +175,9 @@ class Start:
     2 u1 - u2 and 3 u1 - 3 u2 + u3.
 
     The backward differences are u1 - u2 (order 1), u1 - 2 u2 + u3 (order 2), and so on. The sizes of the
-    backward differences determine the degree of the next extrapolation (:mod:`codegen.run.warm_start`). Let c
-    be the change of the unknowns from one step to the next. If the estimated error of the first values is
-    larger than ``ROUGH`` times c, all stored solutions except u1 are discarded.
+    backward differences determine the degree of the next extrapolation (:mod:`codegen.run.warm_start`). If
+    the estimated error of the first values exceeds a bound, all stored solutions except u1 are discarded. The
+    bound is ``ROUGH`` times the change of the unknowns from one step to the next.
 
     A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then the
     step size grows to h. Each solution provides the first values for the next larger step size. After a
@@ -217,7 +219,8 @@ class Deferred:
     A run has at most :data:`LONGEST` steps. The run calls ``begin``, then the kernel of the step once for
     each step, and then ``finish``.
 
-    The symbol :data:`LEAD` has the value ``last`` * h in the last step, and ``later`` * h in all other steps.
+    The last flow of a step has the duration ``last`` * h in the last step of a run, and ``later`` * h in all
+    other steps. The symbol :data:`LEAD` is this duration.
     """
 
     begin: Kernel | None

@@ -92,7 +92,8 @@ class LinearArrayStep:
     """A step y1 = exp(X_m) ... exp(X_1) y0, where y0 and y1 are n x k matrices.
 
     - ``argument`` is y0.
-    - ``matrix`` is A(t), and ``times`` are the times t_i at which the matrix is evaluated.
+    - ``matrix`` is the matrix A(t) of the equation y' = A(t) y.
+    - ``times`` are the times t_i at which A(t) is evaluated.
     - ``letters`` are linear combinations of the matrices h A(t_i).
     - ``commutators`` contains the pair (X, Y) for each commutator [X, Y]. X and Y may contain commutators
       with smaller indices.

@@ -29,8 +29,8 @@ class MatrixExponential(VectorFunction):
     are four matrices: A, a derivative B of A, and the derivatives of A and B in a second direction. In
     general, each level doubles the number of arguments. For ``level`` = k, the first half contains the
     arguments for ``level`` = k - 1. The second half contains the derivatives of the matrices in the first
-    half. The first half of the results contains the results for ``level`` = k - 1. The second half contains
-    the derivatives of the first half.
+    half. The first half of the results contains the results for ``level`` = k - 1. The second half of the
+    results contains the derivatives of the matrices in the first half.
     """
 
     n: int
@@ -52,8 +52,8 @@ class MatrixExponential(VectorFunction):
 
         In the method of scaling and squaring, the squarings are not counted.
         """
-        # A Taylor polynomial of degree 12 requires five products of jets. A product of two jets consists of
-        # 3^``level`` products of matrices.
+        # A Taylor polynomial of degree 12 requires five products. With the derivatives, each product consists
+        # of 3^``level`` products of n x n matrices.
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 

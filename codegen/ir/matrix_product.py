@@ -62,7 +62,8 @@ class BilinearFunction(VectorFunction):
         ``args`` are the entries of a and b, and ``argument`` is the index of this one entry in ``args``.
         """
         space = args[0].space
-        # The derivative is f(E, b) or f(a, E). One entry of the matrix E is 1, and the others are 0.
+        # For an entry of a, the derivative of f(a, b) is f(E, b). For an entry of b, the derivative is
+        # f(a, E). One entry of the matrix E is 1, and the others are 0.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
         # ``half`` is the slice of the replaced entries in ``args``.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)

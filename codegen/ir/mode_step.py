@@ -240,8 +240,8 @@ class ModeStep:
     - ``nonlinearity`` is the nonlinear part N.
     - ``wave`` is the name of the symbol for the wave number.
     - ``space`` is the name of the symbol for x.
-    - ``symbol`` computes an eigenvalue of the linear operator L from the wave number. The outputs are the
-      real part and, if L may have eigenvalues that are not real, the imaginary part.
+    - The kernel ``symbol`` computes an eigenvalue of the linear operator L from the wave number. The
+      outputs are the real part and, if L may have eigenvalues that are not real, the imaginary part.
     - ``length`` computes the length of the periodic interval.
     - ``initial`` computes the initial state at the point x.
     """
