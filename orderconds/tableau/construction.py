@@ -169,7 +169,7 @@ def _claimed(claims: object, family: str) -> dict[str, int | bool]:
             expected='the order, or a mapping such as {"rk": 4, "explicit": True}',
         )
     return {
-        text(label, "claims", 'a str, such as the family "rk" or the property "explicit"'): x
+        text(label, "claims", 'a family or property, given as a string such as "rk"'): x
         if isinstance(x, bool)
         else integer(x, f"claims[{label!r}]", CONDITION_ORDER)
         for label, x in claims.items()
