@@ -1,9 +1,9 @@
 """Vector fields that are only piecewise smooth.
 
 A selection (:mod:`codegen.ir.smoothness`) is an operation with several cases (*sides*), for example an
-absolute value. The margins of a selection are functions of the state and the time that are positive while the
-current case applies. At an event, a margin becomes zero, and the integration continues with the smooth field
-of the new case.
+absolute value. The margins of a selection are functions of the state and the time. While the current case
+applies, all margins are positive. At an event, a margin becomes zero, and the integration continues with the
+smooth field of the new case.
 """
 
 from __future__ import annotations

@@ -134,9 +134,9 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
     """Compute the state of a scene at the end of its time span, and the uncertainty of the computed state.
 
     The uncertainty is the maximum norm of the difference of two solutions with different extrapolation
-    orders. ``end`` is the deadline of the computation on the clock ``time.monotonic()``. Raises
-    :class:`codegen.errors.SceneError` if the equation cannot be solved, if the two solutions do not agree to
-    28 digits, or if the deadline passes.
+    orders. The computation must finish before the clock ``time.monotonic()`` reaches the deadline ``end``.
+    Raises :class:`codegen.errors.SceneError` if the equation cannot be solved, if the two solutions do not
+    agree to 28 digits, or if the deadline passes.
     """
     (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))

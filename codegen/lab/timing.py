@@ -64,8 +64,7 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
 
     The times are in ascending order. A batch contains enough calls to take ``batch`` seconds or longer. If
     the first batch takes longer than :data:`LONG` seconds, at most :data:`FEWER` batches are timed. Otherwise
-    the number of batches is ``batches``. It is increased if the two least times differ too much
-    (:data:`CONFIRMED`).
+    the number of batches is ``batches``, or more if the two least times differ too much (:data:`CONFIRMED`).
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -91,8 +90,8 @@ def spans(run: Callable[[int], object], steps: int) -> int:
 
     - ``run(n)`` takes less than :data:`RESOLVED` seconds.
     - ``run(2 * n)`` does not fail.
-    - ``run(2 * n)`` has at most :data:`LEAST_STEPS` steps. A longer run is not necessary for an accurate
-      measurement.
+    - The number of steps of ``run(2 * n)`` is at most :data:`LEAST_STEPS`. More steps are not necessary for
+      an accurate measurement.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:

@@ -91,9 +91,7 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
             hint='define the step in the argument "steps" of LinearScene',
         )
     # ``name`` is the name of a step y1 = M y0. The scene defines this step by a formula for the matrix M.
-    # Only a scene of the class LinearScene can define steps. The differential equation of a LinearScene is
-    # linear. Methods of the family ``magnus`` solve linear differential equations, and the compiler of this
-    # family also compiles the steps that a scene defines.
+    # The compiler of the family ``magnus`` also compiles such steps.
     return Method("magnus", None, step=name)
 
 

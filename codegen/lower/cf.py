@@ -77,8 +77,8 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
     if embedded is not None:
         second = embedded.commutator_free().update
         exponent = second_exponent(method.commutator_free(), second, method.ring)
-        # ``exponent`` contains the coefficients D_i of the docstring. If ``exponent`` is None, the embedded
-        # method does not have the form described in the docstring.
+        # ``exponent`` contains the coefficients D_i in exp(h sum_i D_i k_i). If ``exponent`` is None, the
+        # embedded method does not apply such an exponential.
         if exponent is None:
             return None
     # If ``holds`` is True, the scheme and the tableau define the same step.

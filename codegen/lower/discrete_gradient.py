@@ -122,9 +122,8 @@ def _program(scene: Problem, method: Method) -> Program:
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
-        # The implicit equation is xi = f(xi). An iteration computes an approximate solution xi. The variable
-        # ``shared["f"]`` is the right-hand side f(xi). The error of f(xi) is O(h) times the error of the
-        # computed xi. For this reason, the update uses the more accurate f(xi) in place of xi.
+        # An iteration solves the equation xi = f(xi) only approximately. The error of f(xi) is O(h) times the
+        # error of xi. For this reason, the update uses f(xi), which is ``shared["f"]``, in place of xi.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     # The exact xi differs from f(y0) by O(h), so f(y0) is the initial guess.

@@ -1,8 +1,7 @@
-"""Lowerings of splitting methods: a step on T*G is a sequence of exact flows of parts of a Hamiltonian.
+"""Lowerings of splitting methods: a step on T*G is a sequence of exact flows of summands of a Hamiltonian.
 
-The sequence is called a word. Each part is a sum. Each summand has an exact flow. If the Hamiltonian depends
-on time, the flow of one autonomous summand also advances the time. During all other flows the time is
-constant.
+The sequence is called a word. If the Hamiltonian depends on time, the flow of one autonomous summand also
+advances the time. During all other flows the time is constant.
 """
 
 from __future__ import annotations
@@ -58,11 +57,9 @@ class Parts:
         """The summands of all parts, in the order for the function :func:`pairs`.
 
         A kick is a flow that changes only the momentum. If the scene is not a lattice, kicks come first,
-        because the kicks of two successive steps can be joined. On a lattice, the compiler does not join the
-        kicks of two successive steps, and kicks come last in the returned list. Strang's step applies the
-        flows of all summands in the order of the returned list, and after this in the reverse order. If a
-        kick is last in the list, Strang's step contains this kick twice in succession, and the two kicks are
-        joined into one kick.
+        because the kicks of two successive steps can be joined. On a lattice, kicks come last, because the
+        two kicks in the middle of Strang's step can be joined. Strang's step applies the flows of all
+        summands in the order of the returned list, and after this in the reverse order.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)

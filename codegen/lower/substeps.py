@@ -111,7 +111,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
     """Return True if a step can be divided into two substeps, the first with k stages."""
     s = len(b)
-    # Lemma 3.5.4 of Bogfjellmo and Marthinsen: a_ij = b_j for j < k <= i, and a_ij = 0 for i < k <= j.
+    # Lemma 3.5.4 of Bogfjellmo and Marthinsen, for a first substep with k stages: a_ij = b_j for j < k <= i,
+    # and a_ij = 0 for i < k <= j.
     return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
         A[i][j].is_zero for i in range(k) for j in range(k, s)
     )

@@ -45,7 +45,7 @@ class PeerCandidate:
         self.overhead: Overhead | None = None
 
     def controls(self) -> Iterator[float]:
-        """Yield tolerances or numbers of steps for :meth:`measure`. The accuracy of the runs increases.
+        """Yield decreasing tolerances or increasing numbers of steps for :meth:`measure`.
 
         If the attribute ``controlled`` of the peer is "tolerance", the values are tolerances. Otherwise the
         values are the numbers of steps 1, 2, 4, ....

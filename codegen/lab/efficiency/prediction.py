@@ -224,10 +224,9 @@ class Predictor:
     def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
         """Return the prediction for a method of the given order.
 
-        A bar contains limits on the error and the CPU time. If every bar excludes the method
-        (:meth:`Bar.too_high`), no run is made, and the predicted error is infinite. ``controlled`` is the
-        same method with step-size control, or None. Raises InputError if the method cannot be used for the
-        scene.
+        A bar contains limits on the error and the CPU time. If :meth:`Bar.too_high` returns True
+        for every bar, no run is made, and the predicted error is infinite. ``controlled`` is the same method
+        with step-size control, or None. Raises InputError if the method cannot be used for the scene.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
@@ -314,8 +313,8 @@ class Predictor:
 
         ``outside`` is the time that one step needs for all operations outside the implicit equations.
         ``sweep`` is the time of one sweep. A sweep is one iteration over all implicit equations. ``widths``
-        maps each input of the program to its number of components. The number of components of each computed
-        variable is stored in ``widths``.
+        maps each input of the program to its number of components. The function adds an entry for each
+        computed variable to ``widths``.
         """
         outside = sweep = 0.0
         for statement in program.body:
@@ -353,11 +352,10 @@ def _reached(
     most: float,
     end: float,
 ) -> tuple[int, float, float]:
-    """Run a program several times with equal steps. The first run makes ``steps`` steps, and each later run
-    makes twice as many steps, up to ``most``.
+    """Run a program with N, 2 N, 4 N, ... equal steps, where N is ``steps``.
 
-    No further run is started if the error is small (:data:`SMALL`), or if the CPU time of the process
-    (``time.process_time``) reaches ``end``.
+    No run has more than ``most`` steps. No further run is started if the error is small (:data:`SMALL`), or
+    if the CPU time of the process (``time.process_time``) reaches ``end``.
 
     Returns three numbers for the most accurate run: the number of steps, the error (infinite if all runs
     failed), and the number of sweeps (iterations for implicit equations) in a step.

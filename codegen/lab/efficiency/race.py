@@ -180,7 +180,7 @@ class Racer:
         return span_times(lambda n: self.run(control, n)[1], self.overhead, batch, batches)[0]
 
     def reach(self, error: float, best: float = math.inf) -> Result:
-        """Return the result for the fastest run that reaches an error.
+        """Return the result for the fastest run whose error is at most ``error``.
 
         A recipe is a method on one form of the equations, with equal steps or with step-size control. The
         argument ``best`` is the CPU time in seconds that another recipe needs for this error, or infinity.

@@ -18,8 +18,8 @@ class Place:
     """The fastest and the second fastest candidate for an error of 10^-``decade``.
 
     - ``winner``, ``seconds``: the label and the CPU time of the fastest candidate.
-    - ``second``: the label of the second fastest candidate, or '' if only one candidate reaches the error.
-    - ``behind``: the CPU time of the second fastest candidate, or None.
+    - ``second``, ``behind``: the label and the CPU time of the second fastest candidate. If only one
+      candidate reaches the error, the label is '', and the time is None.
 
     If the scene has several forms of the equations, a label ends with the name of the form.
     """
@@ -53,9 +53,9 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     """Return the CPU time in seconds that a candidate needs to reach ``error``, or None if no run reaches it.
 
     The runs are sorted from coarse to fine. Runs after the most accurate run are not used. The time is
-    interpolated between two runs: the last run whose error is above ``error``, and the next run. The
-    interpolation is linear in the logarithms of time and error. The result is the least of the
-    interpolated time and the times of all finer runs.
+    interpolated between two runs a and b: a is the last run whose error is above ``error``, and b is the run
+    after a. The interpolation is linear in the logarithms of time and error. The result is the least of the
+    interpolated time, the time of b, and the times of all runs after b.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)

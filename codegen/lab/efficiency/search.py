@@ -309,7 +309,7 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If the run misses the required error, the time is unknown. A long time is assumed.
+                # If no run reaches the required error, a large CPU time is assumed.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)

@@ -122,8 +122,8 @@ class Drift:
     - ``later``: the largest deviation of the record, divided by the largest deviation in the first half.
     - ``ratios``: two variance ratios (:data:`WALKING`), both about 1 for a random walk.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
-    - ``unlike_walk``: True if the scatter about a line is below :data:`STRAIGHT`, or if the steadiness is
-      above :data:`STEADY`.
+    - ``unlike_walk``: True if the test with :data:`STRAIGHT` or the test with :data:`STEADY` shows that the
+      deviation is not a random walk.
     - ``until``: the time at which the deviation saturates, or None.
     """
 

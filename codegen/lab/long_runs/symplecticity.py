@@ -60,7 +60,7 @@ def _measured_states(compiled: Compiled, trajectory: Trajectory) -> list[tuple[f
     A sample is a pair (time, state) of the trajectory. The motion is fastest at the sample where the time
     derivative of the state has the largest Euclidean norm.
 
-    Samples after a large deviation of a conserved quantity (:data:`LEFT`) are not considered.
+    Samples are used only until the relative deviation of a conserved quantity exceeds :data:`LEFT`.
     """
     valid = 1
     for k in range(1, len(trajectory.states)):

@@ -84,7 +84,7 @@ class Trajectory:
     - ``failure``: the message of a failed step, or ''.
     - ``counts``: for each sample, the number of steps since the beginning of the run.
     - ``scales``: for each quantity, the number by which its deviations are divided (:func:`scale`).
-    - ``magnitudes``: for each quantity, the argument ``magnitude`` of :func:`scale`.
+    - ``magnitudes``: for each quantity, the sum of the absolute values of its terms (:func:`scale`).
     """
 
     times: list[float]
@@ -161,8 +161,8 @@ def array_functions(
 ) -> dict[str, ArrayFunction]:
     """Return a dictionary from the names of quantities to functions that evaluate them at many states.
 
-    ``kept`` contains the expressions of each quantity, by default those of the conserved quantities of the
-    scene. The functions return infinity in place of values that are not finite.
+    ``kept`` maps the name of each quantity to its expressions. By default, the quantities are the conserved
+    quantities of the scene. The functions return infinity in place of values that are not finite.
 
     The arguments of each function are an array y and an array of times. Each column of y contains the
     coordinates of a state, followed by the values of the parameters ``swept``.

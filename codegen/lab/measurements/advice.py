@@ -28,7 +28,7 @@ SAFETY = 1.5
 
 @dataclass(frozen=True)
 class Advised:
-    """The fastest method or peer (other integrator) for one error.
+    """The fastest method or peer (other integrator) whose error is at most ``error``.
 
     - ``method``: the name of the method or peer.
     - ``seconds``: the CPU time of a run that reaches the error.

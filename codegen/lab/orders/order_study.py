@@ -34,7 +34,7 @@ class OrderStudy:
     """The study of the order of one method.
 
     - ``order``: the order from the order conditions.
-    - ``convergences``: the convergence for each target (programming language).
+    - ``convergences``: for each target (programming language), the runs with different step sizes.
     - ``times``: the CPU times of runs with the default target.
     - ``spread``: the largest difference between the final states of the targets (:func:`largest_difference`),
       or None if no number of steps permits a comparison.

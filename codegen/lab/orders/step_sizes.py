@@ -1,13 +1,12 @@
 """Measures the order of a method in runs with different step sizes, and compares it with the stated order.
 
 A slope is the logarithm of the ratio of the errors of two consecutive runs, divided by the logarithm of the
-ratio of their step sizes. A run is excluded if it fails or if its error is too small to be measured. The
-excluded runs divide the list of all runs into shorter lists. Slopes are computed only for the runs in the
-longest of these shorter lists.
+ratio of their step sizes. A run is excluded if it fails or if its error is too small to be measured. Slopes
+are computed only for the longest sequence of consecutive runs that are not excluded.
 
 For a smooth problem, the difference between a slope and the order is approximately proportional to the step
 size. For this reason, the difference can be estimated from two consecutive slopes. The slopes have *settled*
-if the last two slopes differ from the order by at most :data:`SETTLED`, according to these estimates.
+if the estimated difference is at most :data:`SETTLED` for each of the last two slopes.
 
 The last slope and the stated order may differ by at most :data:`TOLERANCE`.
 """
@@ -104,17 +103,16 @@ class Refinement:
 
         Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). A
         number counts as equal to ``stated`` if the difference is at most :data:`TOLERANCE`. Otherwise, it is
-        above or below ``stated``. If s is at most the threshold :data:`ZERO`, the rules that contain s do not
-        apply.
+        above or below ``stated``.
 
         If there is no slope, the verdict is ``undecided``. If the slopes have settled (:attr:`settled`), the
         first rule that applies gives the verdict:
 
-        - ``fails`` if s is below ``stated``,
+        - ``fails`` if s is below ``stated`` and above the threshold :data:`ZERO`,
         - ``holds`` if p equals ``stated``,
         - ``holds`` if s equals ``stated`` and p is above ``stated``,
         - ``undecided`` if s equals ``stated`` and p is below ``stated``,
-        - ``fails`` in all other cases.
+        - ``fails`` if neither p nor s equals ``stated``.
 
         Suppose that the slopes have not settled. The verdict is ``holds`` if s equals ``stated``, p is not
         below ``stated``, and :attr:`too_fine` is True. Otherwise, the verdict is ``undecided``.

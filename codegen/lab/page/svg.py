@@ -4,8 +4,8 @@ The placeholder colours in the Matplotlib figure are replaced by CSS variables. 
 depend only on the drawn shapes and the name of the figure. Therefore, if a figure is drawn again, the SVG
 does not change.
 
-For the script of the page, the elements of a curve have the attribute ``data-series``, and the legend entry
-of the curve has the attribute ``data-key``.
+The elements of a curve have the attribute ``data-series``, and the legend entry of the curve has the
+attribute ``data-key``. The script of the page uses these attributes.
 """
 
 from __future__ import annotations

@@ -49,7 +49,7 @@ class Run(Protocol):
 
 @dataclass(frozen=True)
 class Prepared:
-    """A peer that is prepared for one scene and for one tolerance or number of steps.
+    """A peer (an integrator for comparison), prepared for one scene and for one tolerance or number of steps.
 
     - ``run``: ``run(n)`` integrates over n times the length of the time span. If the integration ends early,
       ``run`` raises :class:`PeerFailed`.
