@@ -31,8 +31,8 @@ class OrderCondition:
     - ``rhs`` is the right-hand side.
     - ``key`` is the tree in the internal encoding of the family.
     - ``relation`` is None for an independent condition. For a dependent condition, ``relation`` is the
-      left-hand side as a polynomial in other left-hand sides, for example ``3 <o(|L(o o))> - <o> <o(o)>``.
-      The symbol ``<x>`` denotes the left-hand side of the condition of the tree x.
+      left-hand side as a polynomial in other left-hand sides. The symbol ``<x>`` denotes the left-hand side
+      of the condition of the tree x. An example is ``3 <o(|L(o o))> - <o> <o(o)>``.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))

@@ -108,7 +108,7 @@ def derive(
     :class:`~orderconds.errors.InputError` in these cases:
 
     - The order is not an integer from 1 to 20.
-    - For some order from 1 to ``order``, the family has more than 7000 trees.
+    - For some n <= ``order``, the family has more than 7000 trees of order n.
     - The family has no conditions of the given order.
     - ``stages`` is not an integer from 1 to 12.
     - ``explicit`` is true, but ``stages`` is not given.

@@ -191,11 +191,12 @@ class Problem:
             )
 
     def as_field(self) -> Problem:
-        """Return an equivalent problem on the group T*G, with the state y = (q, mu).
+        """Convert a problem with the state (q, mu) to an equivalent problem on the group T*G.
 
-        The equation of the returned problem is y' = f(y).y, where f is (velocity, force). In the returned
-        problem, the group T*G acts on itself by left multiplication. The dot denotes the left multiplication.
-        If the state of this problem is not (q, mu), the problem is returned unchanged.
+        The state of the returned problem is the element y = (q, mu) of T*G. The equation of the returned
+        problem is y' = f(y).y, where f is (velocity, force). In the returned problem, the group T*G acts on
+        itself by left multiplication. The dot denotes the left multiplication.
+        A problem with another state is returned unchanged.
         """
         if not self.paired:
             return self

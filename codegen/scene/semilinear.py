@@ -23,7 +23,7 @@ step sizes up to 1/4, |z| is at most 1/8, and the omitted terms are below (16 pi
 
 @dataclass(frozen=True)
 class Semilinear:
-    """The operator and the nonlinear term of a semilinear problem, as formulas.
+    """The operator L and the nonlinear term N of a semilinear problem u' = L u + N(u), as formulas.
 
     - ``wave``, ``space``: the symbols of the wave number and of x.
     - ``symbol``: the eigenvalue of L as a formula in the wave number. A complex eigenvalue has two formulas,

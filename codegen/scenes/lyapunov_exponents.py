@@ -1,6 +1,6 @@
 """Lyapunov exponents of Lorenz's system.
 
-Section 2.4.4 of H. Marthinsen's thesis describes this method of L. Dieci and E. Van Vleck. The trajectory
+The scenes use the method of L. Dieci and E. Van Vleck (H. Marthinsen's thesis, section 2.4.4). The trajectory
 satisfies x' = F(x), and A is the Jacobian of F. The frame Q, an element of St(3, k), has k orthonormal
 columns. Let P = Q Q^T. The generator of the frame is (1 - P) A P - P A^T (1 - P) + Q S Q^T. Here S is the
 skew matrix that equals Q^T A Q below the diagonal. In equation (2.24) the thesis prints the generator as

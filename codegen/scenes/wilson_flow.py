@@ -2,10 +2,9 @@
 
 A link is a matrix V in SU(3). The equation of a link is V' = -g0^2 (dS(V)) V, where g0 is the coupling
 constant and S is the Wilson action. Let V^H be the conjugate transpose of V. The plaquette P = V0 V1 V2^H
-V3^H gives g0^2 S = 2 Re tr(1 - P). The generator -g0^2 dS(V) is the traceless anti-Hermitian part of -X.
-The matrix X is a product of four matrices, and the first factor is V. If V is V0 or V1, X is a cyclic
-permutation of the product P. If V is V2 or V3, X is a cyclic permutation of the product
-P^H = V3 V2 V1^H V0^H.
+V3^H gives g0^2 S = 2 Re tr(1 - P). If V is V0 or V1, let X be the cyclic permutation of the product P that
+begins with V. If V is V2 or V3, let X be the cyclic permutation of the product P^H = V3 V2 V1^H V0^H that
+begins with V. The generator -g0^2 dS(V) is the traceless anti-Hermitian part of -X.
 
 A link V is stored as a real 6 x 3 matrix: Re V above Im V.
 

@@ -95,8 +95,7 @@ def _shared_angle(
     # Large arguments are rare, so a separate function evaluates the Stumpff functions for them.
     far, small = f"{name}_far", float(stumpff.SMALL)
     listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-    # The "tiny" polynomials are the shorter polynomials for z <= TINY. Three or more tiny polynomials would
-    # make the C function too long for inlining.
+    # Three or more "tiny" polynomials would make the C function too long for inlining.
     sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
     calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
     tiny = float(stumpff.TINY) if "tiny" in sizes else ""

@@ -10,8 +10,8 @@ from orderconds.tableau import Tableau
 def orders_of(tableau: Tableau) -> dict[str, int]:
     """Return the computed orders of a tableau in several families.
 
-    The families are the claimable families of the tableau (:mod:`orderconds.checking.claimable`) and the
-    families in which its file claims an order.
+    The result contains each family from :func:`~orderconds.checking.claimable.claimable_families`, and each
+    family in which the tableau file claims an order.
 
     >>> orders_of(Tableau.load("cf3"))
     {'rk': 3, 'cf': 3}

@@ -137,7 +137,7 @@ def family_order(
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
     - ``brief``: if true, the search ends at the order ``bound.order``. If the method has this order in
-      ``family``, the failing conditions in the result are ``bound.failing``.
+      ``family``, ``bound.failing`` is copied into the result.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get

@@ -47,7 +47,7 @@ class Refinement:
 def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refinement:
     """Make the coefficients of a tableau exact or more precise.
 
-    ``tableau`` is a tableau, a file, or a name of the library.
+    ``tableau`` is a tableau, the path of a file, or the name of a tableau in the library.
 
     - If the file has a table ``[proof]``, the equations of the table are solved. The solution is returned as
       decimals with ``digits`` correct places. ``digits`` may be 10 to 1000.

@@ -112,9 +112,9 @@ def judge(
     The verdict on a condition is ``zero``, ``fails``, ``supported`` (the residual is a narrow ball that
     contains zero) or ``undecided`` (the residual is a wide ball that contains zero).
 
-    If ``balls_first`` is true and ``ring`` is a number field, balls may be computed before exact residuals.
-    This is faster if most conditions fail. If the residuals in ``ring`` are balls and no condition fails, the
-    largest absolute residual is appended to the list ``sizes``.
+    If ``balls_first`` is true and ``ring`` is a number field, each residual may first be computed as a ball.
+    If this ball does not contain zero, the verdict needs no exact residual. If the residuals in ``ring`` are
+    balls and no condition fails, the largest absolute residual is appended to the list ``sizes``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))

@@ -49,7 +49,7 @@ def check(
     - ``complete``: the file must claim an order in each family of ``claimable_families(tableau)``.
     - ``certified``: every order must be proved.
     - ``limits``: limits on work, time and memory. If a limit is reached, the computed order is a lower bound.
-    - ``tolerance``: the uncertainty of each double x, in units of 2^-53 max(1, |x|).
+    - ``tolerance``: a number t. Each coefficient x that is a double has the uncertainty t 2^-53 max(1, |x|).
 
     A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises
     UnknownName for an unknown family, ZeroWeight if a formula divides by a weight b_i = 0, and TableauError

@@ -8,8 +8,8 @@ The names of the arrays depend on the family:
 - ``cf``: exponentials, count and start. The arrays describe a list of products of exponentials. The list
   contains one product for each stage, then the product of the update, then the product of the embedded
   update. Each row of ``exponentials`` contains the coefficients of one exponential. For each product,
-  ``count`` contains the number of exponentials. ``start`` contains 0 if the product acts on y0, and i if the
-  product acts on the value of stage i.
+  ``count`` contains the number of exponentials. The entry of a product in ``start`` is 0 if the product acts
+  on y0, and i if the product acts on the value of stage i.
 
 The table ``proof`` of a tableau file is omitted.
 """
@@ -82,7 +82,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return a tableau as keys and values. The formula of a named number replaces the name.
+    """Return a tableau as keys and values. Each name from the table ``numbers`` is replaced by its formula.
 
     A number that the tableau defines as a root of a polynomial (``minpoly``) keeps its name. Rounded
     coefficients keep the digits of the tableau file.

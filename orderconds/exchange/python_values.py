@@ -120,8 +120,8 @@ class Values:
 
         If a comment ``# numbers: {...}`` in the module defines a number with this name, do nothing.
 
-        ``mentioned`` lists the variables in the source of the value, for example on the right-hand side of an
-        assignment. If the value is not a :class:`Computed`, ``mentioned`` is ignored.
+        ``mentioned`` lists the variables in the source code that computes the value, for example on the
+        right-hand side of an assignment. If the value is not a :class:`Computed`, ``mentioned`` is ignored.
         """
         if name not in self.named:
             traced = self._traced(mentioned) if isinstance(value, Computed) else (frozenset(), frozenset())

@@ -10,8 +10,8 @@ This sum is split into sums whose indices increase strictly. A run consists of a
 exponential. Each way to cut u into runs gives one sum. This sum has one index for each run.
 
 If the k letters are equal, the coefficient of u is S^k/k!, where S is the sum of the letter's coefficients in
-all exponents. Both sides of each printed condition are multiplied by the denominators k! of such words
-(:func:`multiplier`).
+all exponents. The function :func:`multiplier` returns the factor that removes such denominators k! from a
+condition.
 """
 
 from __future__ import annotations
@@ -169,7 +169,7 @@ class ExponentialsFormula(ActionFormula):
         """
         if not word:
             return one()
-        # The first term has the most indices: one index for each letter.
+        # Reversed: the printed formula begins with the index sum that has the most indices.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
@@ -358,8 +358,7 @@ class MuntheKaasFormula(ActionFormula):
     def _argument(self, row: str | None, word: Marked) -> Formula:
         """Return the coefficient of ``word`` in X_i for i = ``row``, or in Y if ``row`` is None.
 
-        The class docstring defines the exponents X_i and Y. Both exponents are linear combinations of
-        products ``X_j^n xi_j X_j^m``. Here xi_j is the velocity of stage j.
+        The class docstring defines the exponents X_i and Y.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -392,7 +391,9 @@ class MuntheKaasFormula(ActionFormula):
 
 
 class PadeFormula(MuntheKaasFormula):
-    """The index sums of Munthe-Kaas methods that truncate the series of dexp, not the series of dexpinv.
+    """The conditions of a variant of Munthe-Kaas methods as sums over indices.
+
+    The methods truncate the series of dexp, not the series of dexpinv.
 
     Stage i has the exponential exp(X_i), and the update has exp(Y). The exponents are
     ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here v_j is the solution of ``dexp_{X_j} v_j = xi_j``,

@@ -1,8 +1,9 @@
 """Discrete gradient methods on Lie groups.
 
-A step uses the mean of the differential dH of the Hamiltonian H. A quadrature rule approximates this mean.
-The methods preserve the energy exactly (H. Marthinsen, *On symplectic integration in Lie groups and
-manifolds*, PhD thesis, NTNU Trondheim, 2014, Section 2.6). The order is never higher than two.
+A step from x0 to x1 uses the mean of dH over a curve from x0 to x1. Here dH is the differential of the
+Hamiltonian. A quadrature rule approximates this mean. The methods preserve the energy exactly (H. Marthinsen,
+*On symplectic integration in Lie groups and manifolds*, PhD thesis, NTNU Trondheim, 2014, Section 2.6). The
+order is never higher than two.
 """
 
 from __future__ import annotations

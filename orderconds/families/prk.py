@@ -79,11 +79,10 @@ class PartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a pair of tableaux that is not symplectic.
+        """Return this family for a pair of tableaux that is not symplectic, otherwise None.
 
-        The family is returned, too, if the program cannot decide whether the pair is symplectic. Otherwise
-        return None. For a symplectic pair, the file should state the order in the family ``sprk_separable``
-        instead.
+        The family is returned, too, if the program cannot decide whether the pair is symplectic. For a
+        symplectic pair, the file should state the order in the family ``sprk_separable`` instead.
         """
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):

@@ -56,8 +56,7 @@ class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
     ``even`` is true if the method is symmetric. ``substitute`` is None, or contains a family whose conditions
-    imply the conditions of the original family. ``cut`` is None, or tests whether the truncation
-    of dexpinv changes a condition.
+    imply the conditions of the original family. ``cut`` is None or an :class:`UnseenCut`.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]
@@ -84,10 +83,5 @@ class Reductions(Struct, frozen=True):
 
     def follows(self, n: int, key: Key) -> bool:
         """Return True if the test ``cut`` shows that the condition of the tree or forest ``key`` holds. The
-        order of the condition is ``n``.
-
-        Without truncation of dexpinv, the condition holds if ``n`` <= ``cut.order``. The truncation does not
-        change the left-hand side if ``cut.length(key)`` <= ``cut.longest``. The result is True if both
-        inequalities hold.
-        """
+        order of the condition is ``n``."""
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

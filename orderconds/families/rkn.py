@@ -123,14 +123,11 @@ class NystroemFamily(Family):
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return pairs (label, bound), where ``label`` is the label of a family.
+        """Return the pairs ("rkn", ``order``) and ("splitting", min(``order``, 4)).
 
-        For a symmetric method of order ``order`` in the family ``rkn``, ``bound`` is a lower bound of the
-        order in the labelled family.
-
-        The bound for the family ``rkn`` is ``order``. The bound for the family ``splitting`` is
-        min(``order``, 4). Both families have the same conditions up to order 3, and a symmetric method of
-        order 3 also has order 4.
+        Each pair contains a family and a lower bound for the order of a symmetric method in this family. The
+        argument ``order`` is the order of the method in the family ``rkn``. Both families have the same
+        conditions up to order 3, and a symmetric method of order 3 also has order 4.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
@@ -176,6 +173,8 @@ def text(functional: Functional) -> str:
 def formula(functional: Functional) -> Formula:
     """Return the left-hand side of the condition of ``functional`` as an index sum.
 
+    ``functional`` contains pairs (word, coefficient). In a word, the letter 0 is T and the letter 1 is V.
+
     In stage i of a splitting T + V, the step sizes are a_i for T and b_i for V. Let c_i = a_1 + ... + a_i.
 
     >>> from orderconds.formula import named
@@ -195,11 +194,11 @@ def _scale(functional: Functional) -> int:
 
 @lru_cache(maxsize=32)
 def functionals(order: int) -> tuple[Functional, ...]:
-    """Return a basis of a vector space of functionals. A functional is a linear combination of words over T
-    and V.
+    """Return a basis of the vector space of functionals that are zero on the ideal.
 
-    All words have length ``order``. The module docstring defines the vector space. Each returned functional
-    gives one order condition of Runge-Kutta-Nystroem splittings.
+    The module docstring defines the ideal. A functional is a linear combination of words over T and V. All
+    words have length ``order``. Each returned functional gives one order condition of Runge-Kutta-Nystroem
+    splittings.
 
     >>> [len(functionals(n)) for n in (1, 2, 3, 4)]
     [2, 4, 8, 15]
