@@ -45,8 +45,9 @@ def rounded_residual(method: Method, family: Family, order: int, target: Precisi
 def largest_residual(tableau: Tableau, family: Family, order: int) -> float | None:
     """Return an upper bound of the absolute residuals of the order conditions up to ``order``.
 
-    Only some conditions are evaluated. Together these conditions imply all other conditions. The bound is
-    rounded to the nearest double. The result is None in these cases:
+    The bound applies to a subset of the conditions. The conditions in the subset imply all other conditions.
+    The result may be too small by a rounding error, because the bound is rounded to the nearest double. The
+    result is None in these cases:
 
     - The family cannot read the tableau.
     - An order has more than :data:`MOST` conditions.

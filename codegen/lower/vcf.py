@@ -74,8 +74,9 @@ class _Product:
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
         """Append a covector to the program, and return the variable of the covector.
 
-        Let x be the exponent of factor J, counted from 0, and let p be the product of all factors before
-        factor J. The covector is dexp*_{-x} Ad*_{p^-1} m. The index i is used only in names of variables.
+        Factor 0 of this product of exponentials is the rightmost factor. Let x be the exponent of factor J.
+        Let p be the product of all factors to the right of factor J. The covector is
+        dexp*_{-x} Ad*_{p^-1} m. The index i is used only in names of variables.
         """
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)

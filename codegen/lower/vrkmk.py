@@ -11,8 +11,9 @@ xi_i and n_i be the velocity and the force of stage i, (xi_i, n_i) = f(exp(X_i) 
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-In general, the unknowns are v_i and m_i for all stages i. If a_ji = 0 for j = 1, ..., i, the program computes
-m_i from Lambda and from the lambda_j with j > i. In this case, Lambda is an unknown, but m_i is not.
+In general, the unknowns are v_i and m_i for all stages i. If a stage i satisfies a_ji = 0 for j = 1, ..., i,
+the program computes m_i from Lambda and from the lambda_j with j > i. In this case, Lambda is an unknown, but
+m_i is not.
 """
 
 from __future__ import annotations

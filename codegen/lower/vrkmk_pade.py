@@ -1,18 +1,21 @@
 """Variational Runge-Kutta-Munthe-Kaas methods with dexp^{-1} replaced by the inverse of a truncated dexp.
 
 The source is section 3.4.1 of Marthinsen's thesis. The truncated series of dexp is
-dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)!. Let (xi_i, n_i) = f(exp(X_i) q0, M_i) be the velocity and the force
-of stage i. The vectors v_i satisfy dexp_{(r),X_i} v_i = xi_i with X_i = h sum_j a_ij v_j. Let R*_(r)(x, v) be
-the dual of the derivative of dexp_{(r),x} v with respect to x. The other equations are
+dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)!. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with
+respect to x.
+
+A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau are a_ij and b_i. The unknowns of
+stage i are the vector v_i and the momentum M_i. The exponent of stage i is X_i = h sum_j a_ij v_j. The
+velocity and the force of stage i are (xi_i, n_i) = f(exp(X_i) q0, M_i). The vector v_i satisfies
+dexp_{(r),X_i} v_i = xi_i. The other equations are
 
     Y = h sum_j b_j v_j,   Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 The method is the variational integrator with the discrete Lagrangian h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i),
-where l is the Lagrangian and Q_i = exp(X_i) q0. The unknowns are v_i and M_i for all stages i. The series
-dexp_{(r),X_i} v_i and dexp*_{(r),X_i} M_i begin with v_i and M_i. For the fixed-point iteration, all other
-terms are moved to the right-hand side.
+where l is the Lagrangian and Q_i = exp(X_i) q0. The series dexp_{(r),X_i} v_i and dexp*_{(r),X_i} M_i begin
+with v_i and M_i. For the fixed-point iteration, all other terms are moved to the right-hand side.
 """
 
 from __future__ import annotations

@@ -55,7 +55,7 @@ def optimise(
 
 
 class Optimiser:
-    """Runs the passes on ``program``, and compares each new program with ``program``.
+    """Runs the passes on ``program``, and checks that no pass changes the results.
 
     The statements of ``program`` compute a whole step. If the step repeats a shorter method in several
     substeps (:mod:`codegen.lower.substeps`), the step can be described by a second program, ``composed``. The
@@ -121,8 +121,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # The pass "shared values" stores equal values in one variable. Two equations with equal right-hand
-        # sides therefore read one variable. The pass "equal unknowns" compares these variables.
+        # The pass "shared values" stores equal values in one variable. Equal right-hand sides of two
+        # equations are therefore the same variable. The pass "equal unknowns" compares these variables.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # The pass "equal unknowns" replaces equal unknowns by one unknown, so a sum can contain a variable
         # twice. The pass "zeros" adds the two coefficients of this variable.
@@ -172,8 +172,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
         # The pass "functions of ad" may leave an operation Ad_{exp x} unchanged if another operation reads
-        # exp(x). The pass "rows of products" removes operations that read exp(x). For this reason, the pass
-        # "rows of products" comes before the pass "functions of ad".
+        # exp(x). The pass "rows of products" removes operations that read exp(x). Then the pass "functions of
+        # ad" can replace more operations Ad_{exp x}.
         Pass("rows of products", "one operation computes q exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # This pass uses operations that the pass "functions of ad" creates.

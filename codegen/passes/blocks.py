@@ -87,7 +87,8 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # Equations such as v = w and w = v have no unique solution. The start value is then used.
+        # Equations such as v = w and w = v have no unique solution. The unknown of such an equation is
+        # replaced by its initial guess.
         result[unknown] = start[unknown] if var in seen else var
     return result
 

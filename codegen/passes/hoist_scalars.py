@@ -1,7 +1,7 @@
 """Take numbers out of linear maps, and expand sums that are nested in sums.
 
-If c is a number and L is a linear map, L(c x) is replaced by c L(x). The pass is exact. If several sums of a
-block contain multiples of one linear combination, this combination is computed once.
+If c is a number and L is a linear map, L(c x) is replaced by c L(x). The pass is exact. In addition, a linear
+combination is computed only once if several sums of a block contain multiples of this combination.
 """
 
 from __future__ import annotations
@@ -109,7 +109,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    # The old sums read the new sums ``totals``. The function ``ordered`` puts the new sums first.
+    # The sums in ``sums`` use the results of the new sums ``totals``. The function ``ordered`` puts the new
+    # sums first.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
     # The new sums create no cyclic dependencies, so ``ordered`` does not return None.
     assert result is not None

@@ -52,7 +52,8 @@ class PassReport:
     @property
     def savings(self) -> Counter[str]:
         """The number of removed operations of each kind. The keys are the names of operations in reports."""
-        # If the pass adds operations, the difference is negative. Counters omit negative differences.
+        # If the pass adds operations, the difference is negative. The class ``Counter`` omits negative
+        # differences.
         return _nouns(self.earlier) - _nouns(self.program)
 
 

@@ -2,8 +2,8 @@
 
 The pass is exact. On some groups, each term of the sum is f (1 + b ad_x + c ad_x^2) v with numbers f, b and
 c. Let A, B and C be the sums of f v, f b v and f c v over all terms. Then the sum is A + ad_x (B + ad_x C).
-For n terms, the nested form needs 2 brackets, and the sum needs 2 n brackets. An example is the momentum in
-equation (3.19) of Marthinsen's thesis.
+For n terms, the pass reduces the number of brackets from 2 n to 2. An example is the momentum in equation
+(3.19) of Marthinsen's thesis.
 """
 
 from __future__ import annotations

@@ -87,10 +87,10 @@ def _worthwhile(program: Program) -> set[Share]:
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Collect the terms a_k L(x_k) of the sum ``assign`` for each linear map L.
+    """Return a dictionary with at most one entry for each linear map L in the sum ``assign``.
 
-    For each L, c denotes the first of the coefficients a_k. The result is a dictionary. The keys are the
-    combinations sum_k (a_k/c) L(x_k) in the form of :data:`Share`, and the values are the numbers c.
+    Let a_k L(x_k) be the terms with the map L, and let c be the first of the coefficients a_k. The key is the
+    combination sum_k (a_k/c) L(x_k) in the form of :data:`Share`, and the value is c.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:

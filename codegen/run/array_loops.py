@@ -124,8 +124,8 @@ class ArrayLoops:
         """Yield the statements that compute the entries of the target in the given rows and columns.
 
         Each entry is the sum of ``factor(row, k) * other(k, column)`` over k = 0, ..., ``inner`` - 1. If
-        ``added`` is True, the sum is added to the old entry. The statements ``before`` are executed once for
-        each k.
+        ``added`` is True, the sum is added to the old entry. Each iteration of the loop over k begins with
+        the statements ``before``.
         """
         # The sums are scalar variables, so a compiler can keep them in registers.
         totals: list[tuple[Term, Index, Index]] = []

@@ -215,9 +215,9 @@ class _Exponential:
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
-        # The loop sets ``square`` to -trace(M^2), the squared Frobenius norm of the skew matrix B S B^T. The
-        # eigenvalues of a skew matrix form conjugate pairs, so the squared spectral norm is at most half of
-        # ``square``.
+        # The loop sets ``square`` to -trace(M^2) for the matrix M = B^T B S. This number is the squared
+        # Frobenius norm of the skew matrix B S B^T. The eigenvalues of a skew matrix form conjugate pairs, so
+        # the squared spectral norm is at most half of ``square``.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
         # Rounding can make ``square`` slightly negative. Then the norm is 0, but a NaN remains a NaN.
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))

@@ -1,7 +1,7 @@
 """Emitted functions of a continuous extension (dense output) of a step.
 
 The function EXTEND computes the coefficients of the extension. The function EXTENDED applies exp(x) to the
-old state. Here x is a polynomial in theta, the fraction of the step.
+old state. Here x is the polynomial in theta with these coefficients, and theta is the fraction of the step.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """The derivative of a step with respect to the initial state, as a matrix.
 
-A tangent vector at the initial state is called a variation. The linearised step maps the variation e_k, the
-unit vector k, to column k of the matrix. In an implicit step, fixed-point iteration computes the derivatives
-of the unknowns, even if the step uses Newton's method. If the iteration does not converge, the call fails.
+A tangent vector at the initial state is called a variation. The linearised step maps the k-th unit vector to
+column k of the matrix. In an implicit step, fixed-point iteration computes the derivatives of the unknowns,
+even if the step uses Newton's method. If the iteration does not converge, the call fails.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The run representation: the code around a kernel as a small imperative program.
+"""The run representation describes the code around a kernel as a small imperative program.
 
 The code around a kernel contains, for example, stopping rules and step control. The following rules allow a
 translation to array languages. Array languages express a loop by ``while_loop`` and a branch by ``select``.

@@ -124,7 +124,7 @@ class _Step:
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
-        # Equal elements may be different objects. ``_unique`` removes functions that are listed twice.
+        # Two equal elements have the same function. ``_unique`` removes functions that are listed twice.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
@@ -228,8 +228,8 @@ class _Step:
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
-        # The coefficients m!/j! are exact integers. The rounding errors of 1/j! would accumulate over many
-        # steps.
+        # The Taylor polynomial is multiplied by the factorial of its degree, so all coefficients are exact
+        # integers. The rounding errors of 1/j! would accumulate over many steps.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),

@@ -232,8 +232,8 @@ class _Exponential:
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
         """Return the statements that evaluate a Taylor polynomial of exp.
 
-        The argument of exp is ``powers[0]``, a matrix with derivatives. The norm ``norm`` of the matrix
-        determines the degree: 4, 8, 12 or 16.
+        The argument of exp is the matrix ``powers[0]``. The norm ``norm`` of the matrix determines the
+        degree: 4, 8, 12 or 16.
         """
         # The polynomial is evaluated by the method of Paterson and Stockmeyer: Horner's rule in the fourth
         # power of the matrix.
@@ -361,7 +361,7 @@ def _inverse(function: MatrixInverse) -> Function:
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
     # The inverse overwrites the matrix. Step k of the Gauss-Jordan elimination turns column k into the k-th
-    # unit vector. This column is not stored. The memory of column k is used for a column of the inverse.
+    # unit vector. The memory of column k is used for a column of the inverse.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),

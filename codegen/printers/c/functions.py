@@ -303,8 +303,7 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # ``finite`` is ``test`` without a leading ``not``. For a test of several numbers, the emitted code
-        # contains the comment ONE_TEST.
+        # ``finite`` is ``test`` without a leading ``not``.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"

@@ -25,8 +25,8 @@ def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
     The result is empty if all parameters are passed separately. The array does not contain the parameters
     that the function changes (``changed``).
     """
-    # Users pass each argument of a public function separately. Arrays of arguments are not implemented for
-    # functions with a return value.
+    # Users pass each argument of a public function separately. For a function with a return value, the
+    # emitted code also passes each argument separately.
     if function.public or function.returns is not None:
         return ()
     scalars = [p for p in function.parameters if p.kind is Kind.REAL and not p.shape and not p.cell]

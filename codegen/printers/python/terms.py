@@ -162,8 +162,8 @@ class Terms(Infix):
         """
         (x,) = term.args
         inner = self.text(x)
-        # In double precision, reals are Python floats, so no conversion is needed. In single precision, the
-        # operation ``wide`` converts only terms of the kind REAL.
+        # In double precision, reals are Python floats, so no conversion is needed. In single precision,
+        # ``wide`` leaves integers and doubles unchanged.
         if not self.single or (term.op == "wide" and x.kind is not Kind.REAL):
             return inner
         return Text(closed("float(" if term.op == "wide" else "float32(", inner.segments, ")"))
