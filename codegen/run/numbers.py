@@ -20,8 +20,8 @@ def numbers_held(unit: Unit) -> int:
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
-    # The scalars of all private functions are added, because a compiler may inline these functions. Only one
-    # public function runs at a time.
+    # A compiler may inline private functions, so the sum contains the scalars of all private functions. Only
+    # one public function runs at a time.
     return sum(held.values()) - sum(public) + max(public)
 
 

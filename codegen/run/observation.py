@@ -171,8 +171,8 @@ class Observation:
         """Return the emitted functions. Each function comes after the functions that it calls."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
-        # The search for events calls INSIDE. If no continuous extension was requested (``self.dense`` is
-        # None), INSIDE is called for the states at output times, too.
+        # The search for events calls INSIDE. Without a continuous extension, INSIDE also computes the states
+        # at output times.
         inside = (self.inside(),) if self.events or self.dense is None else ()
         return *inside, self.in_order(), *located, *dense, self.observed()
 
@@ -309,7 +309,7 @@ class Observation:
         # ``high``. The earliest zero of a secant is chosen. In every third iteration, the midpoint is chosen
         # instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
-        # The weighted values a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1.
+        # Either a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1.
         candidate = (
             Assign(estimate, self.low + (high - self.low) * (a / (a - b))),
             If(estimate < self.middle, (Assign(self.middle, estimate),)),
@@ -332,8 +332,8 @@ class Observation:
         The numbers ``low`` < ``middle`` < ``high`` are fractions of the step. The first tuple sets ``high``
         to ``middle``. The second tuple sets ``low`` to ``middle``.
         """
-        # If one end of the interval moves twice in a row, the Illinois method halves the weight of the values
-        # at the other end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
+        # If one end of the interval moves twice in a row, the Illinois method halves the weight of the other
+        # end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
         moved_high: tuple[Statement, ...] = (
             Assign(high, self.middle),
             Assign(self.ahead, self.measured),

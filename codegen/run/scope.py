@@ -4,9 +4,9 @@ A variable is declared in the innermost block that contains all its uses, as lat
 exception. Suppose that the variable is used only inside several separate inner blocks, and that each of these
 inner blocks assigns the variable before reading it. Then each of these inner blocks declares the variable.
 
-Let S be the first statement of the block that mentions the variable. If S assigns only this variable and does
-not read it, S also declares it, as in ``double x = 1.0;``. If moreover no other statement of the block
-assigns the variable, S declares a constant, as in ``const double x = 1.0;``.
+In the declaring block, let S be the first statement that mentions the variable. If S assigns only this
+variable and does not read it, S also declares it, as in ``double x = 1.0;``. If moreover no other statement
+of the block assigns the variable, S declares a constant, as in ``const double x = 1.0;``.
 """
 
 from __future__ import annotations
@@ -84,7 +84,8 @@ class _Scopes:
 
     def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
         self.identifiers, self.result = identifiers, result
-        # Three caches with the keys ``id(statement)``: results of ``mentioned``, ``own`` and ``assignments``.
+        # These dictionaries cache the results of ``mentioned``, ``own`` and ``assignments``, in this order.
+        # The keys are ``id(statement)``.
         self.known: dict[int, frozenset[str]] = {}
         self.known_own: dict[int, frozenset[str]] = {}
         self.counts: dict[int, Counter[str]] = {}

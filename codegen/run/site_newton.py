@@ -174,8 +174,8 @@ class ChainSolver:
         def x(site: Term, k: Term) -> Term:
             return self.work[_FIRST + k * STRIDE + site]
 
-        # After ``factor``, OWN_BLOCK contains the inverse P of the pivot block. LEFT contains P times the old
-        # block LEFT.
+        # After ``factor``, OWN_BLOCK contains the inverse P of the pivot block. ``factor`` has also replaced
+        # LEFT by the product P LEFT.
         left = self.cell(_SITE, LEFT, _I, _K) * x(_SITE - 1, _K)
         forward = For(
             _I,
@@ -343,8 +343,7 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
-        # Multiples of the solution at the last site are added at the other sites. The border contains the
-        # factors.
+        # From the solution at each other site, subtract the border times the solution at the last site.
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),

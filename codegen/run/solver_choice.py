@@ -4,10 +4,11 @@ Newton.
 The matrices of the two Newton methods are described in :class:`codegen.ir.kernel.Newton`. Fixed-point
 iteration needs no matrix, and each sweep multiplies the error by a factor O(h).
 
-The solver with the shortest predicted time is chosen, but robust solvers are preferred. The first trial of a
-solver (:mod:`codegen.run.trial`) makes :data:`STEPS` steps from the initial state of the problem's example.
-This trial counts sweeps and matrices. From these numbers, the cost model (:mod:`codegen.run.step_cost`)
-predicts the time of a step. ``benchmarks/solver_choice.py`` compares the choices with measured times.
+Usually the solver with the shortest predicted time is chosen. A robust solver (defined below) can be chosen
+although it is slower. The first trial of a solver (:mod:`codegen.run.trial`) makes :data:`STEPS` steps from
+the initial state of the problem's example. This trial counts sweeps and matrices. From these numbers, the
+cost model (:mod:`codegen.run.step_cost`) predicts the time of a step. ``benchmarks/solver_choice.py``
+compares the choices with measured times.
 
 The first trial uses the step size of the example, called the usual step size. The second trial makes one step
 of :data:`LONGER` times this size. A solver is robust if it converges in both trials and needs at most
@@ -126,7 +127,8 @@ def solved(
     """Return the kernel of a step, and the choice of the solver for each block of equations.
 
     - ``program`` is the method applied to the problem ``scene``.
-    - ``initial`` is the state from which trials start. Run-time inputs are zero in a trial.
+    - ``initial`` is the initial state of the trials. In a trial, a solver makes a few steps. Run-time inputs
+      are zero in a trial.
     - ``asked`` is the requested solver, one of :data:`CHOICES`.
     - ``iterated`` is the kernel with fixed-point iteration, if the caller has already built it.
 
@@ -347,9 +349,9 @@ class _Selection:
         """Return a limit in nanoseconds for the time of a step with another solver.
 
         The other solver is tried only if the lower bound :meth:`least` of its step time is below this limit.
-        ``solver`` was tried before, and ``candidate`` contains the results of the trials of ``solver``. The
-        first of these trials must have converged. Newton's method is an exception: if the equations are
-        linear and fixed-point iteration is not robust, Newton's method is tried without regard to the limit.
+        There is one exception: if the equations are linear and fixed-point iteration is not robust, Newton's
+        method is tried without regard to the limit. ``solver`` was tried before, and ``candidate`` contains
+        the results of the trials of ``solver``. The first of these trials must have converged.
         """
         # A robust solver is preferred, even if it is slower by a factor of up to PRICE.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
@@ -403,9 +405,10 @@ class _Selection:
     def by_continuation(self) -> tuple[Kernel, tuple[Choice, ...]]:
         """Return the kernel and the choices for a problem on which every solver failed in its first trial.
 
-        With at most LARGE unknowns, the fastest solver that converges with continuation in h is chosen. With
-        more unknowns, or if no solver converges, Newton's method is chosen. If its matrix cannot be computed,
-        fixed-point iteration is chosen.
+        With at most LARGE unknowns, each solver makes a new trial with continuation in h (initial guesses
+        from shorter steps). The fastest solver that converges in this trial is chosen. With more unknowns, or
+        if no solver converges, Newton's method is chosen. If its matrix cannot be computed, fixed-point
+        iteration is chosen.
         """
         kernels = {s: c.kernel for s, c in self.candidates.items()}
         small = unknowns_of(self.fixed) <= LARGE

@@ -23,8 +23,8 @@ def statistics_record(plan: Plan) -> Record:
         # Blocks are numbered from 1, because 0 means that no block failed.
         (count("failed"), "number of the block that failed, counted from 1; 0 if none"),
     ]
-    # Only the matrices of Newton's method are counted. Simplified Newton computes one matrix in each step or
-    # substep.
+    # Only the matrices of Newton's method are counted. Simplified Newton needs no counter, because its number
+    # of matrices is known in advance.
     if plan.newton:
         fields.append((count("matrices"), "number of Newton matrices that were computed"))
     about = "Statistics of the iterations (sweeps) since the caller set all fields to zero."

@@ -6,11 +6,11 @@ The predicted time is a sum of amounts of work, each multiplied by its weight (:
 are:
 
 - Operations (:mod:`codegen.kernel.operations`). Operations in a sweep are multiplied by the number of sweeps.
-  Operations for a matrix are multiplied by the number of matrices. All other operations are counted once in
-  each step.
+  Operations that compute a Newton matrix are multiplied by the number of Newton matrices. All other
+  operations are counted once in each step.
 - Unknowns. The times of the warm start and of the stopping rule are proportional to the number of unknowns.
 - Corrections. Newton's method for equations u = g(u) multiplies the inverse matrix by g(u) - u. The next
-  sweep must wait for this product. The delay is counted as one correction in each sweep.
+  sweep must wait for this product. Each sweep of this method is counted as one correction.
 - Cubes. The inversion of an n x n matrix by elimination is counted as n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` measures the time of emitted C for all implicit methods, solvers and

@@ -132,8 +132,7 @@ class Stopping:
             return []
         first = self.plan.memory.field("first")
         return [
-            # ``first`` is the largest change in a first sweep. If it is large, the stored solutions gave a
-            # bad initial guess.
+            # A large change in the first sweep means that the initial guess was bad.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
                 # If the changes are as small as rounding errors, their quotient may be tiny by accident, so
@@ -243,7 +242,7 @@ class Stopping:
         The first rule that applies gives the status:
 
         - NOT_FINITE if the value of the term ``finite`` is an infinity or a NaN.
-        - OK if the flag ``converged`` is true, and ``possible`` is None or true.
+        - OK if the flag ``converged`` is true, unless ``possible`` is false.
         - NOT_CONVERGED in all other cases.
 
         If the matrix of Newton's method is singular, the test ``possible`` is false. If no such test is

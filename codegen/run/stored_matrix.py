@@ -4,8 +4,9 @@ norms.
 A banded n x n matrix is stored diagonal by diagonal. Each diagonal has n places, and the entry in row i is at
 place i of its diagonal. If the diagonal has no entry in row i, the place contains zero.
 
-The entries of a full matrix are formulas in the row i and the column j. Only the values of the subexpressions
-that are independent of i and j are stored.
+The entries of a full matrix are formulas in the row i and the column j. Subexpressions without i and j are
+evaluated once for each t, and their values are stored. Each entry is computed from these values when it is
+needed.
 """
 
 from __future__ import annotations
@@ -91,7 +92,8 @@ class StoredMatrix(ABC):
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         self.matrix, self.columns, self.nodes, self.n = matrix, columns, nodes, matrix.rows
         self.hoisted = Hoisted()
-        # A coefficient does not contain i or j. Therefore ``formula`` returns a constant or a single name.
+        # A coefficient does not contain i or j. ``formula`` replaces such an expression by a single name,
+        # unless the expression is a constant.
         self.coefficients = [self.hoisted.formula(c) for c, _ in matrix.terms]
 
     @property

@@ -5,12 +5,13 @@ r(u) are called images.
 
 Fixed-point iteration assigns the images to the unknowns.
 
-Newton's method multiplies the residuals g(u) - u or r(u) by the inverse of a matrix and adds the product to
-the unknowns. The three forms of Newton's method use different matrices:
+The residuals are g(u) - u or r(u). Newton's method multiplies the residuals by the inverse of a matrix and
+adds the product to the unknowns. The three forms of Newton's method use different matrices:
 
 - *Newton*: the matrix 1 - g'(u). The inverse matrix is stored for later sweeps and steps. If the change of
   the unknowns in a sweep exceeds ``Newton.CONTRACTION`` times the change in the previous sweep, the next
-  sweep computes a new matrix. The loop fails if a new matrix is singular or does not reduce the change.
+  sweep computes a new matrix. The loop fails if a new matrix is singular, or if the change does not decrease
+  in a sweep with a new matrix.
 - *simplified Newton*: the matrix 1 - g'(u), expanded to first order in h. Each step computes the matrix
   before its sweeps.
 - *residuals*: the matrix -r'(u), expanded to first order in h. Each inverse matrix is used for

@@ -424,8 +424,8 @@ class _Controlled:
                     Assign(self.now, self.following),
                     Assign(self.steps, self.steps + 1),
                 ),
-                # The highest Taylor coefficients are finite here. If the old state is finite, too, the step
-                # was too long.
+                # The highest Taylor coefficients are finite here. If the old state is also finite but the new
+                # state is not, the step was too long.
                 (Assign(STATUS, select(all_finite(self.state), code(TOO_FAR), code(NOT_FINITE))),),
             ),
         )

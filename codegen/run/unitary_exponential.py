@@ -132,10 +132,11 @@ def _coordinates(array: Term) -> tuple[Term, ...]:
 def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | None) -> list[Statement]:
     """Return the statements of one step of Horner's rule for a polynomial in a 3 x 3 matrix H.
 
-    H is Hermitian and has the trace 0, so H^3 = ``trace`` H + ``det`` I. Here I is the identity matrix,
-    ``trace`` is half the trace of H^2, and ``det`` is the determinant of H. ``part`` contains the real parts
-    or the imaginary parts of the coefficients of I, H and H^2. If ``added`` is a pair (a, k), this part of
-    a i^k is added to the coefficient of I. If ``added`` is None, nothing is added.
+    H is Hermitian and has the trace 0, so H^3 = ``trace`` H + ``det`` I. The argument ``trace`` is tr(H^2)/2,
+    ``det`` is the determinant of H, and I is the identity matrix. ``part`` contains the real parts or the
+    imaginary parts of the coefficients of I, H and H^2. If ``added`` is a pair (a, k), the number a is added
+    to the coefficient of I for k = 0 and k = 1, and subtracted for k = 2 and k = 3. If ``added`` is None,
+    nothing is added.
     """
     last = real("last")
     # i^2 = -1 and i^3 = -i, so 1/k! is subtracted for k = 2 and k = 3.

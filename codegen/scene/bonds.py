@@ -40,8 +40,8 @@ def energies_of_bonds(
     on the coordinates ``y`` of the site. Each element of ``bonds`` gives two pairs, with the energies
     V(y_i, y_{i+offset}) and V(y_{i-offset}, y_i).
 
-    SceneError is raised if an energy does not contain coordinates of both sites, or if an energy contains
-    coordinates of the site that are not in ``y``.
+    SceneError is raised if an energy does not contain coordinates of both sites. SceneError is also raised if
+    an energy contains the momentum of the site.
     """
     space, own = reader.space, tuple(reader.coordinates[: len(y)])
     energies: list[tuple[int, Expr]] = []

@@ -7,8 +7,8 @@ In a Hamiltonian scene with the group element q, the momentum mu can be replaced
 in the body frame. The equations are then q' = q.W and P' = N with the velocity W and the force N in the body
 frame (:mod:`codegen.scene.body_frame`).
 
-A coordinate of q can be omitted if its value follows from the remaining coordinates and no remaining equation
-contains this coordinate.
+A coordinate c of q can be omitted if the other coordinates determine c and the equations of the other
+coordinates do not contain c.
 """
 
 from __future__ import annotations

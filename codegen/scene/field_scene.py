@@ -35,6 +35,8 @@ def FieldScene(
 ) -> Problem:
     """Return the scene y' = f(y).y for a group acting on a manifold.
 
+    The dot denotes the infinitesimal action of the Lie algebra on the manifold.
+
     - ``y``: the sympy symbols of the coordinates, as a column.
     - ``f``: a column of ``group.dim`` formulas in the coordinates, in the symbol ``t`` and in parameters.
     - ``y0``: the exact initial point.

@@ -44,8 +44,8 @@ class Run:
     The run makes ``steps`` steps of size ``h`` with a method, and the figure shows every ``stride``-th state.
 
     - ``label``: the name of the run in the figure, by default the method.
-    - ``scene``: the name of the scene, by default the scene of the figure. With the value ``"+u"``, the
-      scene of the figure is extended by the momentum conjugate to the time.
+    - ``scene``: the name of the scene, by default the scene of the figure. The value ``"+u"`` means the scene
+      of the figure on the extended phase space (:mod:`codegen.scene.extended_phase_space`).
     - ``tolerance``: the relative and absolute tolerance. If the tolerance is positive, the method chooses its
       own step sizes, and the states at every ``stride``-th multiple of ``h`` are shown.
     - ``sweep``: the run is repeated for each value of the sweep, and the final states are shown.

@@ -21,7 +21,7 @@ class Flow(ABC):
     """The exact flow of one part of the Hamiltonian, in closed form.
 
     ``timed`` is True if the part depends on the time t. Along the flow, t keeps its initial value. In
-    all methods, ``values`` contains the parameters, and the initial values of the state and of t.
+    all methods, ``values`` contains the parameters, the time t, and the state at the start of the flow.
     """
 
     timed: bool = False

@@ -134,7 +134,9 @@ def phase_space_reader(name: str, group: LieGroup, q: Column, mu: Column) -> Rea
 
 @dataclass(frozen=True)
 class _CanonicalSystem:
-    """The formulas in the equations q' = xi.q and mu' = n + wrench - ad*_xi mu of a Hamiltonian scene.
+    """The formulas of a Hamiltonian scene q' = xi.q, mu' = n + wrench - ad*_xi mu.
+
+    The velocity is xi, and the force is n.
 
     - ``summands``: the parts of H.
     - ``roots``: the components of xi and n.

@@ -22,8 +22,8 @@ Let T be the tangent space of the orbit at the initial state. The test moves the
 DISPLACEMENT, perpendicular to T. The test projects the moved point. The projected point passes the test if
 the distance between this projected point and T is at most REDUCED * DISPLACEMENT.
 
-The orbit may be curved. At the distance DISPLACEMENT from the initial state, the orbit can have a distance of
-about DISPLACEMENT^2 from T. The tolerance REDUCED * DISPLACEMENT is larger than this distance.
+The orbit may be curved. At the projected point, a curved orbit can deviate from T by about DISPLACEMENT^2.
+The tolerance REDUCED * DISPLACEMENT is larger than this deviation.
 """
 
 INDEPENDENT = 1e-8
