@@ -6,9 +6,9 @@ over all indices J_1 <= ... <= J_n, of
 
 x_{J_1}(k_1) ... x_{J_n}(k_n) / (r_1! r_2! ...).
 
-The factor exp(X_1) and the letter k_1 act first. A run is a maximal sequence of equal indices, and r_1, r_2,
-... are the lengths of the runs of J_1, ..., J_n (Hairer, Lubich and Wanner, *Geometric Numerical
-Integration*, III.5; Reutenauer, Free Lie Algebras, Chapter 3).
+The word k_1 ... k_n denotes the product k_n ... k_1 of its letters. A run is a maximal sequence of equal
+indices, and r_1, r_2, ... are the lengths of the runs of J_1, ..., J_n (Hairer, Lubich and Wanner, *Geometric
+Numerical Integration*, III.5; Reutenauer, Free Lie Algebras, Chapter 3).
 """
 
 from __future__ import annotations

@@ -2,9 +2,10 @@
 a series in f.
 
 For B-series, the coefficient of a tree is a sum over all partitions of the tree into connected components.
-Each partition has a quotient tree, in which each component becomes one vertex. The summand is the coefficient
-of the quotient tree in the series of the step, multiplied by the coefficients of the components in g
-(Chartier, Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
+Each partition has a quotient tree, in which each component becomes one vertex. Let a(t) be the coefficient of
+a tree t in the series of the step, and let b(t) be the coefficient of t in the series of g. The summand is
+a(q) b(t_1) ... b(t_k) for the quotient tree q and the components t_1, ..., t_k (Chartier, Hairer and Vilmart,
+Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
 
 For Lie-Butcher series, each forest becomes a linear combination of forests (Lundervold and Munthe-Kaas,
 Contemp. Math. 539 (2011) 295, Section 4.3).
@@ -56,7 +57,8 @@ def substituted(field: VectorField, step: Character) -> Character:
 
 
 def modifying_field(step: Character) -> VectorField:
-    """Return the modifying field of a method: ``step`` applied to this field is the exact flow of f.
+    """Return the modifying field of the method ``step`` for the equation y' = f(y). The method, applied to
+    the modifying field, gives the exact flow of f.
 
     For every p, the field truncated after the power h^(p-1) gives a method of order at least p (Chartier,
     Hairer and Vilmart, Math. Comp. 76 (2007) 1941). Raises :class:`~orderconds.errors.InputError` if ``step``

@@ -34,9 +34,9 @@ factor. The first entry belongs to the leftmost factor of the product. Let y' = 
 equation, and let k be a constant element of the Lie algebra.
 
 - The entry None denotes the vector field of the equation y' = k y.
-- Each entry that is not None is a tuple Q. The tuple Q denotes a product of derivatives, too. The product Q
-  can be applied to the function f, and the result is a function Q f. The entry Q denotes the vector field of
-  the equation y' = (Q f) y.
+- Every other entry is again such a tuple. Let Q be the product of derivatives that this tuple denotes. The
+  product Q can be applied to the function f, and the result is a function Q f. The entry denotes the vector
+  field of the equation y' = (Q f) y.
 
 For example, the entry () denotes the vector field of the equation y' = f(y) y, because a product without
 factors does not change f."""

@@ -1,4 +1,4 @@
-"""Recognition of high-precision numbers as elements of one number field, by lattice reduction.
+"""Recognition of high-precision numbers as algebraic numbers, by lattice reduction.
 
 Let x be an approximate root of a polynomial of degree n with small integer coefficients c_0, ..., c_n. For a
 large number N, the vector v_k is the k-th unit vector with an additional entry N x^k. The lattice vector

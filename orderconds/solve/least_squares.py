@@ -1,8 +1,7 @@
 """Damped least squares (Levenberg 1944; Marquardt 1963) for many starting points at once.
 
-The damping parameter is the norm of the residual times an adaptive factor. The convergence is quadratic if
-the distance to the set of solutions is at most a constant times the norm of the residual (Fan and Yuan 2005).
-The solution need not be isolated.
+The damping parameter is the norm of the residual times an adaptive factor (Fan and Yuan 2005). The solution
+need not be isolated.
 """
 
 from __future__ import annotations

@@ -219,10 +219,10 @@ def _gauss(s: int) -> dict[str, str]:
 
 def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]]) -> list[Constraint]:
     """Return two kinds of constraints. Here a_ij and b_j are the coefficients of the Gauss method with
-    ``len(stages)`` stages.
+    ``len(stages)`` stages. Let k_j be the vector field at stage j.
 
-    - In the exponentials of stage i, the coefficients of stage j add up to a_ij.
-    - In the exponentials of the update, the coefficients of stage j add up to b_j.
+    - In the exponentials of stage i, the coefficients of k_j add up to a_ij.
+    - In the exponentials of the update, the coefficients of k_j add up to b_j.
     """
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]

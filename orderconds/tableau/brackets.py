@@ -144,8 +144,8 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
 
 
 def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
-    """Expand a linear combination of terms. ``named`` maps each name in the terms to its expansion. Words
-    with coefficient zero are omitted.
+    """Return the expansion of a linear combination of terms, as a map from words to coefficients. ``named``
+    maps each name in the terms to its expansion. Words with coefficient zero are omitted.
 
     >>> from orderconds.ring import QQ
     >>> expand(((parse("[2,1]", ""), QQ.one),), {}, QQ)

@@ -88,9 +88,9 @@ class Nodes:
         ``left_out``, counted from 0.
 
         Let s be the number of nodes, and let e_j be the leading coefficient of the Lagrange polynomial of
-        node j. If a polynomial p has a degree below s - 1, the sum of all e_j p(c_j) is zero. The new weights
-        are b_j - (b_k/e_k) e_j, so the weight of node k is zero. These weights integrate polynomials of
-        degree below s - 1 exactly.
+        node j. If a polynomial p has a degree below s - 1, the sum of all e_j p(c_j) is zero. Let b_j be the
+        weights of the quadrature with all nodes. The new weights are b_j - (b_k/e_k) e_j, so the new weight
+        of node k is zero. The new weights integrate polynomials of degree below s - 1 exactly.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]

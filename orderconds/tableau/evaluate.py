@@ -219,7 +219,8 @@ class _Evaluation:
         if name not in self.numbers:
             defined = ", ".join(self.numbers) or "none"
             raise self.error(
-                f"the name {name!r}", f"a number, or a name from the table [numbers] ({defined})"
+                f"the name {name!r}",
+                f"a number, or a name from the table [numbers] (defined names: {defined})",
             )
         if name in self.open:
             raise self.error(f"circular definitions: {' -> '.join([*self.open, name])}", "no cycle")

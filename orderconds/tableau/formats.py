@@ -204,8 +204,9 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class StageEntry(Struct, forbid_unknown_fields=True):
-    """A product of exponentials. The product acts on the value of stage ``from``, counted from 1, or on the
-    initial value y0 if ``from`` is missing.
+    """A product of exponentials. The integer ``from`` is the number of a stage, where the first stage has the
+    number 1. The product acts on the value of this stage. If ``from`` is missing, the product acts on the
+    initial value y0.
 
     A row beta of ``exp`` defines exp(h sum_j beta_j k_j), where h is the step size and k_j is the vector
     field at stage j. The exponential of the first row acts first.

@@ -8,7 +8,7 @@ stage. The method is symmetric if two conditions hold:
 - The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
   original sequence.
 - Let E_1, ..., E_m be the exponentials that lead from y0 to the value of a stage i. Let D_k be the inverse of
-  the conjugate of E_k. Then D_1, ..., D_m lead from y1 to the value of stage s + 1 - i.
+  the conjugate of E_k. Then D_1, ..., D_m must lead from y1 to the value of stage s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """
@@ -25,8 +25,8 @@ def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
     """Return True if a method is symmetric. Return None if the coefficients are balls (intervals) that are
     too wide to decide.
 
-    Only stages i and s + 1 - i are compared, where s is the number of stages. A symmetric method with another
-    numbering of its stages can give False.
+    Only stages i and s + 1 - i are compared, where s is the number of stages. Hence a permutation of the
+    stages can change the result from True to False.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]

@@ -92,7 +92,7 @@ class Tableau:
         >>> Tableau.rk([[0, 0], ["half", 0]], [0, 1])
         Traceback (most recent call last):
         orderconds.errors.TableauError: tableau: A[2][1]: the name 'half'; expected a number, or a name \
-from the table [numbers] (none)
+from the table [numbers] (defined names: none)
         """
         data = named(runge_kutta(A, b, c, bhat), name, source, claims)
         return _with_embedded_order(data, name)

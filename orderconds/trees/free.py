@@ -5,8 +5,8 @@ tableau a_ij and the weights b_i satisfy b_i a_ij + b_j a_ji = b_i b_j. Let phi 
 let o be Butcher's product of rooted trees. Then phi(u o v) + phi(v o u) = phi(u) phi(v) for all rooted trees
 u and v (Sanz-Serna and Abia 1991; HLW VI.7.1).
 
-A free tree is called superfluous if a suitable root turns it into u o u. The order condition of u o u follows
-from the order condition of u.
+A free tree is called superfluous if one of its edges joins the roots of two copies of a rooted tree t, as
+in t o t. The order condition of t o t follows from the order condition of t.
 
 HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """

@@ -14,8 +14,6 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
     r"""Return LaTeX text that defines the coefficients in the conditions and states the range of the sums.
     The text is empty if the conditions contain no coefficients.
 
-    An abscissa is a sum of other coefficients, and the text also defines these coefficients.
-
     >>> from orderconds.derivation import derive
     >>> print(legend("rk", derive("rk", order=2)).replace("; ", ";\n"))
     Here $b_i$ are the weights and $c_i = \sum_j a_{ij}$ are the abscissae;

@@ -33,8 +33,8 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     """Return the value of sum_{m>=1} scales[m - 1] f^m on a non-empty word, where f^m is the m-fold
     convolution of f.
 
-    The function treats the value of f on the empty word as zero. One entry of ``scales`` for each letter of
-    the word is sufficient. ``zero`` is the zero of the ring of values.
+    The function treats the value of f on the empty word as zero. Hence the sum ends at m = len(word), and
+    ``scales`` needs only len(word) entries. ``zero`` is the zero of the ring of values.
 
     >>> letters = {("A",): Fraction(2), ("B",): Fraction(3)}
     >>> power_series(lambda word: letters.get(word, Fraction(0)), ("A", "B"), exponential_scales(2))

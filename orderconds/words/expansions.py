@@ -90,7 +90,7 @@ def fer(n: int, word: Word) -> Fraction:
 def fer_remainder(word: Word) -> Fraction:
     """Return the coefficient of a word in log(exp(-F_1) Y), where F_n and Y are defined in :func:`fer`.
 
-    The logarithm equals F_2 + F_3 + ... plus brackets of these series. The brackets have weight 10 or more.
+    The logarithm equals F_2 + F_3 + ... plus brackets of these series.
 
     >>> fer_remainder((1, 2)) == fer(2, (1, 2))
     True

@@ -69,8 +69,8 @@ class HallBasis:
         return self._bracket(self.rewrite(bracket[0]), self.rewrite(bracket[1]))
 
     def coordinates(self, element: Mapping[Word, Fraction]) -> Coordinates:
-        """Return the coordinates of a Lie element, a series of words. A word denotes the product of its
-        letters in the written order.
+        """Return the coordinates of a Lie element. The Lie element is given as a map from words to
+        coefficients. A word denotes the product of its letters in the written order.
 
         Raises :class:`ValueError` if the series is not a Lie element.
 

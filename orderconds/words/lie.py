@@ -68,8 +68,6 @@ def expand(bracket: Bracket) -> Series:
 def backwards(series: Mapping[Word, Fraction]) -> Series:
     """Reverse every word of a series.
 
-    This converts between products in the written order and products in reverse order.
-
     >>> backwards({("A", "B"): Fraction(1)})
     {('B', 'A'): Fraction(1, 1)}
     """

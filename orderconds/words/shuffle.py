@@ -38,8 +38,8 @@ def shuffle(u: Sequence[Letter], v: Sequence[Letter]) -> Counter[Word]:
 
 
 def add(*scaled: tuple[Fraction | int, Mapping[Word, Fraction]]) -> Series:
-    """Return a linear combination of series with rational coefficients. Words with coefficient zero are
-    removed.
+    """Return the sum of scale * series over all pairs (scale, series) in ``scaled``. Words with coefficient
+    zero are removed.
 
     >>> add((2, {("A",): Fraction(1)}), (-1, {("A",): Fraction(2), ("B",): Fraction(3)}))
     {('B',): Fraction(-3, 1)}

@@ -200,7 +200,7 @@ MALFORMED = {
     "unknown number": (
         HEAD + 'A = [[]]\nb = ["g"]\nnumbers = { h = "1" }\n',
         "the name 'g'",
-        "the table [numbers] (h)",
+        "the table [numbers] (defined names: h)",
     ),
     "numbers in a circle": (EULER + 'numbers = { g = "h", h = "1/g" }\n', "g -> h -> g", "no cycle"),
     "numbers in a long chain": (
