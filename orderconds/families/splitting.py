@@ -2,7 +2,7 @@
 parts.
 
 For two parts, one step of size h is ``... exp(b_2 h B) exp(a_2 h A) exp(b_1 h B) exp(a_1 h A)``. The
-rightmost flow acts first, so A acts first in each stage.
+rightmost flow acts first.
 
 There is one condition for each word over A, B, .... A word of n letters must have the coefficient 1/n! in the
 series of the step (HLW III.5; McLachlan and Quispel, Acta Numerica 11 (2002) 341).

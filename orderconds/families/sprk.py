@@ -1,12 +1,12 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i. The tableau (a, b)
 is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 
-The conditions belong to trees with directed edges, and all choices of the directions occur. An edge that
-points away from the root gives a factor a_ij in the elementary weight. An edge that points towards the root
-gives a factor ahat_ij.
+Each order condition belongs to a rooted tree with directed edges. An edge that points away from the root
+gives a factor a_ij in the elementary weight. An edge that points towards the root gives a factor ahat_ij.
 
-Let i and j be the two vertices of an edge in a free tree. The root of the tree can be i or j. Because b_i
-ahat_ij + b_j a_ji = b_i b_j, the elementary weights of these two rooted trees add up to a product of
+Let i and j be the two vertices of an edge in a free tree. The root of the tree can be i or j. If the edge
+points from i to j, it gives the factor a_ij for the root i and the factor ahat_ji for the root j. Because
+b_i a_ij + b_j ahat_ji = b_i b_j, the elementary weights of these two rooted trees add up to a product of
 elementary weights of smaller trees. Hence one condition for each free tree (a tree without a root) is
 sufficient (Abia and Sanz-Serna 1993; HLW VI.7).
 """

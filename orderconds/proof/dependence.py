@@ -190,8 +190,7 @@ class _Value:
     multiplied separately.
 
     - ``factors``: the conditions.
-    - ``members``: a vector with one entry for each method in a list of random methods. The entry is the
-      product of the left-hand sides, evaluated for this method.
+    - ``members``: the product of the left-hand sides, evaluated for each of several random methods.
     - ``flow``: the product of the right-hand sides.
     """
 
@@ -245,10 +244,10 @@ class _Members(Samples):
     def root(self, x: Sample, index: int) -> Sample:
         """Return the element that replaces the root x^(1/index).
 
-        The root need not exist modulo ``prime``. Therefore the element is random. If a polynomial identity
-        holds for random residues, the identity very probably holds for all values of the root. If the
-        argument ``square_root`` of the constructor is an integer, this integer replaces every square root.
-        Equal arguments give equal residues.
+        The root need not exist modulo ``prime``. Therefore a random element replaces the root. Equal
+        arguments give equal elements. If a polynomial identity holds for random residues, the identity very
+        probably holds for all values of the root. If the argument ``square_root`` of the constructor is an
+        integer, this integer replaces every square root.
         """
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)

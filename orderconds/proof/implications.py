@@ -55,9 +55,10 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 
 
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
-    """Return the exact order in ``family`` if theorems determine it, else None.
+    """Return the exact order of a method in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders.
+    A pair (label, n) in ``facts`` means that the method has at least order n in the family with this label.
+    ``orders`` maps labels of families to exact orders.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

@@ -2,7 +2,7 @@
 
 Formulas such as ``b3 = "1 - b1 - b2"`` in a tableau file restrict a family to a sub-family. In the
 sub-family, the left-hand side of a dependent condition is a polynomial in the left-hand sides of independent
-conditions. The same polynomial in the right-hand sides gives the right-hand side of the dependent condition.
+conditions. The right-hand sides of these conditions satisfy the same relation.
 
 The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). Each polynomial is verified
 in exact arithmetic for one random method (:mod:`orderconds.proof.exact_member`). A wrong polynomial passes

@@ -50,8 +50,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, int]:
-    """Find the real root of a polynomial in [near - unit, near + unit]. Return the monic irreducible factor
-    with this root, and the index of the root.
+    """Find the real root that a polynomial has in [near - unit, near + unit]. Return the monic irreducible
+    factor with this root, and the index of the root.
 
     Raises ValueError if the interval does not contain exactly one real root of the polynomial. The real roots
     of the factor are numbered from 0, in ascending order.

@@ -194,12 +194,14 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Return a pair (m, relation) for the algebra K[x]/(p), where K is ``field``.
+    """Return a pair. The first entry is an integer m or None. The second entry describes the algebra K[x]/(p)
+    (:class:`_Relation`), where K is ``field``.
 
     Let a be the generator of K over Q, and let k be the length of ``powers``. The polynomial p is
     x^k - powers[k-1] x^(k-1) - ... - powers[0].
 
-    The powers of the element c = x + m a span the algebra over Q. If m is None, c is the product of a and x.
+    If m is an integer, the powers of the element c = x + m a span the algebra over Q. If m is None, the
+    powers of the element c = a x span the algebra over Q.
     """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
@@ -228,9 +230,10 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of ``vector`` and x + m a, where m is ``multiplier``. If m is None, return the
-    product of ``vector`` and a x. The docstring of :func:`_primitive` defines a and x. An element v_0 + v_1 x
-    + v_2 x^2 + ... is the list [v_0, v_1, v_2, ...]."""
+    """Let K be a number field with the generator a over Q, let k be the length of ``powers``, and let p be
+    x^k - powers[k-1] x^(k-1) - ... - powers[0]. Return the product of ``vector`` and x + m a in the algebra
+    K[x]/(p), where m is ``multiplier``. If m is None, return the product of ``vector`` and a x. An element
+    v_0 + v_1 x + v_2 x^2 + ... is the list [v_0, v_1, v_2, ...]."""
     field = powers[0].field
     top = vector[-1]
     shifted = [x + top * p for x, p in zip([field.zero, *vector[:-1]], powers, strict=True)]

@@ -21,8 +21,9 @@ ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
 class Operation:
     """One operation of a recorded program.
 
-    ``left`` and ``right`` are the indices of the operations that compute the operands. A constant or an input
-    does not use ``left`` and ``right``. The meaning of ``value`` depends on ``kind``:
+    ``left`` and ``right`` are the indices of the operations that compute the operands. The two indices are
+    equal for a root. A constant or an input does not use ``left`` and ``right``. The meaning of ``value``
+    depends on ``kind``:
 
     - CONSTANT: the rational number.
     - INPUT: the position of the input among all inputs.

@@ -14,8 +14,9 @@ leave the velocities of all other stages unchanged. The coefficients of the tree
 are
 
 - for the tree t = (w, M): ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)``,
-- for the tree p = H(u*v|M): ``psi_p(i) = (1/b_i) sum_j b_j c_j g_j``. Here c_j is the coefficient of the word
-  (u, x, v) in the changed group element of stage j, and g_j is the product of psi_m(j) over all m in M.
+- for the tree p = H(u*v|M): ``psi_p(i) = (1/b_i) sum_j b_j z_j g_j``. Here z_j is the coefficient of the word
+  (u, x, v) in the group element of stage j with xi_i + x in place of xi_i, and g_j is the product of psi_m(j)
+  over all m in M.
 - for the tree p = L(w): ``psi_p(i) = d/b_i``. Here d is the coefficient of the word (x, reverse(w)) in the
   changed update.
 
@@ -75,12 +76,10 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of a word in a changed group element. The unchanged group element belongs to
-        stage ``row``. If ``row`` is the number of stages, the unchanged group element is the update. To
-        change the group element, add a letter x to the velocity of stage ``stage``, and leave the velocities
-        of all other stages unchanged. The letter x is not a tree. The changed group element is expanded in
-        words of trees and of the letter x. The word is (``before``, x, ``after``), where ``before`` and
-        ``after`` are words of trees."""
+        """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
+        ``row``. The class docstring defines this index. The group element is computed with xi + x in place of
+        the velocity xi of stage ``stage``. The letter x is not a tree, but ``before`` and ``after`` are words
+        of trees."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return the coefficient of ``word`` in the group element of each stage."""
@@ -170,9 +169,9 @@ class ActionSeries(ABC):
         Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Each tree t
         denotes a function of position and momentum with values in g (:mod:`orderconds.series.action_trees`).
         Let v_t be the value of this function at (q0, mu1), divided by the order of the symmetry group of t.
-        Let ``F(t)`` be the right-invariant vector field of v_t. For every smooth function f on the group,
-        ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words
-        ``w = t_1 ... t_k``.
+        The vector v_t in g defines a right-invariant vector field ``F(t)`` on the group. For every smooth
+        function f on the group, ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all
+        words ``w = t_1 ... t_k``.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 

@@ -66,8 +66,7 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
         w = [1] + [0] * order
         for n in range(1, size):
             w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
-        # Euler's transform: n e[n] = sum_{k=1}^n s_k e[n-k], where s_k is the sum of d p[d] over the divisors
-        # d of k.
+        # The sequence e is Euler's transform of the sequence p.
         e = [1] + [0] * order
         for n in range(1, size):
             e[n] = (

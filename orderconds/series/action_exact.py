@@ -8,14 +8,11 @@ H(u*v|M) consists of two words u and v of trees and a multiset M of trees. The t
 w of trees. Let w be a word with the letters t_1, ..., t_k:
 
 - ``Phi_w(s)`` is the integral of the product ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)`` over all times with 0 <=
-  s_1 <= ... <= s_k <= s. The integral of the same product over all times with s <= s_1 <= ... <= s_k <= s' is
-  ``Phi_w(s, s')``.
+  s_1 <= ... <= s_k <= s. The integral ``Phi_w(s, s')`` has the same integrand, and the times satisfy
+  s <= s_1 <= ... <= s_k <= s'.
 - ``psi_{L(w)}(s)`` is the integral of the same product over all times with 1 >= s_1 >= ... >= s_k >= s.
 - Let ``g(s')`` be the product of ``psi_m(s')`` over all trees m in M. Then ``psi_{H(u*v|M)}(s)`` is the
   integral of the product ``Phi_u(s) Phi_v(s, s') g(s')`` over the times s' from s to 1.
-
-The integral ``Phi_v(s, s')`` is the sum of ``(-1)^|a| Phi_{reverse(a)}(s) Phi_b(s')`` over all decompositions
-of the word v into two words a and b. Here |a| is the number of letters of a.
 """
 
 from __future__ import annotations
@@ -38,8 +35,8 @@ from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, W
 @cache
 def tau(tree: Velocity) -> UnivariatePolynomial:
     """Return the polynomial tau_t(s) for t = ``tree``. It is the coefficient of t in the expansion of the
-    exact velocity at time s. In the texts of polynomials, the variable s is written as x. The module
-    :mod:`orderconds.series.action_trees` defines the notation of trees.
+    exact velocity at time s. The example shows s as x. The module :mod:`orderconds.series.action_trees`
+    defines the notation of trees.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(tau(t)) for t in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
@@ -71,6 +68,7 @@ def psi(tree: Momentum) -> UnivariatePolynomial:
     """
     if not isinstance(tree, Force):
         return _transport(tree.word)
+    # Chen's identity expresses Phi_v(s, s') in terms of integrals that start at 0.
     total, after = ZERO, tree.after
     for k in range(len(after) + 1):
         term = phi(after[:k][::-1]) * _later(after[k:], tree.momenta)

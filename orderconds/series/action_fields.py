@@ -2,10 +2,10 @@
 tree denotes a vector in the Lie algebra g or a covector in its dual g*
 (:mod:`orderconds.series.action_trees`).
 
-A derivative of H along k directions is computed exactly, by automatic differentiation. The point (q, mu) is
-moved along each direction i by a variable distance eps_i, where eps_i^2 = 0. The derivative is the
-coefficient of eps_1 ... eps_k in the value of H at the new point. H must be a polynomial in the entries of
-the matrix q and the coordinates of mu.
+A derivative of H along k directions is computed exactly, by automatic differentiation. Let eps_1, ..., eps_k
+be formal variables with eps_i^2 = 0, as in dual numbers. The point (q, mu) is moved by eps_i along each
+direction i. The derivative is the coefficient of eps_1 ... eps_k in the value of H at the new point. H must
+be a polynomial in the entries of the matrix q and the coordinates of mu.
 """
 
 from __future__ import annotations

@@ -5,9 +5,9 @@ The exponent of stage i is ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``. In the
 b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
-Let x be a letter that is not a tree. If one velocity xi_j is replaced by xi_j + x, the exponents also contain
-words (u, x, v), where u and v are words of trees. The coefficients of such words are needed for g*-valued
-trees (:mod:`orderconds.series.action`).
+The exponents are expanded in words of trees (:mod:`orderconds.series.action`). If one velocity xi_j is
+replaced by xi_j + x with an additional letter x, the exponents also contain words (u, x, v), where u and v
+are words of trees. The coefficients of such words are needed for g*-valued trees.
 """
 
 from __future__ import annotations
@@ -95,8 +95,9 @@ class MuntheKaasActionSeries(ActionSeries):
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
         """Return a list of maps (:data:`Varied`), one map for each group element. If ``update`` is 0, the
         group elements are exp(X_i) for all stages i. If ``update`` is 1, the only group element is exp(Y),
-        the group element of the update. The maps contain coefficients of the word (``before``, x, ``after``).
-        The module docstring defines x, X_i and Y."""
+        the group element of the update. Entry j of a map is the coefficient of the word (``before``, x,
+        ``after``) in the group element, with xi_j + x in place of xi_j. The module docstring defines x, xi_j,
+        X_i and Y."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -264,7 +265,7 @@ class PadeActionSeries(MuntheKaasActionSeries):
 def pade_terms(cutoff: int, most: int) -> Terms:
     """Solve the equation dexp_{(r),X} v = xi, and return the terms of v up to degree ``most`` in X. The map
     dexp_{(r),X} is dexp_X truncated after the r-th power of X, where r is ``cutoff``. A triple (q, m, n)
-    denotes the term q X^n xi X^m.
+    denotes the term q X^n xi X^m. In this term, X^m acts first, and X^n acts last.
 
     Let S(z) be the sum of z^j/(j+1)! for j = 0, ..., r, and let q_k be the coefficient of z^k in the power
     series of 1/S(z). Then q = (-1)^m comb(k, m) q_k for k = m + n. Terms with q = 0 are omitted.

@@ -1,4 +1,5 @@
-"""Relations of action conditions: each dependent condition is a polynomial in independent conditions.
+"""Relations between the order conditions of variational Lie group methods: each dependent condition is a
+polynomial in independent conditions.
 
 The polynomial is the same for all methods of a family and for the exact flow. The coefficients of the
 polynomial are computed from random methods and from the exact flow.
@@ -6,7 +7,8 @@ polynomial are computed from random methods and from the exact flow.
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
 commutator-free methods. Let psi_p be the coefficient of a g*-valued tree p in the momentum of a stage
 (:mod:`orderconds.series.action`). The module :mod:`orderconds.series.action_trees` defines the notation of
-trees. Let t be the tree ``o(|L(o))``. Each stage of a variational Crouch-Grossman method satisfies
+trees. Let o be the g-valued tree with one vertex, and let t be the g-valued tree ``o(|L(o))`` with the empty
+word and the multiset {L(o)}. Each stage of a variational Crouch-Grossman method satisfies
 ``psi_{L(t)} = 3 psi_{L(o o)} - psi_{L(o)}^2``. This equation implies the three relations.
 """
 

@@ -6,14 +6,14 @@ The elements of a multiset are always g*-valued trees. Each element of g, and th
 right-invariant vector field on G. There are three kinds of trees:
 
 - A :class:`Velocity` is a g-valued tree with a word w and a multiset M, written (w, M) or ``o(w | M)``. The
-  tree denotes a mixed derivative of the vector dH/dmu. Let t_1, ..., t_k be the letters of w. For the
-  derivatives in q, replace q by exp(e_k t_k) ... exp(e_1 t_1) q, and differentiate once with respect to each
-  of the numbers e_1, ..., e_k at zero. For the derivatives in mu, the directions are the covectors that the
-  trees in M denote.
+  tree denotes a mixed derivative of the vector dH/dmu. Let t_1, ..., t_k be the elements of g that the
+  letters of w denote. For the derivatives in q, replace q by exp(e_k t_k) ... exp(e_1 t_1) q, and
+  differentiate once with respect to each of the numbers e_1, ..., e_k at zero. For the derivatives in mu, the
+  directions are the covectors that the trees in M denote.
 - A :class:`Force` is a g*-valued tree with two words u and v and a multiset M, written ``H(u * v | M)`` or
   ``f(u * v | M)``. The tree denotes a covector. The value of the covector at an element x of g is a mixed
-  derivative of H. Use the definition of the :class:`Velocity`, but differentiate H in place of dH/dmu, and
-  take the word (u, x, v) in place of w.
+  derivative of H. The letters of u, the element x and the letters of v, in this order, give the derivatives
+  in q. The trees in M give the derivatives in mu. These derivatives are defined as for the :class:`Velocity`.
 - A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. The tree denotes the covector that
   maps an element x of g to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here
   ``<mu, y>`` is the pairing of mu with y.
@@ -106,9 +106,9 @@ class Velocity(_Node):
 
 
 class Force(_Node):
-    """A g*-valued tree with two words u and v of g-valued trees and a multiset M of g*-valued trees. The
-    attribute ``before`` is u, the attribute ``after`` is v, and the attribute ``momenta`` is M. The text of
-    the tree is f(u * v | M). Use :func:`force` to create trees.
+    """The g*-valued tree f(u * v | M), where u and v are words of g-valued trees, and M is a multiset of
+    g*-valued trees. The attribute ``before`` is u, the attribute ``after`` is v, and the attribute
+    ``momenta`` is M. Use :func:`force` to create trees.
 
     >>> tree = force((), (velocity(),))
     >>> tree, tree.vertices
@@ -274,9 +274,9 @@ def hamiltonian(tree: Velocity) -> str:
     """Return the elementary Hamiltonian of a tree as text. In the text, ``m`` denotes mu, and ``ad(x) y`` is
     [x, y].
 
-    The letters after ``H_`` are the variables in which H is differentiated. In the parentheses, a semicolon
-    separates the directions in q from the directions in mu. A covector is a linear function, and a dot
-    denotes the argument of this function.
+    The letters after ``H_`` are the variables in which H is differentiated. The parentheses contain the
+    directions of differentiation. A semicolon separates the directions in q from the directions in mu. A
+    direction in mu is a linear function on the Lie algebra. A dot denotes the argument of this function.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

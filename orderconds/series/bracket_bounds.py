@@ -1,6 +1,7 @@
-"""A lower bound for the number of brackets (commutators), computed by linear algebra. A program
-(:class:`orderconds.series.brackets.BracketProgram`) computes the arguments u_1, ..., u_s of the exponentials
-of the stages and the argument u of the exponential of the step.
+"""A lower bound for the number of brackets (commutators) in a program. Linear algebra gives the bound.
+
+The program (:class:`orderconds.series.brackets.BracketProgram`) computes the arguments u_1, ..., u_s of the
+exponentials of the stages and the argument u of the exponential of the step.
 
 The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i contains only
 the letters q_1, ..., q_(i-1), because it is computed before k_i. Choose a number m < i. The letters q_m, ...,
@@ -16,9 +17,9 @@ Second bound: for each argument, form the sum of the terms that have at least tw
 letter. This sum is called the linear part of the argument. Let ad_q be the operator with ad_q y = [q, y]. To
 obtain the operator ad_(P) for a polynomial P, replace each letter q in P by the operator ad_q. For example,
 let q_1 and q_2 be old letters, and let q_n be a new letter. With the polynomial P = q_2 q_1, ad_(P) q_n is
-the bracket [q_2, [q_1, q_n]]. In general, each linear part has the form sum_n ad_(P_n) q_n. This sum is over
-the new letters q_n, and each P_n is a polynomial in the old letters. Let S be the space that the linear parts
-of u_1, ..., u_i span, and let d be the dimension of S.
+the bracket [q_2, [q_1, q_n]]. In general, each linear part is a sum over the new letters q_n. The summand for
+the letter q_n is ad_(P_n) q_n, where P_n is a polynomial in the old letters. Let S be the space that the
+linear parts of u_1, ..., u_i span, and let d be the dimension of S.
 
 The linear part of a bracket is defined in the same way. The linear part of each argument is a linear
 combination of the linear parts of the N brackets. Hence N is at least d.
@@ -46,9 +47,9 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Select the words of x that have at least two letters and whose last letter is the only letter >=
-    ``first``. Remove the last letter n of each selected word. Return a map from n to the polynomial that
-    consists of the shortened words.
+    """Select the words of x that consist of one or more letters below ``first``, followed by one letter n
+    that is at least ``first``. Remove the last letter n of each selected word. Return a map from n to the
+    polynomial that consists of the shortened words.
 
     A word is a tuple of letters, and a letter is a number. If x is a sum of letters and brackets, the result
     contains the polynomials P_n in the module docstring.
@@ -64,11 +65,9 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
-    """Return x - D(x). The result is zero if and only if the polynomial x is a Lie element (theorem of
-    Dynkin, Specht and Wever).
-
-    The polynomial x must have no constant term. The linear map D replaces a word of n letters by its
-    right-normed bracket divided by n.
+    """Return x - D(x). The linear map D replaces a word of n letters by its right-normed bracket divided by
+    n. The result is zero if and only if the polynomial x is a Lie element (theorem of Dynkin, Specht and
+    Wever). The polynomial x must have no constant term.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)

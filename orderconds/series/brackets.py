@@ -78,8 +78,9 @@ def fewest_brackets(
     The order of the Runge-Kutta method (A, b) must be ``order``. The ring must support division and a test
     whether an element is zero.
 
-    The search tries increasing numbers of brackets. It uses at most ``attempts`` random seeds for each
-    number. Raises :class:`~orderconds.errors.InputError` for an implicit tableau.
+    The search tries increasing numbers of brackets. For each number of brackets, the search uses at most
+    ``attempts`` seeds of a random number generator. Raises :class:`~orderconds.errors.InputError` for an
+    implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -120,8 +121,9 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return a pair (grade, [c_1, ..., c_j]) for each stage j. The module docstring defines the combination
-    q_j = c_1 k_1 + ... + c_j k_j and its grade. The grade is at most ``order``."""
+    """Return a pair (grade, [c_1, ..., c_j]) with c_j = 1 for each stage j. Let h be the step size, and let
+    k_1, ..., k_j be stage values. Then h (c_1 k_1 + ... + c_j k_j) is of order h^grade. The coefficients give
+    the largest possible grade up to ``order``."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -179,14 +181,15 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
 
 @dataclass(frozen=True)
 class _Shape:
-    """The number and the form of the brackets that the search adds to express one element of the Lie algebra.
+    """A description of the brackets that are added to a program (:class:`BracketProgram`) to compute one more
+    element of the Lie algebra.
 
     The pool is the list of elements that are known before the brackets are added. The first element of the
     pool is q_1. The symbols x, y, z_n and w_n denote unknown linear combinations of elements of the pool.
 
     - ``inner``: the number k of nested brackets C_1, ..., C_k. The bracket C_n is [q_1, z_n + C_(n+1)], where
       C_(k+1) is zero.
-    - ``outer``: True if there is a bracket [q_1 + x, y + C_1].
+    - ``outer``: True if the bracket [q_1 + x, y + C_1] with unknown x and y is added.
     - ``leading``: True if x may be nonzero.
     - ``extra``: indices of pool elements, counted from 0. For each index n in ``extra``, there is a bracket
       [e_n, w_n], where e_n is the pool element with the index n.
@@ -260,7 +263,7 @@ class _Search:
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
         """Return a row that represents ``argument`` up to grade ``limit``, or None if no row is found. A row
         is a linear combination of stage values and brackets (:class:`BracketProgram`). ``shape`` describes
-        the brackets that are added.
+        the brackets that are added to the program.
 
         The equations for the added brackets contain products of the unknowns x and y of :class:`_Shape`, and
         are solved by iteration."""
