@@ -285,8 +285,8 @@ static void dipole_vcg_midpoint_count_matrix(dipole_vcg_midpoint_statistics *sta
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with the
- * unknown solution of the next step is omitted.
+ * Compute 'sign' times the backward difference of the given order. The latest solution is multiplied
+ * by the coefficient with the index 'first'.
  */
 static inline void dipole_vcg_midpoint_difference(const struct dipole_vcg_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -578,9 +578,9 @@ static inline int dipole_vcg_midpoint_advance(double state[static 12], double h,
 }
 
 /*
- * Repeat a failed step without the solutions of earlier steps. If the repetition fails, the equations
- * are first solved for shorter steps. Each solution is the initial guess for the next longer step
- * (continuation in h).
+ * Repeat a failed step with a new initial guess. If the step fails again, the step size is halved
+ * until the step succeeds. Each solution is then the initial guess for a longer step (continuation in
+ * h).
  */
 static int dipole_vcg_midpoint_continued(double state[static 12], double h,
     struct dipole_vcg_midpoint_memory *memory, dipole_vcg_midpoint_statistics *statistics)

@@ -293,8 +293,8 @@ static void dipole_vcg_triple_jump_count_matrix(dipole_vcg_triple_jump_statistic
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with the
- * unknown solution of the next step is omitted.
+ * Compute 'sign' times the backward difference of the given order. The latest solution is multiplied
+ * by the coefficient with the index 'first'.
  */
 static inline void dipole_vcg_triple_jump_difference(const struct dipole_vcg_triple_jump_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -588,9 +588,9 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
 }
 
 /*
- * Repeat a failed substep without the solutions of earlier steps. If the repetition fails, the
- * equations are first solved for shorter steps. Each solution is the initial guess for the next longer
- * step (continuation in h).
+ * Repeat a failed substep with a new initial guess. If the substep fails again, the step size is
+ * halved until the substep succeeds. Each solution is then the initial guess for a longer substep
+ * (continuation in h).
  */
 static int dipole_vcg_triple_jump_continued(double state[static 12], double h,
     struct dipole_vcg_triple_jump_memory *memory,

@@ -378,8 +378,8 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with the
- * unknown solution of the next step is omitted.
+ * Compute 'sign' times the backward difference of the given order. The latest solution is multiplied
+ * by the coefficient with the index 'first'.
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -883,9 +883,9 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
 }
 
 /*
- * Repeat a failed step without the solutions of earlier steps. If the repetition fails, the equations
- * are first solved for shorter steps. Each solution is the initial guess for the next longer step
- * (continuation in h).
+ * Repeat a failed step with a new initial guess. If the step fails again, the step size is halved
+ * until the step succeeds. Each solution is then the initial guess for a longer step (continuation in
+ * h).
  */
 static int dipole_vrkmk2_gauss2_continued(double state[static 12], double h,
     struct dipole_vrkmk2_gauss2_memory *memory, dipole_vrkmk2_gauss2_statistics *statistics)

@@ -326,8 +326,8 @@ static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigi
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with the
- * unknown solution of the next step is omitted.
+ * Compute 'sign' times the backward difference of the given order. The latest solution is multiplied
+ * by the coefficient with the index 'first'.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -1067,9 +1067,9 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
 }
 
 /*
- * Repeat a failed step without the solutions of earlier steps. If the repetition fails, the equations
- * are first solved for shorter steps. Each solution is the initial guess for the next longer step
- * (continuation in h).
+ * Repeat a failed step with a new initial guess. If the step fails again, the step size is halved
+ * until the step succeeds. Each solution is then the initial guess for a longer step (continuation in
+ * h).
  */
 static int free_rigid_body_s3_discrete_gradient_midpoint_continued(double state[static 4],
     double h, struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,

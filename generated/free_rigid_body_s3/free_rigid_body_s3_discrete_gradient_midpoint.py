@@ -353,8 +353,8 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """Compute 'sign' times the backward difference of the given order. If 'first' is
-    1, the term with the unknown solution of the next step is omitted.
+    """Compute 'sign' times the backward difference of the given order. The latest
+    solution is multiplied by the coefficient with the index 'first'.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -1193,9 +1193,9 @@ def _advance(state, h, memory, statistics):
 
 
 def _continued(state, h, memory, statistics):
-    """Repeat a failed step without the solutions of earlier steps. If the repetition
-    fails, the equations are first solved for shorter steps. Each solution is the
-    initial guess for the next longer step (continuation in h).
+    """Repeat a failed step with a new initial guess. If the step fails again, the
+    step size is halved until the step succeeds. Each solution is then the initial
+    guess for a longer step (continuation in h).
     """
     if not (h < 0.0 or h > 0.0):
         return OK if all(map(isfinite, state)) else NOT_FINITE

@@ -428,8 +428,8 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. If 'first' is 1, the term with the
- * unknown solution of the next step is omitted.
+ * Compute 'sign' times the backward difference of the given order. The latest solution is multiplied
+ * by the coefficient with the index 'first'.
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -879,9 +879,9 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
 }
 
 /*
- * Repeat a failed step without the solutions of earlier steps. If the repetition fails, the equations
- * are first solved for shorter steps. Each solution is the initial guess for the next longer step
- * (continuation in h).
+ * Repeat a failed step with a new initial guess. If the step fails again, the step size is halved
+ * until the step succeeds. Each solution is then the initial guess for a longer step (continuation in
+ * h).
  */
 static int heavy_top_slgi_midpoint_continued(double state[static 12], double h,
     struct heavy_top_slgi_midpoint_memory *memory,
