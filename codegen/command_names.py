@@ -1,6 +1,7 @@
 """Names of scenes and methods in the command that regenerates a module.
 
-Folders are removed from the paths in names. Names with characters that a shell would interpret are quoted.
+If a name is the path of a file, only the file name is kept. Names with characters that a shell would
+interpret are quoted.
 """
 
 from __future__ import annotations

@@ -306,7 +306,7 @@ class Trees:
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
     """Return a pair (label, k) for each coefficient c h^k. Equal coefficients have equal labels."""
     seen: dict[Coefficient, int] = {}
-    # A coefficient 1 needs no product, and terms with equal coefficients need only one product.
+    # Products with equal coefficients are computed once, and a product with the coefficient 1 is omitted.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 
 

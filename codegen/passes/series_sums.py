@@ -1,9 +1,9 @@
 """Sums of functions of ad_x in nested form.
 
-The pass is exact. On some groups, each term of the sum is f (1 + b ad_x + c ad_x^2) v with numbers f, b and
-c. Let A, B and C be the sums of f v, f b v and f c v over all terms. Then the sum is A + ad_x (B + ad_x C).
-For n terms, the pass reduces the number of brackets from 2 n to 2. An example is the momentum in equation
-(3.19) of Marthinsen's thesis.
+On some groups, each term of such a sum is f (1 + b ad_x + c ad_x^2) v with numbers f, b and c. Let A, B and C
+be the sums of f v, f b v and f c v over all terms. The pass replaces the sum by the equal expression A + ad_x
+(B + ad_x C), for example in equation (3.19) of Marthinsen's thesis. For n terms, this reduces the number of
+brackets from 2 n to 2.
 """
 
 from __future__ import annotations

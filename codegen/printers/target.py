@@ -105,7 +105,8 @@ class Target:
 
     @property
     def solutions(self) -> Solutions:
-        """The function that makes one step and returns the solved unknowns of each substep.
+        """The function that makes one step and returns the solutions of the implicit equations in each
+        substep.
 
         ValueError is raised if ``self.observer`` is empty.
         """

@@ -28,9 +28,8 @@ if TYPE_CHECKING:
     import sympy
 
 MOST_ROWS = 8
-"""The generator A of :func:`StiefelScene` has formulas in coordinates if X has at most this number of rows.
-
-For n rows, the length of the formulas grows as n^3.
+"""If the state has more rows, :func:`StiefelScene` does not write its generator as formulas in the
+coordinates. For n rows, the length of these formulas grows as n^3.
 """
 
 TOLERANCE = 1e-10

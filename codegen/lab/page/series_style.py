@@ -118,7 +118,7 @@ def _digest(name: str) -> int:
 def _fixed() -> Mapping[str, Place]:
     """Return a dictionary that maps each method in ``PICTURED`` to the indices of its colour and its marker.
 
-    If possible, the methods of one figure have different colours and markers.
+    If possible, no two methods in a figure have the same colour or the same marker.
     """
     places: dict[str, Place] = {}
     for name in dict.fromkeys(name for group in PICTURED for name in group):

@@ -35,10 +35,10 @@ class Endurance:
     - ``returned``: the distance of the final state from the initial state after a run forward and back.
     - ``failure``: the error message of the integrator if a step failed.
 
-    The property :attr:`held` tests the result. The test only detects wrong results, so a run that ends with
-    an error message passes. A complete run forward passes if ``defect`` is None, or if ``defect`` is at most
-    64 * ``steps`` * 2^-53 (a bound for rounding errors). A complete run forward and back passes if
-    ``returned`` is finite. A large ``returned`` is permitted.
+    The property :attr:`held` tests the result. A run that ends with an error message passes, because its user
+    learns that it failed. A complete run forward passes if ``defect`` is None, or if ``defect`` is at most 64
+    * ``steps`` * 2^-53 (a bound for rounding errors). A complete run forward and back passes if ``returned``
+    is finite. A large ``returned`` is permitted.
     """
 
     name: str

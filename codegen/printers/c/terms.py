@@ -199,7 +199,7 @@ class Terms(Infix):
         return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", last, "")), CHOICE)
 
     def finite(self, values: Sequence[Term]) -> Text:
-        """Return the text of the test whether all values are finite."""
+        """Return C code for a condition that is true if all ``values`` are finite."""
         first = values[0]
         # For an array, the emitted code calls a helper function, which tests the entries in a loop.
         if first.shape:
