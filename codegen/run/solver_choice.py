@@ -4,9 +4,9 @@ Newton.
 The matrices of the two Newton methods are described in :class:`codegen.ir.kernel.Newton`. Fixed-point
 iteration needs no matrix, and each sweep multiplies the error by a factor O(h).
 
-Usually the solver with the shortest predicted time is chosen. A robust solver (defined below) can be chosen
-although it is slower. The first trial of a solver (:mod:`codegen.run.trial`) makes :data:`STEPS` steps from
-the initial state of the problem's example. This trial counts sweeps and matrices. From these numbers, the
+Usually the solver with the shortest predicted time is chosen. The first trial of a solver
+(:mod:`codegen.run.trial`) makes :data:`STEPS` steps from the initial state of the problem's example. This
+trial counts sweeps and matrices. From these numbers, the
 cost model (:mod:`codegen.run.step_cost`) predicts the time of a step. ``benchmarks/solver_choice.py``
 compares the choices with measured times.
 
@@ -15,8 +15,7 @@ of :data:`LONGER` times this size. A solver is robust if it converges in both tr
 :data:`SWEEPS` sweeps in the second trial.
 
 A robust solver is preferred if its predicted time is at most :data:`PRICE` times the time of the fastest
-solver. Without this limit, some methods of the gallery would be 5 to 14 times as slow
-(``benchmarks/README.md``).
+solver.
 
 For linear equations, a robust solver is always preferred.
 """
@@ -348,10 +347,7 @@ class _Selection:
     def allowed(self, solver: str, candidate: Candidate) -> float:
         """Return a limit in nanoseconds for the time of a step with another solver.
 
-        The other solver is tried only if the lower bound :meth:`least` of its step time is below this limit.
-        There is one exception: if the equations are linear and fixed-point iteration is not robust, Newton's
-        method is tried without regard to the limit. ``solver`` was tried before, and ``candidate`` contains
-        the results of the trials of ``solver``. The first of these trials must have converged.
+        ``candidate`` contains the results of the trials of ``solver``.
         """
         # A robust solver is preferred, even if it is slower by a factor of up to PRICE.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)

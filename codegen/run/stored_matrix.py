@@ -92,8 +92,7 @@ class StoredMatrix(ABC):
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         self.matrix, self.columns, self.nodes, self.n = matrix, columns, nodes, matrix.rows
         self.hoisted = Hoisted()
-        # A coefficient does not contain i or j. ``formula`` replaces such an expression by a single name,
-        # unless the expression is a constant.
+        # The emitted code evaluates each coefficient once, before the loops over i and j.
         self.coefficients = [self.hoisted.formula(c) for c, _ in matrix.terms]
 
     @property

@@ -134,9 +134,11 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
 
     H is Hermitian and has the trace 0, so H^3 = ``trace`` H + ``det`` I. The argument ``trace`` is tr(H^2)/2,
     ``det`` is the determinant of H, and I is the identity matrix. ``part`` contains the real parts or the
-    imaginary parts of the coefficients of I, H and H^2. If ``added`` is a pair (a, k), the number a is added
-    to the coefficient of I for k = 0 and k = 1, and subtracted for k = 2 and k = 3. If ``added`` is None,
-    nothing is added.
+    imaginary parts of the coefficients of I, H and H^2.
+
+    If ``added`` is a pair (a, k), the number i^k a is added to the complex coefficient of I. For even k,
+    ``part`` must contain the real parts, and for odd k the imaginary parts. If ``added`` is None, nothing is
+    added.
     """
     last = real("last")
     # i^2 = -1 and i^3 = -i, so 1/k! is subtracted for k = 2 and k = 3.

@@ -176,10 +176,7 @@ class WarmStart:
                     reverse=True,
                 ),
             ]
-        about = (
-            "Compute 'sign' times the backward difference of the given order. The latest solution is "
-            "multiplied by the coefficient with the index 'first'."
-        )
+        about = "Compute 'sign' times the backward difference of the given order."
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
 

@@ -48,7 +48,8 @@ class Run:
       of the figure on the extended phase space (:mod:`codegen.scene.extended_phase_space`).
     - ``tolerance``: the relative and absolute tolerance. If the tolerance is positive, the method chooses its
       own step sizes, and the states at every ``stride``-th multiple of ``h`` are shown.
-    - ``sweep``: the run is repeated for each value of the sweep, and the final states are shown.
+    - ``sweep``: the parameter values or step sizes for which the run is repeated, or None. The figure shows
+      the final state of each repetition.
     """
 
     method: str

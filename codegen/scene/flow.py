@@ -20,8 +20,8 @@ from codegen.ir.domain import Domain
 class Flow(ABC):
     """The exact flow of one part of the Hamiltonian, in closed form.
 
-    ``timed`` is True if the part depends on the time t. Along the flow, t keeps its initial value. In
-    all methods, ``values`` contains the parameters, the time t, and the state at the start of the flow.
+    ``timed`` is True if the part depends on the time t. Along the flow, t keeps its initial value. The
+    argument ``values`` contains the parameters, the time t, and the state at the start of the flow.
     """
 
     timed: bool = False

@@ -62,8 +62,7 @@ FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:
     """Return the scene of a rod. The acceleration ``gravity`` acts in the direction of -e1.
 
-    ``ends`` contains cross sections just beyond the ends of the rod (:data:`Ends`). An end of the rod is free
-    if ``ends`` has no section for this end.
+    An end without an entry in ``ends`` is free (see :data:`Ends`).
     """
     parts = {"kinetic": kinetic, **({} if gravity is None else {"weight": MASS * gravity * x[0]})}
     return HamiltonianSiteScene(

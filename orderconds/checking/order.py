@@ -136,8 +136,7 @@ def family_order(
       ``family``, so the order in ``family`` is at most ``bound.order``.
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
-    - ``brief``: if true, the search ends at the order ``bound.order``. If the method has this order in
-      ``family``, ``bound.failing`` is copied into the result.
+    - ``brief``: if true, the search ends at the order ``bound.order``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get

@@ -8,8 +8,8 @@ The names of the arrays depend on the family:
 - ``cf``: exponentials, count and start. The arrays describe a list of products of exponentials. The list
   contains one product for each stage, then the product of the update, then the product of the embedded
   update. Each row of ``exponentials`` contains the coefficients of one exponential. For each product,
-  ``count`` contains the number of exponentials. The entry of a product in ``start`` is 0 if the product acts
-  on y0, and i if the product acts on the value of stage i.
+  ``count`` contains the number of exponentials. ``start`` contains 0 for a product that acts on y0, and i for
+  a product that acts on the value of stage i.
 
 The table ``proof`` of a tableau file is omitted.
 """

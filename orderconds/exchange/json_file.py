@@ -27,8 +27,7 @@ def read(content: bytes, where: str) -> Data:
     """Return the keys and values of a JSON object.
 
     If the key ``family`` is missing, the names of the arrays determine the family. A number with a decimal
-    point or an exponent becomes a string (see :func:`~orderconds.exchange.arrays.coefficient`). In such a
-    string, the suffix ``d`` marks a double.
+    point or an exponent becomes a string (see :func:`~orderconds.exchange.arrays.coefficient`).
 
     >>> read(b'{"A": [[0.5]], "b": [0.3333333333333333], "order": 1}', "m.json")
     {'family': 'rk', 'A': [['0.5']], 'b': ['0.3333333333333333d'], 'order': 1}

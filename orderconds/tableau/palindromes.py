@@ -25,8 +25,7 @@ def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
     """Return True if a method is symmetric. Return None if the coefficients are balls (intervals) that are
     too wide to decide.
 
-    Only stages i and s + 1 - i are compared, where s is the number of stages. Hence a permutation of the
-    stages can change the result from True to False.
+    Only stages i and s + 1 - i are compared, where s is the number of stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]

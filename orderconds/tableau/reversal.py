@@ -48,8 +48,8 @@ def sign(method: Magnus, ring: Ring) -> int | None:
     """Return -1 if all terms of the first exponent of the method are odd, and 1 if all are even. Otherwise,
     return None.
 
-    Let A_i = h A(c_i h) for the nodes c_1, ..., c_s. The sum of all multiples of A_1, ..., A_s in the
-    exponent counts as a single term. Each other summand of the exponent is a term. Replace every A_i in a
+    Let A_i = h A(c_i h) for the nodes c_1, ..., c_s. The linear combination of A_1, ..., A_s in
+    the exponent counts as a single term. Each other summand of the exponent is a term. Replace every A_i in a
     term by -A_{s+1-i}. The term is called odd if this replacement changes the sign of the term. The term is
     called even if this replacement does not change the term.
 

@@ -145,7 +145,6 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
                 f"A_{i + 1} requires a division by zero: in the increment of stage {m + 1}, the coefficient "
                 f"{ring.text(rows[m][i - 1])} of k_{i} is divided by the coefficient 0 of k_{i + 1}"
             )
-    # If all quotients are 0/0, zero is a valid choice for A_i.
     return Rewriting(False, reason=above) if above else ring.zero
 
 

@@ -72,7 +72,7 @@ class HallBasis:
         """Return the coordinates of a Lie element. The Lie element is given as a map from words to
         coefficients. A word denotes the product of its letters in the written order.
 
-        Raises :class:`ValueError` if the series is not a Lie element.
+        Raises :class:`ValueError` if ``element`` is not a Lie element.
 
         >>> HallBasis("AB", 2).coordinates({("A", "B"): Fraction(1, 2), ("B", "A"): Fraction(-1, 2)})
         {('A', 'B'): Fraction(1, 2)}
