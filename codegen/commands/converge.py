@@ -58,7 +58,8 @@ def command(
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
     The command compares the observed order of a method with a stated order. The default of --stated is the
-    order that the order conditions give. With --protocol strict, an order in the tableau file has priority.
+    order that the order conditions give. With --protocol strict, the default is the order in the tableau
+    file, if the file gives one.
 
     The exit status is 1 if an observed order differs from the stated order or is undecided, or if a method
     cannot be emitted.

@@ -33,7 +33,7 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
     """Rewrite the emitted modules that regenerate.toml lists. With --check, report the files that differ.
 
     An emitted file is stale if regenerate.toml no longer lists its module. Stale files are reported and,
-    without --check, removed. All other files in the folder are reported as unknown.
+    without --check, removed. Files that the program did not emit are reported as unknown.
 
     \b
     Examples:

@@ -79,7 +79,8 @@ def command(
     command to continue the report.
 
     The exit status is 1 in three cases: an observed order contradicts the order conditions, a step with
-    extremely large or small numbers gives a wrong result, or a method fails. The pages are always written.
+    extremely large or small numbers gives a wrong result, or a method fails. The pages are
+    written in these cases, too.
 
     \b
     Examples:

@@ -65,8 +65,8 @@ WIDTH = 200
 @click.option(
     "--complete",
     is_flag=True,
-    help="Require that each tableau file claims orders in several families, such as rk, cg and rkmk for a "
-    "Butcher tableau. Each missing claim is reported.",
+    help="Require a claim in every family to which the method belongs, and report each missing claim. "
+    "Families whose order always follows from the order in another family need no claim.",
 )
 @click.option(
     "--certified",
@@ -78,8 +78,8 @@ WIDTH = 200
     "--require-claims",
     is_flag=True,
     help="Exit with status 1 if at least one tableau contains no claim for the checked families. Exit with "
-    "status 2 if a file in a DIR seems to be an incomplete tableau. An example is a JSON file that contains "
-    "only a matrix.",
+    "status 2 if a file in a DIR seems to be an incomplete tableau. An example is a JSON file with a matrix "
+    "under another key.",
 )
 @click.option(
     "--skip-others",

@@ -117,7 +117,7 @@ if TYPE_CHECKING:
     "--checkpoint",
     type=FILE,
     metavar="FILE",
-    help="Save the progress of the search to this file.  [default: OUT.search if -o OUT is given]",
+    help="Save the results of finished random starts to this file.  [default: OUT.search if -o OUT is given]",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
