@@ -266,7 +266,7 @@ class _Loop:
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
-                # One of the two terms in the difference above is zero.
+                # The second term has a minus sign, even if the first term is missing.
                 (mean,) = means
                 return space.sym(INVERSE) * (mean if self.known[id(slopes[0])] is not None else -mean)
             case Antiderivative(slope=slope, rate=rate):
@@ -295,8 +295,7 @@ def _operands(series: Series) -> Sequence[Series]:
         case Angle(slopes=slopes):
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
-            # The formula for coefficient n of log(a) contains coefficient n of the series ``a``. The formula
-            # does not contain coefficient n of the derivative of the logarithm.
+            # Coefficient n of ``series`` depends on coefficient n of ``a``.
             return (a,)
         case Given() | Start():
             return ()

@@ -301,7 +301,7 @@ class _Builder:
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
-        # J contributes two blocks: the unit matrix, and minus the unit matrix.
+        # The unit matrix is added to ``below`` and subtracted from ``right``.
         self.body += [AddUnit(below, 1), AddUnit(right, -1)]
         return core
 

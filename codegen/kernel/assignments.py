@@ -130,7 +130,7 @@ class Assignments:
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("the initial guess of an iteration depends on unknowns")
         for node in walk(values):
-            # Nodes in ``later`` are assigned before ``Start``, because a warm start skips ``Start``.
+            # Nodes in ``later`` must be assigned even if a step skips the ``Start`` statement.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []

@@ -62,8 +62,7 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
         if key not in index:
             index[key] = len(sweeps)
             sweeps.append(_kick(scene, label, ratios) if kick else _local(scene, label, ratios))
-        # The second argument of ``SiteFlow`` distinguishes two sets of pairs of sites. The flows in ``run``
-        # use no pairs, so the second argument is 0.
+        # The second argument, ``colour``, matters only in sweeps over pairs of sites.
         flows.append(SiteFlow(index[key], 0, first, moment))
     return kernel_of(scene, label, sweeps, flows)
 

@@ -70,10 +70,9 @@ def compared(
     ``block`` and ``entered`` describe the same equations. The matrix is -r'(u), expanded to first order in h.
     The result is None if ``block`` has no residuals, or if the residuals cannot be expanded in h.
 
-    The function also changes ``env``. A sweep computes values v(u), and then adds a change d to the unknowns
-    u. The sum v(u) + v'(u) d approximates v(u + d), where v'(u) is expanded to first order in h. The sum
-    replaces v(u) in ``env`` if v is expensive to evaluate. Only elements of a Lie algebra or of its dual
-    space are replaced.
+    The function also changes ``env``. Let d be the change of the unknowns u in a sweep. Some values v(u) are
+    replaced by the approximation v(u) + v'(u) d of v(u + d), where v'(u) is expanded to first order in h.
+    Only elements of a Lie algebra or of its dual space are replaced.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:

@@ -180,7 +180,7 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # A(t) is stored as h A(t)/h, so the exponent of 1/h is 1.
+            # The value of the field is (h A(t))/h^1, with the exponent 1.
             case Field():
                 # An autonomous matrix A is constant, so any time gives the same value.
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)

@@ -122,7 +122,7 @@ class Outline:
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # After simplification, ``roots`` may not contain all of these expressions.
+        # Some arguments and results in ``executions`` do not occur in ``roots``.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):

@@ -259,7 +259,7 @@ class Trees:
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
-            # ``Linear`` contains the coefficients, and the key must not contain them.
+            # A ``Linear`` operation contains the values of coefficients, so it is omitted.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)

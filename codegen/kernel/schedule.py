@@ -223,14 +223,6 @@ def _alone(function: Function) -> Kernel:
 
 
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
-    """Return the expressions in ``statement`` that every step evaluates.
-
-    Expressions in a loop body are not returned.
-
-    For a ``Let``, the result contains the assigned expression. For a ``Loop``, the result is
-    ``statement.starts``. These expressions are evaluated before the first iteration of the loop. For a
-    ``Start``, the result is empty.
-    """
     if isinstance(statement, Let):
         return [statement.value]
     # The expressions of a ``Start`` statement are excluded, because a step may skip this statement.

@@ -5,7 +5,7 @@ writes main memory. The bandwidth of the step is compared with that of the triad
 the STREAM benchmark (McCalpin 1995).
 
 Each number that a loop reads or writes is counted once. The additional read of a cache line before a write is
-not counted. Therefore the counted bandwidth of a step can exceed that of the triad.
+not counted.
 """
 
 from __future__ import annotations
@@ -200,7 +200,6 @@ def _step_size(compiled: Compiled, step: SiteStep) -> float:
     """Return the step size for the measurement."""
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # Rotation angles above about one radian need a slow loop.
     return h if step.blocks else h / SHORTER
 
 

@@ -43,7 +43,7 @@ The next recipe comes from the queue with the smallest value of (n + d)/EVEN + s
 """
 
 FAILED = 4.0
-"""The value of the slowness s (see :data:`EVEN`) if T1 is infinite."""
+"""The slowness of a queue (:data:`EVEN`) if all predicted CPU times for its kind are infinite."""
 
 
 def usual_order(error: float) -> float:

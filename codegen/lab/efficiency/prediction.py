@@ -151,13 +151,12 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e) for :meth:`too_high`. Each triple describes either the explicit
-      methods of a family (``explicit`` is True) or the implicit methods (``explicit`` is False). The number e
-      is the least predicted error that these methods reach in ``seconds`` seconds of CPU time (see
-      :data:`FAR`). The name '' represents all families.
+    - ``least``: triples (family, x, e) for :meth:`too_high`. The family '' represents all families. The entry
+      x is True for explicit methods, and False for implicit methods. The number e is the least predicted
+      error of these methods after the CPU time ``seconds`` (see :data:`FAR`).
     - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
       this run.
-    - ``explicit``: True if a recipe with an implicit method is not accepted.
+    - ``explicit``: True if only explicit methods are accepted.
     """
 
     error: float
@@ -171,13 +170,10 @@ class Bar:
 
         A method is excluded in three cases:
 
-        - The predicted CPU time of one step, ``step_seconds``, exceeds the time limit of the bar.
-        - The bar requires explicit methods, and the argument ``explicit`` is False.
-        - The number e, defined below, exceeds :data:`FAR` times the attribute ``error`` of the bar.
-
-        The number e belongs to the pair (``family``, ``explicit``) in the attribute ``least`` of the bar. If
-        this pair is missing, the pair ('', ``explicit``) is used. The empty name '' represents all families.
-        If both pairs are missing, the third case does not occur.
+        - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
+        - ``self.explicit`` is True, and the argument ``explicit`` is False.
+        - ``self.least`` contains the triple (``family``, ``explicit``, e), and the error e exceeds
+          :data:`FAR` times ``self.error``. If the triple is missing, ('', ``explicit``, e) is used.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
