@@ -316,8 +316,8 @@ def emit(
     - ``precision``: ``double`` or ``single``. ``frame``: the frame of momenta, ``space`` or ``body``.
     - ``solver``: the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point`` or
       ``auto``. With ``auto``, the compiler selects the solver.
-    - ``form``: by default ``printed`` (the equations of the scene), or another form, such as ``quaternion``.
-    - ``adaptive``: add a run with step-size control.
+    - ``form``: the form of the equations: ``printed`` (as in the scene), ``body-matrix`` or ``quaternion``.
+    - ``adaptive``: add step-size control.
     - ``batch``: add a C function for many systems (:meth:`codegen.integrator.Integrator.run_batch`).
     - ``integrate``: the module also contains a function that integrates to a given end time.
     - ``compensate``: use compensated summation. The state then contains correction terms, initially zero.

@@ -94,10 +94,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 
 
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
-    """Return True if a node equals c y^n with a number c and y = 1/sqrt x.
-
-    ``inside`` contains one pair (node number of y, n) for each argument of the same form.
-    """
+    """Return True if a node equals c y^n with a number c and y = 1/sqrt x."""
     # The first argument may be a number.
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
@@ -179,7 +176,7 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # A simplified atom could be a linear combination, so ``space._make`` is used.
+        # The method ``_make`` does not simplify the new node.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 

@@ -150,6 +150,6 @@ def _selection(node: Expr) -> list[Expr]:
         return [sign(x)]
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
-    # For x != 0, a small change of x does not change the selected formula.
-    # Gradients do not depend on derivatives with respect to constants.
+    # ``choose(x, a, b)`` is piecewise constant as a function of x.
+    # A derivative with respect to a constant is never used, so it is set to zero.
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

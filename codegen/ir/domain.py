@@ -458,9 +458,7 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # A time is an expression t, and its key is ``t.id``. The value is the pair (t, symbols). The
-        # dictionary ``symbols`` maps the name of a function of time to the symbol for the value of this
-        # function at t.
+        # For a time t, ``samples[t.id]`` contains t and the symbols for function values at t.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:

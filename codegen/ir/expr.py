@@ -117,8 +117,7 @@ class Space:
     """
 
     def __init__(self) -> None:
-        # The number of a new node is the length of the table. After the removal of a node, a new node would
-        # get the number of an existing node.
+        # Nodes are never removed, because the length of the table is the number of the next node.
         self._table: dict[tuple[object, ...], Expr] = {}
         self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
         """A cache for the derivatives of vector functions (see :func:`codegen.ir.vector_calls.partial`)."""

@@ -120,16 +120,16 @@ class Loop:
 
     One iteration of the loop is called a sweep. Each sweep computes a change of the unknowns:
     - Fixed-point iteration (``newton`` is None): g(u) - u.
-    - Newton's method for u = g(u): the inverse of Newton's matrix times g(u) - u.
-    - Newton's method for r(u) = 0: the inverse of Newton's matrix times r(u).
+    - Newton's method for u = g(u): M^{-1} (g(u) - u), where the matrix M approximates 1 - g'(u).
+    - Newton's method for r(u) = 0: M^{-1} r(u), where the matrix M approximates -r'(u).
 
     The change is added to the unknowns, except in the last sweep of a fixed-point iteration.
 
     ``limit`` is the largest number of sweeps. For equations u = g(u), the stopping rule
     (:mod:`codegen.run.stopping`) ends the loop in two main cases:
     - The change no longer decreases, and it is at most ``tolerance`` times the largest unknown.
-    - The predicted next change is at rounding level, and the change is at most ``close`` times the largest
-      unknown.
+    - The change is at most :attr:`close` times the largest unknown, and the predicted change of a further
+      sweep is at rounding level.
 
     The stopping rule for equations r(u) = 0 is described in the method ``Stopping.converged_by_residuals``.
 
@@ -219,8 +219,8 @@ class Deferred:
     A run has at most :data:`LONGEST` steps. The run calls ``begin``, then the kernel of the step once for
     each step, and then ``finish``.
 
-    The last flow of a step has the duration ``last`` * h in the last step of a run, and ``later`` * h in all
-    other steps. The symbol :data:`LEAD` is this duration.
+    Each step ends with a flow of duration :data:`LEAD`. In the final step of a run, LEAD is ``last`` * h. In
+    all other steps, LEAD is ``later`` * h.
     """
 
     begin: Kernel | None
@@ -279,9 +279,9 @@ class Expansion:
     """The Taylor polynomial of the solution as a function of time.
 
     The polynomial is computed in coordinates of the state. ``enter`` computes the coordinates from the state.
-    ``leave`` computes the new state from the new coordinates. If the coordinates are the state itself,
-    ``enter`` and ``leave`` are None. If ``controlled`` is true, a run may choose the step size from the
-    Taylor coefficients.
+    At the end of a step, ``leave`` computes the state from the coordinates. If the coordinates are the state
+    itself, ``enter`` and ``leave`` are None. If ``controlled`` is true, a run may choose the step size from
+    the Taylor coefficients.
 
     ``coefficients`` is a kernel that computes Taylor coefficients. ``following`` is a second kernel, or None.
     If ``following`` is None, the outputs of the kernel ``coefficients`` are the Taylor coefficients of the

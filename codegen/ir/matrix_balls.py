@@ -121,7 +121,7 @@ def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
     """
     if level == 0:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]
-    # The first half of ``numbers`` determines A, and the second half determines E.
+    # ``numbers`` contains the numbers for ``a``, followed by the numbers for ``e``.
     half = len(numbers) // 2
     a, e = (block_matrix(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
     zeros = [arb(0)] * len(a)

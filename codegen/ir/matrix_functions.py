@@ -25,12 +25,11 @@ class MatrixExponential(VectorFunction):
     """The exponential of an n x n matrix, and its derivatives (:mod:`codegen.ir.matrix_exponential`).
 
     For ``level`` = 0 the function maps a matrix A to exp(A). For ``level`` = 1 the arguments are A and a
-    derivative of A, and the results are exp(A) and the derivative of exp(A). For ``level`` = 2 the arguments
-    are four matrices: A, a derivative B of A, and the derivatives of A and B in a second direction. In
-    general, each level doubles the number of arguments. For ``level`` = k, the first half contains the
-    arguments for ``level`` = k - 1. The second half contains the derivatives of the matrices in the first
-    half. The first half of the results contains the results for ``level`` = k - 1. The second half of the
-    results contains the derivatives of the matrices in the first half.
+    derivative of A, and the results are exp(A) and the derivative of exp(A).
+
+    Each further level doubles the number of matrices. The arguments for ``level`` = k + 1 are the arguments
+    for ``level`` = k, followed by a derivative of each argument. The results for ``level`` = k + 1 are the
+    results for ``level`` = k, followed by a derivative of each result.
     """
 
     n: int
@@ -52,8 +51,8 @@ class MatrixExponential(VectorFunction):
 
         In the method of scaling and squaring, the squarings are not counted.
         """
-        # A Taylor polynomial of degree 12 requires five products. With the derivatives, each product consists
-        # of 3^``level`` products of n x n matrices.
+        # A Taylor polynomial of degree 12 requires five products. Each level adds a' b and a b' to every
+        # product a b.
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 

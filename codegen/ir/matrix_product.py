@@ -62,8 +62,7 @@ class BilinearFunction(VectorFunction):
         ``args`` are the entries of a and b, and ``argument`` is the index of this one entry in ``args``.
         """
         space = args[0].space
-        # For an entry of a, the derivative of f(a, b) is f(E, b). For an entry of b, the derivative is
-        # f(a, E). One entry of the matrix E is 1, and the others are 0.
+        # The derivative is f(E, b) or f(a, E), where one entry of the matrix E is 1 and the others are 0.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
         # ``half`` is the slice of the replaced entries in ``args``.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
@@ -84,7 +83,7 @@ class BilinearFunction(VectorFunction):
         return self.arithmetic(args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the entries of f(a, b), where f is this function and ``args`` are mpmath numbers."""
+        """Return the entries of f(a, b) as mpmath numbers. ``args`` are the entries of a and b."""
         return self.arithmetic(args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:

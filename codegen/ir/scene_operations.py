@@ -133,7 +133,7 @@ class Secant(OfGroup):
     <c, x> = H1 - H0 that is closest to g in the Euclidean norm.
     """
 
-    # For x = 0, the result is g.
+    # The arguments are a covector, an element of the Lie algebra, and two energies.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"

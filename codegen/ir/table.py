@@ -22,7 +22,7 @@ PREFIX = "table_"
 
 
 class PiecewisePolynomial(str):
-    """A piecewise polynomial in x. The value of the base class ``str`` is the function name.
+    """A piecewise polynomial in x. The object is also a string, the name of the polynomial.
 
     The increasing numbers ``knots`` divide the real line into intervals. Interval k begins at
     ``knots[k - 1]`` and ends before ``knots[k]``. On interval k, the polynomial is the sum over j of
