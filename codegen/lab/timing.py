@@ -85,13 +85,9 @@ def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHE
 def spans(run: Callable[[int], object], steps: int) -> int:
     """Return a number n of time spans for an accurate measurement of the CPU time of ``run(n)``.
 
-    ``run(n)`` integrates over n time spans of the scene, with ``steps`` steps for each span. Starting with 1,
-    the number n is doubled while these conditions hold:
+    ``run(n)`` integrates over n time spans of the scene, with ``steps`` steps for each span.
 
-    - ``run(n)`` takes less than :data:`RESOLVED` seconds.
-    - ``run(2 * n)`` does not fail.
-    - The number of steps of ``run(2 * n)`` is at most :data:`LEAST_STEPS`. More steps are not necessary for
-      an accurate measurement.
+    The number n is a power of 2. If ``run(1)`` takes at least :data:`RESOLVED` seconds, n is 1.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:

@@ -52,7 +52,7 @@ class SplittingLowering(FlowLowering):
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
             return _in_order(parts, tableau, steps, chosen)
-        # A tableau with two parts defines a composition for three or more parts.
+        # A two-part splitting method corresponds to a composition of a basic method and its adjoint.
         if len(tableau.parts) == 2 and len(chosen) > 2:
             # The composition has the order of the tableau for every basic method Phi (McLachlan 1995).
             return pairs(parts.arranged, _as_pairs(steps)), self.family

@@ -74,9 +74,8 @@ class _Product:
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
         """Append a covector to the program, and return the variable of the covector.
 
-        Factor 0 of this product of exponentials is the rightmost factor. Let x be the exponent of factor J.
-        Let p be the product of all factors to the right of factor J. The covector is
-        dexp*_{-x} Ad*_{p^-1} m. The index i is used only in names of variables.
+        The covector is dexp*_y Ad*_{p^-1} m, where y is ``minus[J]``, and p is ``partial[J]``. The index i is
+        used only in names of variables.
         """
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)

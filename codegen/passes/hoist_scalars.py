@@ -1,7 +1,6 @@
 """Take numbers out of linear maps, and expand sums that are nested in sums.
 
-If c is a number and L is a linear map, L(c x) is replaced by c L(x). The pass is exact. In addition, a linear
-combination is computed only once if several sums of a block contain multiples of this combination.
+If c is a number and L is a linear map, L(c x) is replaced by c L(x).
 """
 
 from __future__ import annotations

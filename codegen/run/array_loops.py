@@ -240,10 +240,9 @@ class ArrayLoops:
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
         """Return a function that yields the statements for a group of adjacent columns of ``a.target``.
 
-        Let i be the index ``row``, and let j be the index ``column``. The statements multiply row j of
-        ``a.matrix`` by the variable :data:`_ENTRY`. An earlier statement of the loop assigns a number to this
-        variable. If ``added`` is True, the product is added to row i of ``a.target``. Otherwise the product
-        replaces row i of ``a.target``. Only the entries in the columns of the group are computed.
+        Let T be ``a.target``, let M be ``a.matrix``, and let c be the variable :data:`_ENTRY`. Let i be the
+        index ``row``, and let j be the index ``column``. For each column k of the group, the statements add
+        c M_jk to T_ik if ``added`` is True. Otherwise, the statements set T_ik to c M_jk.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:

@@ -114,8 +114,7 @@ class _Continuation:
             If(negated(self.done), (Return(self.cause()),)),
             # The state is changed only here, after an attempt with the full step size h has succeeded.
             Assign(state, self.trial),
-            # The attempts may have different step sizes, so extrapolation from their solutions would be
-            # inaccurate. With ``known`` = 1, the next step uses only the last solution.
+            # With ``known`` = 1, the next step uses only the last solution.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),

@@ -26,7 +26,7 @@ class Identifiers:
 
     def of(self, name: Term) -> str:
         """Return the identifier of ``name``. A name that is not from the kernel is returned unchanged."""
-        # A kernel name may be illegal in the target language, so a missing identifier raises a KeyError.
+        # If a kernel name has no identifier, a KeyError is raised.
         return self.by_name[name.text] if name.own else name.text
 
     def variable(self, name: Term) -> str:

@@ -124,7 +124,7 @@ class _Step:
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
-        # Two equal elements have the same function. ``_unique`` removes functions that are listed twice.
+        # If several functions have the same name, ``_unique`` keeps only the first one.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:

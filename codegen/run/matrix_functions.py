@@ -360,8 +360,7 @@ def _inverse(function: MatrixInverse) -> Function:
     # small.
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
-    # The inverse overwrites the matrix. Step k of the Gauss-Jordan elimination turns column k into the k-th
-    # unit vector. The memory of column k is used for a column of the inverse.
+    # The Gauss-Jordan elimination works in place: the inverse overwrites the entries of ``b``.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),

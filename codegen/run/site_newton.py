@@ -259,7 +259,7 @@ class ChainSolver:
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # LEFT and RIGHT are added, because site ``_LAST`` can be site 0.
+            # If the chain has two sites, both blocks are added to the same entries of the border.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -343,7 +343,7 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
-        # From the solution at each other site, subtract the border times the solution at the last site.
+        # Back substitution: the solution at the last site corrects the solutions at all other sites.
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),

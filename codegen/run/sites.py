@@ -364,7 +364,7 @@ class Loop:
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
         lead = self._peeled(_LEAD, INDEX)
-        # A chain has no outer loop, so this loop is distributed over several processors.
+        # If the scene is a chain, several processors share the iterations of this loop.
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER

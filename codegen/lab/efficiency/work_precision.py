@@ -182,7 +182,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield the single number 0."""
+        """Yield one placeholder, 0. The method is never run, so the value is not used."""
         yield 0.0
 
     def prepare(self) -> None:

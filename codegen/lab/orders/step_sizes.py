@@ -5,8 +5,8 @@ ratio of their step sizes. A run is excluded if it fails or if its error is too 
 are computed only for the longest sequence of consecutive runs that are not excluded.
 
 For a smooth problem, the difference between a slope and the order is approximately proportional to the step
-size. For this reason, the difference can be estimated from two consecutive slopes. The slopes have *settled*
-if the estimated difference is at most :data:`SETTLED` for each of the last two slopes.
+size. For this reason, two consecutive slopes give an estimate of the difference. The slopes have *settled*
+if the last two estimates are at most :data:`SETTLED`.
 
 The last slope and the stated order may differ by at most :data:`TOLERANCE`.
 """
@@ -101,21 +101,8 @@ class Refinement:
     def verdict(self, stated: int) -> str:
         """Compare the measured order with ``stated``, and return ``holds``, ``fails`` or ``undecided``.
 
-        Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). A
-        number counts as equal to ``stated`` if the difference is at most :data:`TOLERANCE`. Otherwise, it is
-        above or below ``stated``.
-
-        If there is no slope, the verdict is ``undecided``. If the slopes have settled (:attr:`settled`), the
-        first rule that applies gives the verdict:
-
-        - ``fails`` if s is below ``stated`` and above the threshold :data:`ZERO`,
-        - ``holds`` if p equals ``stated``,
-        - ``holds`` if s equals ``stated`` and p is above ``stated``,
-        - ``undecided`` if s equals ``stated`` and p is below ``stated``,
-        - ``fails`` if neither p nor s equals ``stated``.
-
-        Suppose that the slopes have not settled. The verdict is ``holds`` if s equals ``stated``, p is not
-        below ``stated``, and :attr:`too_fine` is True. Otherwise, the verdict is ``undecided``.
+        The comparison uses the last slope and the order measured with very short steps (:attr:`short`).
+        Differences up to :data:`TOLERANCE` are ignored. If there is no slope, the verdict is ``undecided``.
         """
         if self.observed is None:
             return "undecided"

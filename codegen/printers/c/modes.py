@@ -118,7 +118,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         # Four spectra contain the old state, the new state, an argument of the nonlinear part N, and a
         # temporary result.
         "spectra": 4 + len(step.evaluations),
-        # Each derivative and each term in the nonlinear part needs one array of grid values.
+        # The number of arrays that contain grid values.
         "arrays": len(inner) + len(outer),
     }
     files = {".h": "modes.h.j2", ".c": "modes.c.j2", "_fft.c": "modes_fft.c.j2"}
