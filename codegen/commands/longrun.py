@@ -65,8 +65,9 @@ def command(
     drift, rounding, lost or too short to tell. The word "rounding" means that rounding errors explain the
     deviation. The word "lost" means that the deviation is about as large as the quantity. If a method
     conserves a quantity in exact arithmetic, the rounding errors are measured with and without compensated
-    summation. The root mean square (rms) of the rounding errors over several initial states grows like steps^p.
-    The column "steps^p" contains the exponent p. If a run ends early or a method fails, the exit status is 1.
+    summation. The root mean square (rms) of the rounding errors over several initial states grows like
+    steps^p, and the column "steps^p" contains the exponent p. If a run ends early or a method fails, the
+    exit status is 1.
 
     \b
     Examples:
