@@ -65,8 +65,8 @@ class Semidirect(
     """
 
     covering_formula = (
-        "the components of the vector are copied; the covering map of the linear factor is applied to the "
-        "other coordinates of q"
+        "the covering map of the linear factor, applied to the first coordinates of q; the other coordinates "
+        "are copied"
     )
 
     def __init__(self, linear: LieGroup, representation: Representation, name: str = "") -> None:

@@ -20,7 +20,9 @@ from codegen.ir.table import PiecewisePolynomial
 STEP = "h"
 
 EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4))})
-"""The names of the functions that this module can expand to first order in h."""
+"""The names of the functions that this module can expand to first order in h.
+
+Piecewise polynomials, which have arbitrary names, can be expanded, too."""
 
 Pair = tuple[Expr, Expr]
 """The coefficients (v_0, v_1) of an expansion v_0 + v_1 h."""

@@ -336,7 +336,7 @@ class ModeStep:
             return "some contain exp(-c z) with c > 0 and grow exponentially, so short steps are required"
         if self.growth > 0:
             power = "|z|" if self.growth == 1 else f"|z|^{self.growth}"
-            return f"some coefficients grow like {power}, which may limit the step size"
+            return f"some grow like {power}, which may limit the step size"
         return "all are bounded"
 
     def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:

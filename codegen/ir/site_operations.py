@@ -89,15 +89,15 @@ class Corrected(Operation):
 class Wedge(Operation):
     """The vector with the components (p f_i - q gamma_i)/s, for a covector gamma and a vector f.
 
-    The arguments p, q and s are numbers. For s = 0 the result is zero. Discrete gradients on a lattice use
-    this operation (:mod:`codegen.kernel.site_sums`).
+    For s = 0 the result is zero. Let alpha be a covector. For p = <gamma, alpha>, q = <f, alpha> and
+    s = |gamma|^2, the result is the bivector (gamma wedge f)/s times alpha (:mod:`codegen.kernel.site_sums`).
     """
 
     name = "wedge"
     takes, gives = D + A + R + R + R, A
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the vector that is defined at :class:`Wedge`."""
+        """Return (p f - q gamma)/s for ``args`` = (gamma, f, p, q, s)."""
         gamma, f, p, q, s = args
         # The quotients p/s and q/s are the same for all components of the result.
         along, across = (domain.call("quotient", x, s) for x in (p, q))

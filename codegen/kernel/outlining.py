@@ -96,7 +96,10 @@ class Outline:
     def _called(
         self, roots: Sequence[Expr], chosen: Mapping[Shape, list[Tree]]
     ) -> tuple[list[Expr], dict[str, Shape]]:
-        """Create one function for each entry of ``chosen``."""
+        """Create one function for each entry of ``chosen``.
+
+        Return the expressions ``roots`` with calls of these functions, and the shape of each function.
+        """
         # Functions from an earlier call of this method are discarded.
         self.outlined.clear()
         calls: dict[int, tuple[str, int, list[Expr]]] = {}

@@ -124,7 +124,10 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """In ``terms``, None represents a coefficient that is zero at all sites."""
+        """Return ``terms``, with zeros in place of None if values outside the lattice may be nonzero.
+
+        None represents a coefficient that is zero at all sites.
+        """
         if degree == self.degree:
             return terms
         if all(self._follows(x, k) for column in self.sites.outside for k, x in enumerate(column)):

@@ -5,7 +5,7 @@ writes main memory. The bandwidth of the step is compared with that of the triad
 the STREAM benchmark (McCalpin 1995).
 
 Each number that a loop reads or writes is counted once. The additional read of a cache line before a write is
-not counted.
+not counted. For this reason, the counted bandwidth of a step can exceed that of the triad.
 """
 
 from __future__ import annotations

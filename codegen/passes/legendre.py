@@ -179,8 +179,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """
     replaced, computed = _values(build, route)
     given = route.base
-    # In this case, the inverses of the maps in ``route.inward`` are not needed.
     if _function_of_one(block, route):
+        # The inverses of the maps in ``route.inward`` are not needed.
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
         given = route.inward[0].targets[0]

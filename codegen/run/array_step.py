@@ -229,7 +229,7 @@ class _Exponential:
         yield from self.terms(norm * scale)
         yield from self.begun()
         yield For(part, parts, tuple(self.advanced(scale)))
-        # With more parts than ``MOST_PARTS``, the series is inaccurate, so the result is set to NaN.
+        # If even ``MOST_PARTS`` parts are too few, the series is inaccurate, so the result is set to NaN.
         lost = For(
             _PLACE,
             whole(self.target.size),

@@ -19,7 +19,8 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # A step may also fail because a run-time input is a NaN.
+    # With a warm start, :mod:`codegen.run.continuation` finds the cause. The function cannot find an input
+    # that is NaN at a stage time.
     return plan.start is None and not plan.kernel.inputs
 
 

@@ -55,7 +55,7 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""Rates of convergence below LEAST_RATE cannot be measured accurately."""
+"""The stopping test for equations r(u) = 0 adds LEAST_RATE to the measured rate of convergence."""
 
 FOUR_ROUNDINGS = 2.0**-50
 """A factor in the stopping test for equations r(u) = 0 (:meth:`Stopping.converged_by_residuals`).

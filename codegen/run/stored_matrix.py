@@ -123,7 +123,8 @@ class StoredMatrix(ABC):
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
         """Return an entry of a linear combination of constant matrices.
 
-        The entry of a numeric matrix is read from a table at the index ``place``.
+        For each constant matrix, ``entries`` contains the index of its coefficient, its entries, and the name
+        of a table. Entries are formulas or numbers. A number is read from the table at the index ``place``.
         """
         total: Term | None = None
         for term, given, table in entries:

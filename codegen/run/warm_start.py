@@ -176,7 +176,10 @@ class WarmStart:
                     reverse=True,
                 ),
             ]
-        about = "Compute 'sign' times the backward difference of the given order."
+        about = (
+            "Compute 'sign' times the backward difference of the given order. The first 'first' terms are "
+            "omitted."
+        )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
 

@@ -307,7 +307,10 @@ class Problem:
         return tuple(evaluate(roots, domain, self.values(domain, (*q, *P), *time)))
 
     def _field(self, domain: Domain, args: Values) -> Values:
-        """``args`` contains the blocks of the state, and optionally the time, which is 0 by default."""
+        """Return the pair (xi, n) if the state is (q, mu), otherwise f (see :class:`Problem`).
+
+        ``args`` contains the blocks of the state, and optionally the time, which is 0 by default.
+        """
         blocks, time = args[: len(self.state)], args[len(self.state) :]
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots

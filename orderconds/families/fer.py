@@ -1,7 +1,8 @@
 """Fer methods for Y' = A(t) Y. A step is a product of exponentials, exp(F_1) exp(F_2).
 
 Let A_i = h A(c_i h), where c_i are the nodes. Then F_1 = sum_i b_i A_i, and
-F_2 = sum_{ij} phi_ij A_j A_i + ....
+F_2 = sum_{ij} phi_ij A_j A_i + .... If a method has more than two exponentials, F_2 denotes the logarithm of
+the product of all factors except exp(F_1).
 
 There is one condition for each Lyndon word. The letter k denotes X_k in A(t) = X_1 + t X_2 + .... Let F be
 the integral of A over one step, and let Y be the exact flow. For words with one letter, the conditions

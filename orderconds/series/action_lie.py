@@ -187,7 +187,8 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """The result None denotes the zero vector."""
+        """Return the coefficient of the word (``before``, xi_j, ``behind``) in dexpinv_{(r),X_j} xi_j for
+        each stage j. None denotes that no term of the series contains such a word."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -202,6 +203,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
+        """Return the coefficients of (``before``, x, ``after``, z, ``behind``) in dexpinv_{(r),X_j} z."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -211,6 +213,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
+        """Return the coefficients of (``first``, z, ``before``, x, ``after``) in dexpinv_{(r),X_j} z."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

@@ -113,8 +113,8 @@ class DexpinvSeries:
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
         """For a letter x, return the coefficient of the word ``start`` x ``end`` in the series dexpinv_u x.
-        The result is a list with one coefficient for each stage argument u, or None if all coefficients are
-        zero. ``before`` and ``behind`` are the numbers of letters in ``start`` and ``end``."""
+        The result is a list with one coefficient for each stage argument u, or None if no term can
+        contain this word. ``before`` and ``behind`` are the numbers of letters in ``start`` and ``end``."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:

@@ -108,9 +108,9 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
             component = [row if x == column else x for x in component]
     if len(kept) != 2 * s - 1:
         raise InputError(
-            "too many entries of A are fixed",
+            "the free entries of A do not connect all rows and columns",
             where=WHERE,
-            expected="more free entries",
+            expected="more free entries (a free entry a_ij connects row i and column j)",
         )
     return kept
 

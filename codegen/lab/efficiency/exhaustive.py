@@ -88,7 +88,7 @@ class Exhausted:
         if math.isfinite(self.nearest):
             counts += (
                 "; some excluded recipes were also measured, and their CPU times are at least "
-                f"{self.nearest:.1f} times the best CPU time of the recipes that were not excluded"
+                f"{self.nearest:.1f} times the best CPU time measured before"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
 

@@ -176,7 +176,10 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
-        """To save time, the bar is updated only after several new predictions (:data:`FRESH`)."""
+        """Return the limits on the error and the CPU time of ``recipe`` for ``goal``.
+
+        To save time, the limits are updated only after several new predictions (:data:`FRESH`).
+        """
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)
         age, bar = self.bars.get(key, (0, None))

@@ -101,8 +101,21 @@ class Refinement:
     def verdict(self, stated: int) -> str:
         """Compare the measured order with ``stated``, and return ``holds``, ``fails`` or ``undecided``.
 
-        The comparison uses the last slope and the order measured with very short steps (:attr:`short`).
-        Differences up to :data:`TOLERANCE` are ignored. If there is no slope, the verdict is ``undecided``.
+        Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). A
+        number counts as equal to ``stated`` if the difference is at most :data:`TOLERANCE`. Otherwise, it is
+        above or below ``stated``.
+
+        If there is no slope, the verdict is ``undecided``. If the slopes have settled (:attr:`settled`), the
+        first rule that applies gives the verdict:
+
+        - ``fails`` if s is below ``stated`` and above the threshold :data:`ZERO`,
+        - ``holds`` if p equals ``stated``,
+        - ``holds`` if s equals ``stated`` and p is above ``stated``,
+        - ``undecided`` if s equals ``stated`` and p is below ``stated``,
+        - ``fails`` if neither p nor s equals ``stated``.
+
+        If the slopes have not settled, the verdict is ``undecided``, with one exception: the verdict is
+        ``holds`` if s equals ``stated``, p is not below ``stated``, and :attr:`too_fine` is True.
         """
         if self.observed is None:
             return "undecided"

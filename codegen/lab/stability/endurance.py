@@ -36,9 +36,9 @@ class Endurance:
     - ``failure``: the error message of the integrator if a step failed.
 
     The property :attr:`held` tests the result. A run that ends with an error message passes, because its user
-    learns that it failed. A complete run forward passes if ``defect`` is None, or if ``defect`` is at most 64
-    * ``steps`` * 2^-53 (a bound for rounding errors). A complete run forward and back passes if ``returned``
-    is finite. A large ``returned`` is permitted.
+    learns that it failed. A complete run forward passes if ``defect`` is None or at most 2^-47 times the
+    number of steps (a bound for rounding errors). A complete run forward and back passes if ``returned`` is
+    finite. A large ``returned`` is permitted.
     """
 
     name: str
