@@ -385,8 +385,8 @@ static void dipole_vcf_cf4_count_matrix(dipole_vcf_cf4_statistics *statistics)
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. The latest solution is multiplied
- * by the coefficient with the index 'first'.
+ * Compute 'sign' times the backward difference of the given order. The first 'first' terms are
+ * omitted.
  */
 static inline void dipole_vcf_cf4_difference(const struct dipole_vcf_cf4_memory *memory,
     size_t order, size_t first, double sign, double sum[static 12])

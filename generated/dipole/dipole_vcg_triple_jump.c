@@ -293,8 +293,8 @@ static void dipole_vcg_triple_jump_count_matrix(dipole_vcg_triple_jump_statistic
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. The latest solution is multiplied
- * by the coefficient with the index 'first'.
+ * Compute 'sign' times the backward difference of the given order. The first 'first' terms are
+ * omitted.
  */
 static inline void dipole_vcg_triple_jump_difference(const struct dipole_vcg_triple_jump_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])

@@ -378,8 +378,8 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. The latest solution is multiplied
- * by the coefficient with the index 'first'.
+ * Compute 'sign' times the backward difference of the given order. The first 'first' terms are
+ * omitted.
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])

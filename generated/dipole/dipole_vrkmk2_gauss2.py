@@ -369,8 +369,8 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """Compute 'sign' times the backward difference of the given order. The latest
-    solution is multiplied by the coefficient with the index 'first'.
+    """Compute 'sign' times the backward difference of the given order. The first
+    'first' terms are omitted.
     """
     sum_0 = 0.0
     sum_1 = 0.0

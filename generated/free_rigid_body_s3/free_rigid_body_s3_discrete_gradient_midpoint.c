@@ -326,8 +326,8 @@ static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigi
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. The latest solution is multiplied
- * by the coefficient with the index 'first'.
+ * Compute 'sign' times the backward difference of the given order. The first 'first' terms are
+ * omitted.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])

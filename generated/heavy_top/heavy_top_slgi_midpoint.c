@@ -428,8 +428,8 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. The latest solution is multiplied
- * by the coefficient with the index 'first'.
+ * Compute 'sign' times the backward difference of the given order. The first 'first' terms are
+ * omitted.
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
