@@ -49,7 +49,7 @@ def exact(value: object) -> Fraction | None:
     import sympy
 
     try:
-        # ``sympify`` with ``strict=True`` converts numbers only, and raises an error for a text.
+        # With ``strict=True``, ``sympify`` rejects objects that are not numbers.
         number = sympy.Rational(value) if isinstance(value, str) else sympy.sympify(value, strict=True)
     except (sympy.SympifyError, TypeError, ValueError):
         return None

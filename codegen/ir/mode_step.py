@@ -287,10 +287,9 @@ class ModeStep:
 
     @property
     def growth(self) -> int:
-        """The exponent p in a bound of the multipliers (:attr:`Table.multiplier`) of all tables.
-
-        For z < 0, the absolute value of each multiplier is at most C (1 + |z|)^p with a constant C. If
-        :attr:`backwards` is true, p has no meaning.
+        """A number p such that all multipliers (:attr:`Table.multiplier`) are at most C (1 + |z|)^p in
+        absolute value. Here C is a constant, and z < 0 is h times an eigenvalue of L. If :attr:`backwards` is
+        true, p has no meaning.
         """
         # For z -> -infinity, the function f grows at most like |z|^d with d = ``degrees[f]``.
         degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}

@@ -160,7 +160,7 @@ class Program:
         """Return the program as text, with one statement on each line."""
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
-        # The statements below use the name ``mu`` for the body momentum.
+        # In the program text, the name ``mu`` then denotes the body momentum.
         lines += ["  mu is replaced by the body momentum Ad*(q, mu):"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):

@@ -110,7 +110,7 @@ class _Builder:
             case "mul" if constants[0] is not None:
                 c, x, e = parts[1]
                 return c * constants[0], x, e
-            # The quotient of a number k and c x^e is (k/c) x^-e.
+            # ``parts[1]`` represents the divisor c x^e.
             case "div" if constants[0] is not None:
                 c, x, e = parts[1]
                 return constants[0] / c, x, -e

@@ -121,8 +121,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # The pass "shared values" stores equal values in one variable. Equal right-hand sides of two
-        # equations are therefore the same variable. The pass "equal unknowns" compares these variables.
+        # The pass "shared values" gives equal values the same variable, and the pass "equal unknowns"
+        # compares variables.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # The pass "equal unknowns" replaces equal unknowns by one unknown, so a sum can contain a variable
         # twice. The pass "zeros" adds the two coefficients of this variable.

@@ -91,9 +91,8 @@ def _name(move: Move) -> str:
 
 
 def _sizes(move: Move) -> tuple[tuple[int, int] | None, ...]:
-    """Return the numbers of rows and columns of the matrices of a move.
-
-    The order of the matrices is ``core``, ``gram``, ``target``, ``start``.
+    """Return the numbers of rows and columns of four matrices of a move: ``core``, ``gram``, ``target`` and
+    ``start``, in this sequence.
     """
     matrices = (move.core, move.gram, move.target, move.start)
     return tuple(None if x is None else (x.rows, x.columns) for x in matrices)

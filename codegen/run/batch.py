@@ -307,7 +307,7 @@ def _blocks(plan: Plan) -> list[Statement]:
     held = (real(_HELD, len(plan.kernel.inputs)),) if plan.kernel.inputs else ()
     alone = real(_ALONE, plan.size)
     scalar = (alone, *plan.moment(later), *_values(plan), *held)
-    # If the scalar step fails, the lane (one system) stops after ``_DONE`` completed steps.
+    # If a step fails, ``_DONE`` is the number of steps that this system (lane) has completed.
     stop: tuple[Statement, ...] = (
         Assign(statuses[_PLACE], STATUS),
         Assign(ended[_PLACE], _DONE),

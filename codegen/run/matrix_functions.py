@@ -125,10 +125,9 @@ class _Exponential:
         return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
-        """Return entry (``row``, ``column``) of the jet matrix with the index ``part``.
-
-        ``array`` contains the jet, a list of matrices. Index 0 selects the matrix itself, and all other
-        indices select derivatives.
+        """Return the entry in ``row`` and ``column`` of one matrix in ``array``. The array contains a matrix
+        and its derivatives. If ``part`` is 0, the entry belongs to the matrix itself. Otherwise, it belongs
+        to the derivative number ``part``.
         """
         place = self.n * row + column
         return array[place + self.one * part if part else place]

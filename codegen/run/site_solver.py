@@ -42,10 +42,8 @@ from codegen.run.terms import (
 )
 
 MEASURE, REACH = "measured", "largest_state"
-"""The names of two functions that compute maxima over all sites.
-
-MEASURE computes maxima for the unknowns and their changes. REACH computes the largest absolute
-value of the state variables."""
+"""The names of two functions that compute maxima over all sites. MEASURE computes the largest absolute value
+of the unknowns and of their changes. REACH computes the largest absolute value of the state variables."""
 
 _REACH, _PLACE = real("reach"), count("place")
 

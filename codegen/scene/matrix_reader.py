@@ -177,7 +177,7 @@ class _Compiler:
         return _Factor(formula, transposed)
 
     def factors(self, formula: MatrixFormula, transposed: bool) -> tuple[Expr, tuple[_Factor, ...]]:
-        """Return a scalar and factors whose product is ``formula``.
+        """Write ``formula`` as a scalar times a product of factors. Return the scalar and the factors.
 
         If ``transposed`` is True, use the transpose of the formula.
         """

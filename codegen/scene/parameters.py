@@ -36,7 +36,8 @@ class Parameter(sympy.Symbol):  # type: ignore[misc]
 
 
 class Signal(sympy.Symbol):  # type: ignore[misc]
-    """A real symbol for a function of time, with a default ``formula`` in ``t`` and parameters."""
+    """A real symbol for a function of time. ``formula`` is its default value, an expression in ``t`` and
+    parameters."""
 
     __slots__ = ("formula",)
 

@@ -164,10 +164,10 @@ coefficient of ``word`` is ``formula / divisor``.
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
-    """Return n! times the coefficient of a word of n letters in the series of one step, as an index sum.
-
-    The function ``block`` returns the coefficient of a word in the series of one factor of the step
-    (:data:`BlockFormula`). The argument ``kind``, such as "i" or "J", is the name of the summation indices.
+    """Return a formula for n! c. Here n is the number of letters in ``word``, and c is the coefficient of
+    ``word`` in the series of a step. The step is a composition of basic steps, and ``block`` returns the
+    coefficient of a word in the series of one basic step (:data:`BlockFormula`). The formula is a sum over
+    indices. ``kind`` is the first index, for example "i" for i, j, k, ....
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))

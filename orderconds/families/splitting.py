@@ -252,9 +252,9 @@ def two_part_formula(word: Word) -> Formula:
 def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
     """Yield all ways to divide runs of equal letters into blocks, as pairs (factor, blocks).
 
-    ``lengths`` contains the lengths of the runs, and ``blocks`` contains the block lengths of each run. Let n
-    be the length of a run, and let n_1, n_2, ... be its block lengths. The product of all n!/(n_1! n_2! ...)
-    is ``factor``.
+    ``lengths`` contains the lengths of the runs, and ``blocks`` contains the block lengths of each run. A run
+    of length n that is divided into blocks of lengths n_1, n_2, ... contributes the factor n!/(n_1! n_2!
+    ...), and ``factor`` is the product of these factors over all runs.
     """
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split

@@ -12,7 +12,7 @@ and only if it vanishes on all vector spaces (proof: docs/explanation/two_regist
 
 On a group, a 2N scheme has a Lie-Butcher series. On a vector space, the scheme has elementary weights: one
 number for each rooted tree. Each coefficient of the Lie-Butcher series is a linear combination of products of
-elementary weights. The numbers in the linear combination do not depend on the scheme.
+elementary weights. This linear combination has the same coefficients for all 2N schemes.
 """
 
 from __future__ import annotations

@@ -41,10 +41,9 @@ class _Narrow(Protocol):
 def coefficient(x: object, where: str) -> Coefficient:
     """Convert a number to a coefficient of a tableau file.
 
-    A NumPy float of 16 or 32 bits equals a fraction p/q in lowest terms. If q is larger than 1024
-    (:data:`SMALL`), the float becomes a rounded decimal. For doubles, see
-    :func:`~orderconds.tableau.doubles.double_text`. Raises TableauError for complex numbers, infinities, NaN,
-    truth values and objects that are not numbers.
+    A NumPy float of 16 or 32 bits becomes a rounded decimal if its denominator in lowest terms is larger than
+    1024 (:data:`SMALL`). For doubles, see :func:`~orderconds.tableau.doubles.double_text`. Raises
+    TableauError for complex numbers, infinities, NaN, truth values and objects that are not numbers.
 
     >>> from fractions import Fraction
     >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]

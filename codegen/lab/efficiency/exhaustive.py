@@ -2,13 +2,11 @@
 
 A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 
-1. The CPU time of each recipe is predicted from a few runs in the interpreter.
-2. The predicted CPU time divided by the safety factor SAFE is a lower bound of the true CPU time.
-3. For each required error, the time limit is the best CPU time that ``orderconds recommend`` measured,
-   multiplied by WORST. A recipe is excluded if its lower bound exceeds the time limit for every required
-   error.
-4. The remaining recipes are emitted, compiled and timed.
-5. A sample of the excluded recipes is also timed, to test the lower bounds.
+1. The CPU time of each recipe is predicted from a few runs in the interpreter. 2. The predicted CPU time
+divided by the safety factor SAFE is a lower bound of the true CPU time. 3. A recipe is excluded if its lower
+bound exceeds a time limit for every required error. The time limit for an error is WORST times the CPU time
+of the best recipe of ``orderconds recommend`` for this error. 4. The remaining recipes are emitted, compiled
+and timed. 5. A sample of the excluded recipes is also timed, to test the lower bounds.
 """
 
 from __future__ import annotations

@@ -172,7 +172,7 @@ class Racer:
         return self.errors[control]
 
     def seconds(self, control: float, batch: float = 0.002, batches: int = 5) -> float:
-        """Return the CPU time of a run in seconds, without the overhead of a call.
+        """Return the CPU time of a run in seconds, without the overhead of calling emitted code.
 
         ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k. The arguments
         ``batch`` and ``batches`` are explained at :func:`codegen.lab.timing.samples`.

@@ -170,7 +170,8 @@ def searched(task: Task, subject: Subject) -> Searched:
 
 
 def advised(task: Task, k: int, place: Result) -> Advised:
-    """Return the data of ``place``, the result of the fastest method for the error 10^-k."""
+    """Return the data of ``place``. The argument ``place`` is the result of the fastest method for the error
+    10^-k."""
     recipe = place.entry.recipe
     return Advised(
         10.0**-k,

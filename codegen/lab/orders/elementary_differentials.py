@@ -51,7 +51,7 @@ class RingDomain(Domain):
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Raise ArithmeticError, because a scene with function calls is not polynomial."""
+        """Raise ArithmeticError, because a vector field with a function such as sine is not a polynomial."""
         raise ArithmeticError(f"{function} is not polynomial")
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:

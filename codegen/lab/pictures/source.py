@@ -32,10 +32,10 @@ STEP_LIMIT = 10**7
 class Path:
     """The computed states of one run.
 
-    Each row of ``states`` is the state at one of the output times ``times``. A sweep repeats the run with
-    different parameter values or step sizes. For a run with a sweep, ``times`` contains the parameter values
-    or step sizes, and each row of ``states`` is the final state for one entry of ``times``. ``failure`` is
-    the reason why the run ended early, or '' if all steps succeeded.
+    Each row of ``states`` is the state at one of the output times ``times``. A sweep is a sequence of runs
+    with different parameter values or step sizes. For a sweep, ``times`` contains these values instead of
+    times, and each row of ``states`` is the final state of one run. ``failure`` is the reason why the run
+    ended early, or '' if all steps succeeded.
     """
 
     times: numpy.ndarray
