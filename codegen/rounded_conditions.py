@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from itertools import islice
 from typing import TYPE_CHECKING
@@ -46,8 +47,7 @@ def largest_residual(tableau: Tableau, family: Family, order: int) -> float | No
     """Return an upper bound of the absolute residuals of the order conditions up to ``order``.
 
     The bound applies to a subset of the conditions. The conditions in the subset imply all other conditions.
-    The result may be too small by a rounding error, because the bound is rounded to the nearest double. The
-    result is None in these cases:
+    The bound is rounded upwards. The result is None in these cases:
 
     - The family cannot read the tableau.
     - An order has more than :data:`MOST` conditions.
@@ -66,7 +66,17 @@ def largest_residual(tableau: Tableau, family: Family, order: int) -> float | No
         except ZeroDivisionError:
             return None
         largest = max([largest, *(abs(_fraction(end)) for x in residuals for end in endpoints(x.value))])
-    return float(largest)
+    return upper(largest)
+
+
+def upper(x: Fraction) -> float:
+    """Return the smallest double that is not less than ``x``.
+
+    >>> upper(Fraction(1, 4)), upper(Fraction(1, 3)) - Fraction(1, 3) > 0
+    (0.25, True)
+    """
+    nearest = float(x)
+    return nearest if nearest >= x else math.nextafter(nearest, math.inf)
 
 
 def _fraction(x: Element) -> Fraction:
