@@ -200,8 +200,7 @@ class Stopping:
         the absolute values of the unknowns. The rate is ``change`` divided by its value in the previous
         sweep. The bound is :data:`FOUR_ROUNDINGS` times ``scale``. The loop has converged in these cases:
 
-        - The rate is below 1/2, and the predicted next change (the rate times ``change``) is at most the
-          bound.
+        - The rate is below 1/2, and (rate + :data:`LEAST_RATE`) times ``change`` is at most the bound.
         - The rate is between 1/2 and 1, and the predicted sum of all later changes is at most the bound.
         - The rate is at least 1, and ``change`` is at most ``loop.tolerance * scale``.
         - The rate is at least 1, and the test :meth:`lost` is true.

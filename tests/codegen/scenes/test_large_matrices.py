@@ -338,7 +338,7 @@ class TestText:
         for text in emit(scene, QUICK, "c").files.values():
             for comment in re.findall(r"/\*(.*?)\*/", text, re.DOTALL):
                 assert "/*" not in comment
-        assert "set the state" in text
+        assert "copy the initial state from the manifest" in text
 
 
 class TestRefusals:
