@@ -316,8 +316,7 @@ def emit(
     - ``precision``: ``double`` or ``single``. ``frame``: the frame of momenta, ``space`` or ``body``.
     - ``solver``: the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point`` or
       ``auto``. With ``auto``, the compiler selects the solver.
-    - ``form``: the form of the equations. The default ``printed`` is the form of the scene. Another form is, for
-      example, ``quaternion``.
+    - ``form``: the form of the equations, by default ``printed`` (as in the scene), or, e.g., ``quaternion``.
     - ``adaptive``: add step-size control.
     - ``batch``: add a C function for many systems (:meth:`codegen.integrator.Integrator.run_batch`).
     - ``integrate``: the module also contains a function that integrates to a given end time.
