@@ -53,7 +53,7 @@ if TYPE_CHECKING:
     metavar="DIR",
     help="The folder for SCENE.csv, SCENE.json and SCENE.svg.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print the rows as JSON.")
+@click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
     scene: str,
     methods: tuple[str, ...],

@@ -9,7 +9,8 @@ from codegen.groups.so3 import SO3
 
 
 class SE3(Semidirect):
-    """Motions z -> R z + a of space: the rotation matrix R row by row, then the translation a.
+    """Motions z -> R z + a of space. An element of the group is stored as the rotation matrix R, row by row,
+    and then the translation a.
 
     An element of the algebra is (w, u): the angular velocity w, and the velocity u of the point at the
     origin. An element of the dual is (m, p): the angular momentum m about the origin, and the linear momentum

@@ -110,9 +110,8 @@ SPACE, BODY = "space", "body"
 
 @dataclass(frozen=True)
 class Substep:
-    """One substep of a composition method for a step from the time t to t + h.
-
-    The length of the substep is ``fraction`` * h. The substep begins at the time t + ``offset`` * h.
+    """One substep of a composition method. A step leads from the time t to t + h. The length of the substep
+    is ``fraction`` * h, and the substep begins at the time t + ``offset`` * h.
     """
 
     fraction: Number

@@ -90,7 +90,7 @@ class _Verifier:
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # The initial values must be known before the block is solved.
+        # The initial values are tested first, because they must not depend on the unknowns.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:

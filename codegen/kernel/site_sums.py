@@ -59,7 +59,7 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
         # The excess is computed at each site, and the results of all sites are added. The difference of two
         # total energies would have a large rounding error.
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
-        # ``excess`` is the energy difference minus the inner product of g and x, summed over all sites.
+        # ``excess`` is the sum over all sites of the energy difference minus the inner product of g and x.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):

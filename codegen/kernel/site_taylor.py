@@ -124,9 +124,9 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return ``terms``, with zeros in place of None if values outside the lattice may be nonzero.
-
-        None represents a coefficient that is zero at all sites.
+        """Return ``terms``, possibly with 0 in place of None. None represents a coefficient that is zero at
+        all sites and also outside the lattice. A coefficient that is zero at all sites, but not outside the
+        lattice, is represented by 0.
         """
         if degree == self.degree:
             return terms

@@ -24,7 +24,7 @@ LONG = 0.2
 LEAST_STEPS, RESOLVED = 200, 1e-4
 """A run that takes less than RESOLVED seconds is extended to several time spans (:func:`spans`).
 
-The extended run has at most LEAST_STEPS steps. RESOLVED is about a hundred times the overhead of a call.
+The run is not extended beyond LEAST_STEPS steps. RESOLVED is about a hundred times the overhead of a call.
 """
 
 CONFIRMED, MOST = 0.03, 21

@@ -75,7 +75,7 @@ class LieElements:
         return self.known[term]
 
     def _new(self, term: Term) -> Scaled:
-        # An integer i denotes the product h A(t + c_i h).
+        # A term that is an integer i denotes the product h A(t + c_i h).
         if isinstance(term, int):
             return Scaled(self.nodes[term], 1)
         # A term of type str is the name of an element that the tableau defines.

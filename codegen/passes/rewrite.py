@@ -36,7 +36,7 @@ class Rewriter:
         return replace(self.program, body=body, outputs=outputs)
 
     def now(self, var: Var) -> Var:
-        """Return the variable that replaces ``var``, or ``var`` itself."""
+        """Return the variable that replaces ``var``. If no variable replaces ``var``, return ``var``."""
         return self.names.get(var, var)
 
     def emit(self, assign: Assign) -> tuple[Var, ...]:

@@ -322,7 +322,8 @@ class Loop:
         return (ROW, *starts, *(flag(f"inside_{k}") for k in flags))
 
     def all_sites(self) -> Function:
-        """Return the function ``pass_K``. It computes this sweep for all sites."""
+        """Return the emitted function that computes this sweep for all sites. Its name is ``pass_K``, where K
+        is the number of the sweep."""
         body = self._row()
         bad = (("+", BAD),) if self.last else ()
         step, shape = self.step, shape_of(self.step)

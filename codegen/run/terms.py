@@ -142,7 +142,7 @@ class Term:
         raise TypeError("a Term is symbolic and cannot be iterated; read its entries by index, such as x[0]")
 
     def part(self, start: int, size: int) -> Term:
-        """Return the part of an array that consists of ``size`` entries and begins at index ``start``."""
+        """Return a part of this array: ``size`` entries that begin at index ``start``."""
         # If the part is the whole array, the array itself is returned. The emitted code then contains no
         # offset in C and no slice in Python.
         if start == 0 and self.shape == (size,):

@@ -247,8 +247,7 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield pairs (batch, flag). All batches together imply every condition of order n.
-
+    """Yield pairs (batch, flag). The conditions of the trees in all batches imply every condition of order n.
     The flag is true if there is only one batch.
     """
     trees = family.decisive_in_turn(n)

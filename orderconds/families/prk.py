@@ -79,10 +79,9 @@ class PartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a pair of tableaux that is not symplectic, otherwise None.
-
-        The family is returned, too, if the program cannot decide whether the pair is symplectic. For a
-        symplectic pair, the file should state the order in the family ``sprk_separable`` instead.
+        """Return None for a symplectic pair of tableaux, otherwise this family. If the program cannot decide
+        whether the pair is symplectic, return this family. The tableau file of a symplectic pair claims an
+        order in the family ``sprk_separable``.
         """
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):

@@ -3,8 +3,8 @@
 An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Let N be a large
 number, and let e_k be the unit vectors. The vectors (e_k, N x_k), with N x_k rounded to an integer, span a
 lattice. A relation with small integers c_k gives a short vector of the lattice. The algorithm of Lenstra,
-Lenstra and Lovasz (1982) finds short vectors. The result is only a candidate, because the numbers are
-approximate.
+Lenstra and Lovasz (1982) finds short vectors. The numbers are approximate, so each relation that the
+algorithm finds must be proved.
 """
 
 from __future__ import annotations

@@ -28,7 +28,8 @@ Expansion = dict[str, int]
 
 
 def bch(length: int) -> dict[Word, Fraction]:
-    """Return log(exp A exp B) in the basis of bracketed Lyndon words, up to brackets of ``length`` letters.
+    """Return log(exp A exp B) in the basis of bracketed Lyndon words. Words with more than ``length`` letters
+    are omitted.
 
     A Lyndon word denotes its standard bracketing, where [A, B] = A B - B A. Zero coefficients are omitted.
 

@@ -158,7 +158,7 @@ class Jobs(Sequence[Job]):
         return math.log2(min(ratios)) if math.isfinite(min(ratios)) else FAILED
 
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
-        """Store the prediction for a recipe, if it is reliable.
+        """Store a reliable prediction for a recipe.
 
         A prediction with a ``failure`` is not stored. A ``vague`` prediction is stored only if its
         attribute ``controlled`` is not None.

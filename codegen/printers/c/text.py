@@ -11,9 +11,8 @@ WIDTH = 100
 
 
 def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
-    """Return the text of the maximum of ``terms`` as segments. A line may break between two segments.
-
-    The text is a balanced tree of calls ``name(x, y)``.
+    """Return code for the maximum of the expressions ``terms``: a balanced tree of calls ``name(x, y)``. The
+    code is divided into segments. A line may break between two segments.
 
     >>> greatest(["a", "b", "c"])
     ('greater(a,', 'greater(b,', 'c))')

@@ -197,8 +197,8 @@ class _Body:
         # ``statement`` and ``group[0]`` must use the same list.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
-        # A slice assignment computes all values before it changes the list, so no value may depend on the
-        # list.
+        # A slice assignment changes all entries at once. So no value may depend on an entry that an earlier
+        # assignment changes.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
