@@ -44,7 +44,7 @@ figures = [
     Orders(
         name="orders",
         title="Errors for the dipole against the step size",
-        caption="The error at t = 1/2 is |mu - mu_ref| + |g - g_ref|. The norm of matrices is the spectral norm.",
+        caption="The error at t = 1/2 is |mu - mu_ref| + |g - g_ref|. Matrices have the spectral norm.",
         source="Fig. 3.2 of Marthinsen's thesis",
         halvings=5,
         orders=(2, 3, 4, 6),
