@@ -51,11 +51,14 @@ class LongRuns(Measurement[Result]):
         return [*(run.as_json() for run in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Return True if every method could be run."""
-        return not result.failures
+        """Return True if every method completed its run."""
+        return not result.failures and not any(run.failure for run in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
-        """Return one line for each method that failed."""
+        """Return one line for each method that failed or did not complete its run."""
+        for run in result.measured:
+            if run.failure:
+                yield f"{subject.scene.name} {run.method}: the long run stopped: {run.failure}"
         for failure in result.failures:
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
@@ -63,19 +66,26 @@ class LongRuns(Measurement[Result]):
         """Return a sentence that says for each method how the deviation of the energy grows.
 
         If the scene has no energy, the first invariant replaces the energy. If there is no invariant, the
-        residual of the manifold equations replaces the energy.
+        residual of the manifold equations replaces the energy. A second sentence lists the methods that did
+        not complete their runs.
         """
-        for name in _shown(result.measured):
+        steps = subject.effort.steps
+        stopped = [run for run in result.measured if run.steps < steps]
+        sentences = []
+        for name in _shown(result.measured)[:1]:
             laws: dict[str, list[str]] = {}
             for run in result.measured:
-                for kept in run.kept:
+                for kept in run.kept if run.steps >= steps else ():
                     if kept.name == name:
                         laws.setdefault(kept.drift.law, []).append(run.method)
             listed = "; ".join(f"{law} for {enumeration(methods)}" for law, methods in laws.items())
-            return (
-                f"Growth of the deviation of the {name} over {_count(subject.effort.steps)} steps: {listed}."
-            )
-        return ""
+            if listed:
+                about = f"Growth of the deviation of the {name} over {_count(steps)} steps"
+                sentences.append(f"{about}: {listed}.")
+        if stopped:
+            listed = enumeration([f"{run.method} after {_count(run.steps)} steps" for run in stopped])
+            sentences.append(f"Runs that stopped early: {listed}.")
+        return " ".join(sentences)
 
     def section(self, result: Result, subject: Subject) -> Section:
         """Return the section with the diagrams and tables of the long runs."""
