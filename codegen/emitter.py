@@ -165,7 +165,6 @@ def compile_method(
 
 
 def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[str]) -> Problem:
-    """Return the scene with the parameters and inputs that the user chose (:func:`compile_method`)."""
     parameters = texts(parameters, "parameters", "alpha=1/2")
     inputs = texts(inputs, "inputs", "u")
     scene = with_runtime(scene, tuple(parameters)) if parameters else scene

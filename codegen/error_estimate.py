@@ -26,9 +26,10 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""The smaller step size h of :func:`is_blind` satisfies (h/T)^(p + 2) = 10^-SMALLEST.
+"""The function :func:`is_blind` compares steps of the sizes h and RATIO h.
 
-Here T is the length of the time span of the scene, and p is the order of the method.
+The size h satisfies (h/T)^(p + 2) = 10^-SMALLEST. Here T is the length of the time span of the scene, and p
+is the order of the method.
 """
 
 ROUNDING = 1e-90
@@ -53,11 +54,13 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # If the field depends only on the time, methods of different orders can give the same result.
+    # If the field depends only on the time, methods of different orders can give the same result, and the
+    # error estimate, the difference between both results, is then zero.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
-            f"no error estimate for {method.label}: because the field does not depend on the state, the "
-            "method and its embedded method have the same leading error, which cancels in the estimate",
+            f"no error estimate for {method.label}: the results of the method and its embedded method have "
+            "the same leading error, so their difference does not estimate the error; the leading errors are "
+            "equal because the field of the scene does not depend on the state",
             where=scene.name,
             expected="an embedded method whose leading error on this scene differs from that of the method",
             hint="use another tableau with an embedded method, for example cf:cf3 or rkmk(4):dormand_prince5",

@@ -33,7 +33,9 @@ NOT_SMOOTH = "the stated order requires a vector field that is smooth along the 
 
 COMPENSATED = "compensated: the second half of the state contains correction terms, initially zero"
 COUNTED = "; the numbers of sweeps in this header are for double precision"
-"""A remark in the header of a module in single precision. A sweep is one iteration for implicit equations."""
+"""A remark in the header of a module in single precision. A sweep is one iteration of the solver for
+implicit equations.
+"""
 
 
 def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: Precision) -> Recipe:
@@ -76,7 +78,10 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
 
 
 def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
-    """Return the header line about the continuous extension, or () if the module uses no extension."""
+    """Return a tuple with one header line, the line about the continuous extension.
+
+    A header line is a pair (label, text). If the module uses no continuous extension, the tuple is empty.
+    """
     extension = None if kernel.observed is None else kernel.observed.extension
     if extension is None:
         return ()
@@ -139,7 +144,9 @@ def steps_of(kernel: Kernel) -> str:
     """Return the text of the header line that says how a run chooses its step sizes."""
     if kernel.expansion is not None:
         last = kernel.expansion.degree
-        return f"constant, or chosen from the solution's Taylor coefficients of degrees {last - 1} and {last}"
+        return (
+            f"constant, or computed from the solution's Taylor coefficients of degrees {last - 1} and {last}"
+        )
     assert kernel.estimate is not None
     return (
         f"constant, or chosen by a proportional-integral controller; "

@@ -41,9 +41,9 @@ if TYPE_CHECKING:
     "--form",
     "forms",
     multiple=True,
-    help="A form of the equations. Only peers and the family 'ambient' use it. Examples are 'printed' "
-    "(the equations of the scene), 'body-matrix' and 'quaternion'. The option may be repeated. Default: all "
-    "forms.",
+    help="A form of the equations to measure, such as 'printed' (the equations of the scene), 'body-matrix' "
+    "or 'quaternion'. The option may be repeated. Default: all forms. The option is for the methods "
+    "ambient:TABLEAU and for peers (see --against). Other methods ignore the option.",
 )
 @click.option("--budget", default=1.0, show_default=True, help="The longest CPU time of one run, in seconds.")
 @click.option(

@@ -28,14 +28,16 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--form",
-    help="Form of the equations: printed (as in the scene), body-matrix or quaternion; by default printed.",
+    help="Form of the equations: 'printed' (the equations of the scene), 'body-matrix' or 'quaternion'. The "
+    "default is 'printed'.",
 )
 @click.option("--steps", multiple=True, help="Numbers of steps, such as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter in decimal digits.")
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="The protocol 'strict' uses 50 digits and built-in scenes. It cannot be used with SCENE.",
+    help="The protocol 'strict' measures the orders on built-in scenes with 50 digits. With --protocol, omit "
+    "the argument SCENE.",
 )
 @click.option(
     "--stated",

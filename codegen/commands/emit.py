@@ -50,8 +50,8 @@ if TYPE_CHECKING:
 @click.option(
     "--form",
     default="printed",
-    help="Form of the equations: printed (as in the scene), body-matrix or quaternion; by default printed. "
-    "The header of the emitted file describes the form.",
+    help="Form of the equations: 'printed' (the equations of the scene), 'body-matrix' or 'quaternion'. The "
+    "default is 'printed'. The header of the emitted file describes the form.",
 )
 @click.option(
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
@@ -127,7 +127,8 @@ def command(
     as_json: bool,
     **run: Unpack[RunOptions],
 ) -> int:
-    """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
+    """Write an integrator specialised to SCENE. SCENE is the name of a scene in the gallery, or the path of
+    a Python file.
 
     For an implicit method, --solver auto tests solvers of the implicit equations. If no solver converges, the
     command prints a warning.

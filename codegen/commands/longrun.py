@@ -66,7 +66,7 @@ def command(
     deviation. The word "lost" means that the deviation is about as large as the quantity. If a method
     conserves a quantity in exact arithmetic, the rounding errors are measured with and without compensated
     summation. The root mean square (rms) of the rounding errors over several initial states grows like
-    steps^p (column "steps^p"). If a run ends early or a method fails, the exit status is 1.
+    steps^p. The column "steps^p" contains p. If a run ends early or a method fails, the exit status is 1.
 
     \b
     Examples:

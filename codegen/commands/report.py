@@ -74,9 +74,11 @@ def command(
 
     The command writes a page DIR/SCENE.html for each scene, and a page DIR/index.html with the fastest
     methods for every scene. A Hamiltonian scene takes one to two minutes, and other scenes take about half a
-    minute. All measured times are CPU times. For more than eight scenes, the search for the fastest method is
-    shortened, and only --full measures the growth of rounding errors. If a report is interrupted, repeat the
-    command to continue the report.
+    minute. All measured times are CPU times. If a report is interrupted, repeat the command to continue the
+    report.
+
+    For more than eight scenes, the command measures less: the search for the fastest method is shortened, and
+    the growth of rounding errors is measured only with --full.
 
     The exit status is 1 in three cases: an observed order contradicts the order conditions, a step with
     extremely large or small numbers gives a wrong result, or a method fails. The pages are

@@ -54,7 +54,9 @@ class Part:
 
     @property
     def exact(self) -> bool:
-        """True if the part has one summand. In this case, the exact flow of the part is known."""
+        """True if the part consists of one summand. The exact flow of the part is then known, because it is
+        the exact flow of this summand.
+        """
         return len(self.summands) == 1
 
 

@@ -35,8 +35,9 @@ POTENTIAL = "potential"
 class SiteFlow(Flow):
     """The flow of one part of the field of a lattice. ``part`` is the index of the part in the scene.
 
-    ``colour`` is an index in :data:`COLOURS`: 0 for even pairs of sites, and 1 for odd pairs. If the part
-    couples no sites, ``colour`` is 0.
+    ``colour`` is an index in :data:`COLOURS`. If the part couples the neighbouring sites i and i + 1 along an
+    axis, the flow acts only on half of these pairs of sites: on the pairs with even i if ``colour`` is 0, and
+    on the pairs with odd i if ``colour`` is 1. If the part couples no sites, ``colour`` is 0.
     """
 
     part: int

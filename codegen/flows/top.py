@@ -100,7 +100,10 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Add w.P to the sum of the Hamiltonians of ``turns``, where P is the momentum (:class:`Turn`)."""
+    """Return a list of turns whose Hamiltonians have the sum H + w.P.
+
+    H is the sum of the Hamiltonians of ``turns``, and P is the momentum (:class:`Turn`).
+    """
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)
         ratio = w[i] / turn.axis[i]

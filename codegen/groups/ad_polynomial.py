@@ -54,9 +54,9 @@ def _exponentials(
 ) -> tuple[S, S]:
     """Return the coefficients of t and t^2 in a series.
 
-    The series is the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``. Like ad_x, the variable t
-    satisfies t^3 = -z t. Hence every power above t^2 is a multiple of t or t^2. Negative powers of t and the
-    constant term of the series are ignored. If z can be negative, ``signed`` is true.
+    The series is the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``, without the terms of degree 0
+    and -1 in t. Like ad_x, the variable t satisfies t^3 = -z t. Therefore t^3, t^4 and so on are multiples of
+    t or t^2. The number j is 0 or 1. If z can be negative, ``signed`` is true.
     """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"

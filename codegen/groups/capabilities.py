@@ -185,8 +185,12 @@ class ClosedFormSeries(Coadjoint):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        If ``dual`` is true, ad*_x replaces ad_x. If ``total`` is given, ``total(indices)`` must be the sum of
-        f v over the triples ``terms[i]`` with i in ``indices``.
+        Here f is a number, and W is a product of factors as in :meth:`series`. If ``dual`` is true, ad*_x
+        replaces ad_x.
+
+        Some classes add the vectors f v of several triples before they apply ad_x. If ``total`` is given,
+        these classes call ``total(indices)`` for the sum of f v over the triples ``terms[i]`` with i in
+        ``indices``. If ``total`` is None, these classes compute the sum of f v themselves.
         """
 
 

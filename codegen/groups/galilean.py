@@ -13,7 +13,7 @@ from codegen.ir.domain import Domain
 
 
 class Galilean(Semidirect):
-    """The group of the maps (y, t) -> (R y + v t + p, t + s) of events. An event has position y and time t.
+    """The group of the maps (y, t) -> (R y + v t + p, t + s). Here y is a position, and t is a time.
 
     The coordinates of an element are R (row by row), v, p and s. The components of an element (w, b, u, r) of
     the algebra are the derivatives of R, v, p and s at the identity.

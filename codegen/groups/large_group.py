@@ -26,7 +26,7 @@ class LargeGroup(LieGroup):
 
     def _refuse(self) -> NoReturn:
         raise SceneError(
-            f"{self.name} has too many coordinates; this method needs a formula for each coordinate",
+            f"this method needs a formula for each coordinate, but {self.name} has too many coordinates",
             expected=f"a method of the family {self.families}",
             hint="for other methods, use a scene with matrices of at most eight rows",
         )

@@ -227,10 +227,10 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def _transported(
         self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return exp(x) and the momentum p = Ad*_{exp(-x)} mu + dexp*_{-x} n.
+        """Return exp(x) and the momentum p, the result of ``transport(x, n, mu)``.
 
-        Let M = dual_hat(mu), N = dual_hat(n) and R = exp(x) M^T exp(-x) + dexp_x N^T. Then
-        p = dual_vee(R^T).
+        The momentum p is computed with matrices. Let M = dual_hat(mu), N = dual_hat(n) and
+        R = exp(x) M^T exp(-x) + dexp_x N^T. Then p = dual_vee(R^T).
         """
         a = self.hat(d, x)
         exponential, slope = self._with_derivative(d, a, transposed(self.dual_hat(d, n), self.n))

@@ -66,7 +66,9 @@ class Registry(Generic[T]):
         return cls
 
     def listing(self) -> list[dict[str, str]]:
-        """Return the ``name`` of each class and ``about``, the first paragraph of its docstring."""
+        """Return a dictionary for each class: ``name`` is the name of the class, and ``about`` is the first
+        paragraph of the docstring of the class.
+        """
         return [{"name": n, "about": _first_paragraph(self.get(n).__doc__ or "")} for n in self.names]
 
 

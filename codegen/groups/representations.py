@@ -200,8 +200,7 @@ class AlgebraVectors(Representation):
         """Apply ``word``, a product of functions of ad*_x, to p.
 
         The method evaluates the group's formula for ``word`` with dual numbers, where e^2 = 0. The vector
-        y + v e represents x = (y, v). The vector q + m e represents p = (m, q). Thus e multiplies the second
-        part of x, but the first part of p.
+        y + v e represents x = (y, v). In p the order is reversed: the vector q + m e represents p = (m, q).
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
@@ -288,16 +287,16 @@ class MatrixColumns(Representation):
         return forces, tuple(slope[n * i + n - 1] for i in range(n - 1))
 
     def _bordered(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> tuple[int, Vector[S]]:
-        """Return the number of rows and the entries of [[A, u], [0, 0]], where A is the matrix of x."""
+        """Return two values for the square matrix [[A, u], [0, 0]]: its number of rows, and its entries.
+
+        A is the matrix that represents the algebra element x.
+        """
         n, hat = len(u), self._matrices(group).hat(d, x)
         rows = (a for i in range(n) for a in (*hat[n * i : n * i + n], u[i]))
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return ``group`` as a matrix group.
-
-        Each element acts on columns by multiplication with its matrix.
-        """
+        """Return ``group``, because this representation multiplies columns by the matrices of the group."""
         return self._matrices(group)
 
 

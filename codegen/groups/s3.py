@@ -61,7 +61,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return tuple(plain * b - c + factor * a for a, b, c in zip(x, y, cross(x, y), strict=True))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the quaternion product x y x = |x|^2 y - 2 (x.y) x."""
+        """Return the quaternion product x y x. For pure quaternions x and y, it is |x|^2 y - 2 (x.y) x."""
         square, factor = dot(x, x), d.rational(2) * dot(x, y)
         return tuple(square * b - factor * a for a, b in zip(x, y, strict=True))
 

@@ -285,9 +285,9 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        The vector t = t(y, u) is defined by exp(x) = (exp y, t). Let J be the momentum map. The result is
-        (dexp*_y (m - J(t, p)) + D_y <p, t>, D_u <p, t>). The gradients D_y and D_u are partial derivatives of
-        <p, t(y, u)> for fixed p.
+        The vector t = t(y, u) is defined by exp(x) = (exp y, t). The momentum map J of the representation is
+        defined in :class:`Semidirect`. Let D_y and D_u be the partial derivatives of <p, t(y, u)> with
+        respect to y and u for fixed p. The result is (dexp*_y (m - J(t, p)) + D_y, D_u).
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -368,7 +368,9 @@ class Semidirect(
         return self.linear.require(Projection).project(d, q) + a
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return ``self.linear.laws(d, q)`` for g = (q, a)."""
+        """Let g = (q, a). Return a pair (name, residual) for each equation that the elements q of the linear
+        factor satisfy. The vector a satisfies no equations.
+        """
         return self.linear.laws(d, self._element(g)[0])
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -447,7 +449,9 @@ class Semidirect(
         return self._covered().covering(d, g) + a
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return (s, a) for q = (r, a), where s is the projected covering of r in the linear factor."""
+        """Return (s, a) for q = (r, a). Here r is projected onto the covering group of the linear factor, and
+        s is the image of the projected element under the covering map.
+        """
         g, a = self._over(q)
         return self._covered().projected_covering(d, g) + a
 

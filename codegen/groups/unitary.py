@@ -77,7 +77,11 @@ class SU(Unitary):
         return (*upper, *lower)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return pairs (name, residual) for the equations of U(n) and for det g = 1."""
+        """Return the equations of SU(n) as pairs (name, residual).
+
+        These are the equations of U(n), and two equations for the real part and the imaginary part of
+        det g = 1.
+        """
         n, width = self.rows, self.n
         rows = [[(g[width * i + j], g[width * (n + i) + j]) for j in range(n)] for i in range(n)]
         real, imaginary = _complex_determinant(rows)

@@ -1,8 +1,9 @@
 """The depth of a step: the length of its longest chain of rotation angles.
 
-In such a chain each angle depends on a sine or cosine (Stumpff function) of the previous angle. A rotation by
-a large angle amplifies the rounding errors of the previous rotations. The largest permitted angle therefore
-depends on the length of the chain (:func:`codegen.snippets.stumpff.limit`).
+In such a chain, each angle is computed from a Stumpff function of the previous angle. Examples of Stumpff
+functions of an angle x are cos x and (sin x)/x. A rotation by a large angle amplifies the rounding errors of
+the previous rotations. The largest permitted angle therefore depends on the length of the chain
+(:func:`codegen.snippets.stumpff.limit`).
 """
 
 from __future__ import annotations
@@ -42,7 +43,11 @@ def chain(kernel: Kernel) -> int:
 
 
 def _depth(root: Expr, depths: Mapping[str, int]) -> int:
-    """Return the depth of an expression from the depths of its symbols."""
+    """Return the largest number of nested Stumpff functions in ``root``.
+
+    ``root`` can contain the names of earlier results of the step. ``depths`` maps each of these names to the
+    number of nested Stumpff functions in the formula of the result.
+    """
     by_node: dict[int, int] = {}
     for node in walk([root]):
         # ``walk`` yields the arguments before the node, so their depths are known.

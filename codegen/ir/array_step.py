@@ -51,8 +51,8 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """A statement that computes the new point exp(B S B^T) X for a point X. The new point is X_0 + B D, where
-    D is called its displacement. The statement assigns D to ``target``.
+    """A statement that computes the displacement D of the point exp(B S B^T) X for a given point X. The
+    displacement is defined by exp(B S B^T) X = X_0 + B D. The statement assigns D to ``target``.
 
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).

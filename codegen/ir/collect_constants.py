@@ -24,8 +24,8 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
 
     If this does not reduce the number of operations, ``roots`` is returned unchanged.
 
-    Expressions in ``kept`` are computed elsewhere, so only their numeric factors are combined with other
-    constants.
+    The expressions in ``kept`` are also computed elsewhere. Each of them has the form c x with a number c.
+    The expression x remains unchanged, and c is combined with other constants.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -41,12 +41,13 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            # The linear combination has one term, which is the node itself.
+            # The node is not rewritten: its linear combination is 1 times the node.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
     # The expressions in ``bare`` are not rewritten, so their operations are not counted.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
-    # ``collected`` may have fewer shared subexpressions than ``roots`` and therefore need more operations.
+    # A subexpression that occurs several times in ``roots`` may occur in several different forms in
+    # ``collected``, and ``collected`` then needs more operations.
     return collected if _operations(collected, still) < _operations(roots, still) else tuple(roots)
 
 
@@ -68,8 +69,9 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Find the powers of y = 1/sqrt x that are rewritten as quotients.
 
-    For example, y^3 is rewritten as 1/(x sqrt x). The result maps the node number of each product c y^n to
-    the pair (node number of y, n). The factor c is a number.
+    For example, y^3 is rewritten as 1/(x sqrt x). The result has one entry for each node that is equal to
+    c y^n with a number c and one of these powers y^n. The entry maps the node number of c y^n to the pair
+    (node number of y, n).
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
@@ -80,7 +82,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
-            # The node is c y^n with a number c.
+            # The node is y, the power of y with the exponent 1.
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             # Exponents are added in a product, and multiplied in a power of a power.
@@ -88,20 +90,24 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
     # A power that is used only to compute other powers is ignored here.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # The powers of y are rewritten only if all exponents in ``read`` are 3, 5, 7 and so on.
+    # If y = 1/sqrt x itself or an even power of y occurs in ``read``, no power of y is rewritten.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
 
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
-    """Return True if a node equals c y^n with a number c and y = 1/sqrt x."""
+    """Return True if ``node`` is a product, a power or a negation and has the form c y^n.
+
+    Here c is a number, n is a positive integer, and y is 1/sqrt x for an expression x. ``inside`` contains a
+    pair (node number of y, n) for each argument of ``node`` that has this form.
+    """
     # The first argument may be a number.
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
 
 
 def _is_inverse(node: Expr) -> bool:
-    # In a :class:`Space`, all constants 1 are one object, so ``is`` is sufficient.
+    # A :class:`Space` contains only one node for the constant 1, so a comparison with ``is`` is sufficient.
     return node.op == "div" and node.args[0] is node.space.one
 
 
@@ -132,8 +138,9 @@ class _Gathering:
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
         """Return the term c times ``atom`` as a pair (number, expression).
 
-        For an atom 1/y, let e be the value of |c| in the first call for this atom. Then the pair is
-        (c/e, e/y). For every other atom, the pair is (c, ``atom``).
+        If ``atom`` is not a quotient 1/y, the pair is (c, ``atom``). For a quotient 1/y, the pair is
+        (c/e, e/y) with a positive number e. The first call for 1/y sets e = |c|. Later calls for the same 1/y
+        use the same number e.
         """
         if not _is_inverse(atom):
             return c, atom
@@ -195,7 +202,8 @@ class _Gathering:
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
-        # The formula does not divide sqrt x by x, so a processor computes its factors at the same time.
+        # For n = 2 m + 1, the denominator is x^m sqrt x. A processor can compute x^m and sqrt x at the same
+        # time, because neither of these factors needs the other.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}

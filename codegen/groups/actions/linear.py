@@ -39,7 +39,7 @@ class Linear(Action):
         if group.offers(Rotations) is None:
             return y
         squared = dot(start, start)
-        # If ``start`` is zero, ``quotient`` returns 0, and the scale factor is 1.
+        # If ``squared`` is zero, ``quotient`` returns 0 instead of dividing by zero, and the result is y.
         defect = d.call("quotient", squared - dot(y, y), squared)
         return rescaled(d, y, defect)
 

@@ -29,7 +29,7 @@ class RightMultiplication(Action):
         return group.size
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the group as pairs (name, residual)."""
+        """Return a pair (name, residual) for each equation that the elements y of the group satisfy."""
         return group.laws(d, y)
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
