@@ -46,9 +46,9 @@ def always(yes: Expr, no: Expr) -> Expr:
 def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], where: str) -> Condition:
     """Convert a condition of sympy to a :data:`Condition`.
 
-    The function ``node`` converts the two sides of a comparison from sympy to :class:`Expr`. ``where`` is the
-    place of the formula in error messages. Comparisons may be joined by And, Or and Not. For all other
-    conditions, :class:`SceneError` is raised.
+    The function ``node`` converts the two sides of a comparison from sympy to :class:`Expr`. Error messages
+    begin with the text ``where``, which describes the formula. Comparisons may be joined by And, Or and Not.
+    For all other conditions, :class:`SceneError` is raised.
     """
     import sympy
 

@@ -141,9 +141,10 @@ def sign(x: Expr) -> Expr:
 
 
 def _selection(node: Expr) -> list[Expr]:
-    """Return the partial derivatives of ``fabs(x)`` or ``choose(x, a, b)`` (``a`` for x > 0, else ``b``).
+    """Return the partial derivatives of ``node``, which is ``fabs(x)`` or ``choose(x, a, b)``.
 
-    At x = 0, the derivatives of both functions with respect to x are set to 0.
+    The value of ``choose(x, a, b)`` is a for x > 0, and b otherwise. At x = 0, the derivatives of both
+    functions with respect to x are set to 0.
     """
     space, (x, *formulas) = node.space, node.args
     if not formulas:

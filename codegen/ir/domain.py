@@ -191,7 +191,8 @@ class FloatDomain:
         # ``scale`` is the largest absolute value of an unknown.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # If the changes form a geometric sequence, the next change is below the rounding error.
+        # If the changes form a geometric sequence, the next change is change^2/before. The iteration has
+        # converged if ``change`` is small and the next change is at most the rounding error 2^-53 * scale.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Small changes that no longer decrease are rounding errors.
@@ -199,7 +200,8 @@ class FloatDomain:
 
     def increment(self, x: float) -> float:
         """Return the increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
-        # For abs(x) <= 1, d = 2^-26 balances the rounding error 2^-53/d and the truncation error d.
+        # The truncation error of the difference quotient is about d, and the rounding error is about 2^-53/d.
+        # For abs(x) <= 1, the increment is d = 2^-26, so both errors have about the same size.
         return math.ldexp(max(1.0, abs(x)), -26)
 
 
@@ -312,7 +314,8 @@ class PreciseDomain:
 
     def increment(self, x: Scalar) -> Scalar:
         """Return the increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
-        # The factor max(1, abs(x)) keeps x + d different from x for large x.
+        # The returned number is d. Without the factor max(1, abs(x)), the sum x + d would be rounded to x for
+        # large x.
         return self.context.sqrt(self.context.eps) * max(1, abs(x))
 
 
@@ -421,7 +424,8 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return the series a/b, or 0 if b = 0. If a/b has a pole at h = 0, ArithmeticError is raised."""
+        """Return quotient(a, b). By definition, quotient(a, b) is a/b for b != 0, and 0 for b = 0. If a/b has
+        a pole at h = 0, ArithmeticError is raised."""
         # ``power`` is the exponent of the lowest power of h in b.
         power = self.ring.valuation(b)
         if power > self.order:

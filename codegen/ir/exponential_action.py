@@ -41,11 +41,13 @@ def degrees(bits: int) -> tuple[int, ...]:
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
-    # The largest odd divisor of m!/j! is at most that of m!, so only m! is tested.
+    # An integer needs no rounding if its largest odd divisor is below 2^bits. All integers m!/j! divide m!,
+    # so the loop tests only m!.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
-    # If all degrees up to m were used, the emitted code would be only slightly faster.
+    # With all degrees up to m, emitted code would sometimes use a lower degree and compute fewer products of
+    # a matrix and a vector. The gain is small, so only every fourth degree is used.
     return tuple(range(m, 3, -4))[::-1]
 
 

@@ -18,7 +18,8 @@ class Formulas(ExprDomain):
 
     def __init__(self, domain: ExprDomain) -> None:
         super().__init__(domain.space)
-        # Functions of time have the same symbols here as in ``domain``.
+        # The dictionary ``samples`` contains the symbols for values of functions of time. Both domains must
+        # use the same symbols, so they share the dictionary.
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:

@@ -269,7 +269,8 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
         # Row exchanges avoid small pivots.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
-        # All entries below a zero pivot are zero too, so the matrix is singular.
+        # The pivot has the largest absolute value of all entries in the rows k, ..., n - 1 of column k. If
+        # the pivot is zero, all these entries are zero, so the matrix is singular.
         if not rows[k][k]:
             raise NotConverged("the matrix of Newton's method is singular")
         for i in range(k + 1, n):

@@ -109,7 +109,8 @@ class _Graph:
                 continue
             gone[v] = True
             neighbours = self._take_out(v)
-            # The elimination of v changes only the costs of the neighbours of v.
+            # The cost of a vertex depends only on the numbers of its edges (:meth:`_cost`). The elimination
+            # of v changes only edges of the neighbours of v, so only the neighbours get new costs.
             for u in neighbours:
                 # Only inner vertices are in both tables. Variables and results are never eliminated.
                 if u in self.before and u in self.after:

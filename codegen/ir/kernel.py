@@ -102,7 +102,11 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """The number of steps for which one inverse of ``matrix`` is used, or 0 if ``residuals`` is false."""
+        """If ``residuals`` is true, the number of steps after which ``matrix`` is inverted again.
+
+        If ``residuals`` is false, the value is 0, because other rules decide when ``matrix`` is inverted
+        again (see :class:`Newton`).
+        """
         # The inversion of an n x n matrix costs O(n^3) operations. If one inversion serves n/2 steps of the
         # integrator, the cost of inversions is only O(n^2) operations in each step.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
@@ -157,7 +161,8 @@ class Loop:
     @property
     def close(self) -> float:
         """The factor ``close`` in the second case of the stopping rule (see :class:`Loop`)."""
-        # Only the unknowns are read later, and their error is smaller than their last change.
+        # If the code after the loop reads only the unknowns, a larger factor is sufficient, because the error
+        # of the unknowns is smaller than their last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         # ``first_order`` is true if Newton's matrix is expanded to first order in h.
@@ -191,11 +196,14 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # An extrapolation is used only if it is clearly better than the last solution.
+    # If the last solution were used as first values of the unknowns, the error of these values would be the
+    # change of the unknowns in the step. An extrapolation is useful only if its error is at most half
+    # as large.
     ROUGH: ClassVar[float] = 0.5
     # Successful continuations need far fewer than 100 attempts.
     TRIES: ClassVar[int] = 100
-    # With a growth factor below 1 + ``SHORTEST``, the step size would hardly grow.
+    # If the growth factor becomes 1 + ``SHORTEST`` or less, the continuation fails, because the step size
+    # would hardly grow. ``SHORTEST`` is a bound for the relative increase of the step size.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -214,13 +222,18 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """Flows of a splitting method that are applied before the first step or after the last step of a run.
+    """Flows of a splitting method that a run applies outside of its steps.
 
     A run has at most :data:`LONGEST` steps. The run calls ``begin``, then the kernel of the step once for
     each step, and then ``finish``.
 
-    Each step ends with a flow of duration :data:`LEAD`. In the final step of a run, LEAD is ``last`` * h. In
-    all other steps, LEAD is ``later`` * h.
+    The last flow of a step and the first flow of the next step may be joined into one flow. Then ``begin``
+    applies the first flow of the first step, and each step ends with a flow of duration :data:`LEAD`. For a
+    joined flow, LEAD is ``later`` * h. The final step of a run has no next step, so its LEAD is ``last`` * h.
+    If no flows are joined, ``begin`` is None.
+
+    The steps may omit flows that commute with all other flows. ``finish`` applies the omitted flows, for the
+    total duration of the run. If no flows are omitted, ``finish`` is None.
     """
 
     begin: Kernel | None
@@ -293,8 +306,9 @@ class Expansion:
     of the kernel ``coefficients``. The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
-    ``sums`` is the number of inner sums, one for each product. In pass n, the loop computes the inner sums.
-    Then the loop executes the kernel ``following``, which has these outputs, in this order:
+    ``sums`` is the number of inner sums, one for each product. In pass n, the loop first computes the inner
+    sum in coefficient n of each product. Then the loop executes the kernel ``following``, which has these
+    outputs, in this order:
     - a_n for each product,
     - b_n for each product,
     - the Taylor coefficients of order n + 1.

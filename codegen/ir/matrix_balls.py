@@ -85,7 +85,8 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
             result = _first_row(arb_mat(block_matrix(n, level, jet)).exp().tolist(), level)
             if _is_accurate(size, bits, jet, result):
                 return tuple(x.mid() for x in result)
-        # ``extra`` is doubled, so the loop ends after few attempts.
+        # The loop ends at the latest when ``bits + extra`` exceeds MOST_BITS. Because ``extra`` is doubled,
+        # this happens after few attempts.
         extra *= 2
     raise OverflowError(f"the exponential of a matrix is not accurate with {MOST_BITS} bits")
 
@@ -129,7 +130,7 @@ def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Convert a block matrix to the entries of a jet: the inverse of :func:`block_matrix`."""
+    """Return the entries of the jet from which :func:`block_matrix` computes the block matrix ``rows``."""
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2

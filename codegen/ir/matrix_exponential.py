@@ -41,13 +41,16 @@ Pairs = tuple[tuple[tuple[int, int], ...], ...]
 def pairs(level: int) -> Pairs:
     """Return the pairs of indices that define the product of two jets of level ``level``.
 
-    Let the jets A and B consist of the matrices A_j and B_k. Matrix m of the product A B is the sum of
-    A_j B_k over the pairs (j, k) in entry m of the returned tuple.
+    A jet is a matrix with its derivatives. A jet of level l consists of 2^l matrices. Let the jets A and B
+    consist of the matrices A_j and B_k. Matrix m of the product A B is the sum of A_j B_k over the pairs
+    (j, k) in entry m of the returned tuple.
 
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
     """
-    # Only matrices whose indices have no common bit are multiplied.
+    # Each term of a jet is a matrix times a product of symbols d_i. Bit i of the index of the matrix is 1 if
+    # d_i is a factor of this product. If bit i is 1 in two indices, the product of the two terms is zero,
+    # because d_i^2 = 0.
     masks = range(2**level)
     return tuple(tuple((a, m ^ a) for a in masks if a & m == a) for m in masks)
 
@@ -187,7 +190,8 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
     of the computed square of E is at most about 2 |E| e + n^2 u |E|^2, where u is the unit roundoff.
     """
     size, unit = n * n, 2.0**-53
-    # Before the first squaring, this number bounds the error of the matrix ``total[:size]``.
+    # ``error`` is a bound of the error of the first matrix of the jet, ``total[:size]``. The next line
+    # sets the bound before the first squaring.
     error = (n + 8) * unit * n
     for _ in range(squarings):
         # Both ``growth`` and the Frobenius norm are bounds of the spectral norm of ``total[:size]``.

@@ -72,7 +72,8 @@ class MatrixExponential(VectorFunction):
         """
         # Where the k-th power of ``pattern`` has a zero, A^k has a zero, too.
         pattern = power = [int(not x.is_zero) for x in args]
-        # This test avoids the computation of powers if the sum is infinite.
+        # The sum 1 + A + A^2/2 + ... has finitely many terms only if A is nilpotent. This test is cheaper
+        # than the computation of powers of A.
         if not is_nilpotent(self.n, pattern):
             return None
         # The loop counts the nonzero powers of A, beginning with A^0.
@@ -175,7 +176,7 @@ class MatrixInverse(VectorFunction):
 
 
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
-    """Return True if the zeros of ``pattern`` make an n x n matrix nilpotent, whatever its other entries are.
+    """Return True if every n x n matrix with zeros at the zeros of ``pattern`` is nilpotent.
 
     Each non-zero entry (i, j) of ``pattern`` is an edge from i to j of a graph. The function returns True if
     this graph has no cycle.
@@ -186,8 +187,8 @@ def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
     # Each pass of the loop removes vertices from ``left``. The removed vertices are in no cycle.
     left = set(range(n))
     while left:
-        # Edges to removed vertices are ignored. If all edges that begin at a vertex lead to removed vertices,
-        # this vertex is in no cycle. If no such vertex exists, the graph has a cycle.
+        # ``ends`` contains the vertices without edges to vertices in ``left``. These vertices are in no
+        # cycle, so they are removed next. If ``ends`` is empty, the graph has a cycle.
         ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
         if not ends:
             return False

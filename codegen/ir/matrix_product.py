@@ -47,10 +47,12 @@ class BilinearFunction(VectorFunction):
         """
         space, size = args[0].space, self.size
         total = (space.zero,) * size
-        # The loop adds f(a', b) and f(a, b').
+        # By the product rule, the derivative of f(a, b) is the sum of f(a', b) and f(a, b'). Here f is this
+        # function, and a' and b' are the derivatives of the matrices a and b.
         for pair in ((*rates[:size], *args[size:]), (*args[:size], *rates[size:])):
             changing = rates[:size] if pair[:size] == tuple(rates[:size]) else rates[size:]
-            # A term f(a', b) or f(a, b') with a zero derivative is omitted.
+            # ``changing`` is a' or b'. If ``changing`` is zero, the term with this derivative is zero and is
+            # omitted.
             if not all(x.is_zero for x in changing):
                 term = space.vector(self.name, pair)
                 total = tuple(x + y for x, y in zip(total, term, strict=True))
@@ -64,15 +66,20 @@ class BilinearFunction(VectorFunction):
         space = args[0].space
         # The derivative is f(E, b) or f(a, E), where one entry of the matrix E is 1 and the others are 0.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
-        # ``half`` is the slice of the replaced entries in ``args``.
+        # The entry ``args[argument]`` belongs to a or to b. E replaces this matrix, and ``half`` is the slice
+        # of ``args`` with the entries of this matrix.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
-        # Scalar formulas are short here, because most entries of ``unit`` are zero.
+        # The derivatives are returned as scalar formulas, without a call of the function f. The formulas are
+        # short, because only one entry of E is not zero.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return a matrix of zeros if a or b is zero, otherwise None."""
+        """Return zeros, the entries of f(a, b), if the matrix a or the matrix b is zero, otherwise None.
+
+        ``args`` are the entries of a and b. If the result is None, emitted code must call the function f.
+        """
         # A bilinear function is zero if one of its arguments is zero.
         if all(x.is_zero for x in args[: self.size]) or all(x.is_zero for x in args[self.size :]):
             return (args[0].space.zero,) * self.size

@@ -53,7 +53,7 @@ class Factor:
     @property
     def order(self) -> tuple[str, float, str]:
         """The sort key of the factor: its function, then its scale."""
-        # Two different scales may round to the same double.
+        # Two different scales may round to the same double. Then the exact texts determine the order.
         return self.function, float(self.scale), self.scale.text()
 
 
@@ -323,7 +323,7 @@ class ModeStep:
             # The poles are imaginary numbers. They do not matter for real eigenvalues.
             poles = ", unbounded near the poles z = 2 pi i m for integers m != 0" if self.complex else ""
             lines.append(f"bernoulli(z) = z/(exp(z) - 1){poles}")
-        lines.append(f"coefficients for z < 0: {self.bound()}")
+        lines.append(f"for z < 0, {self.bound()}")
         lines.append(
             f"a step: {len(self.evaluations)} evaluations of N, {self.transforms} Fourier transforms"
         )
@@ -332,11 +332,14 @@ class ModeStep:
     def bound(self) -> str:
         """Return a text that describes how fast the coefficients of the step grow as z tends to -infinity."""
         if self.backwards:
-            return "some contain exp(-c z) with c > 0 and grow exponentially, so short steps are required"
+            return (
+                "some coefficients contain exp(-c z) with c > 0 and grow exponentially, so short steps are "
+                "required"
+            )
         if self.growth > 0:
             power = "|z|" if self.growth == 1 else f"|z|^{self.growth}"
-            return f"some grow like {power}, which may limit the step size"
-        return "all are bounded"
+            return f"some coefficients grow like {power}, which may limit the step size"
+        return "all coefficients are bounded"
 
     def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:
         """Return lines with the formula ``name`` = sum of ``terms``, followed by ``remark``."""

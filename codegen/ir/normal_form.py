@@ -73,7 +73,7 @@ class NormalForms:
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # The unsimplified expression is still correct.
+            # The expanded polynomial has too many terms, so ``root`` is returned without simplification.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:

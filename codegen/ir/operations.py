@@ -38,8 +38,8 @@ class Problem(Protocol):
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
         """Return the results of the function ``name`` for the arguments ``args``.
 
-        ``order`` is the order of truncation (for dexp^{-1} and its derivative), the degree of a Taylor
-        polynomial, or None.
+        For dexp^{-1} and its derivative, ``order`` is the order at which the series is truncated. For a
+        Taylor polynomial, ``order`` is the degree. For all other functions, ``order`` is None.
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
@@ -79,7 +79,9 @@ class Operation(ABC):
     """The number of exponentials in the reported cost. A coordinate map or an exact flow counts as one."""
 
     noun: ClassVar[str] = ""
-    """The name of the operation in reports of the cost, with ``{s}`` for the "s" of the plural. If the
+    """The name of the operation in reports of the cost, for example ``bracket{s}``.
+
+    Reports print the letter s in place of ``{s}`` for the plural, and nothing for the singular. If the
     operation costs nothing, the name is ''.
     """
 
@@ -146,9 +148,9 @@ class Linear(Operation):
     noun = "sum{s}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the result.
+        """Return the kinds of the arguments and of the result for vectors in the Lie algebra.
 
-        All vectors are assumed to be in the Lie algebra.
+        The method :meth:`accepts` also allows vectors in the dual of the Lie algebra.
         """
         return (Kind.ALG,) * len(self.coefficients), A
 
@@ -322,7 +324,7 @@ class Adjoint(OfGroup):
 
     @property
     def function(self) -> str:
-        """The name of the Python method that evaluates this operation in the class of the group."""
+        """The name of a method of the group's Python class. This method evaluates the operation."""
         # ``Adt`` means Ad*, the transpose of Ad.
         return f"Ad{'t' if self.dual else ''}{'inv' if self.inverse else ''}"
 
@@ -355,7 +357,7 @@ class Bracket(OfGroup):
 
     @property
     def function(self) -> str:
-        """The name of the Python method that evaluates this operation in the class of the group."""
+        """The name of a method of the group's Python class. This method evaluates the operation."""
         return "adt" if self.dual else "ad"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -423,7 +425,10 @@ class InverseDexpSlope(Operation):
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return P* mu, where P is the derivative of dexpinv_x y with respect to x."""
+        """Return P* mu for ``args`` = (x, y, mu).
+
+        P is the derivative of dexpinv_x y with respect to x, and P* is the transpose of P.
+        """
         return problem.apply(domain, "P", self.order, args)
 
 
@@ -473,7 +478,11 @@ class AdSeries(Operation):
         return A + own, own
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if ``self.word`` is not empty and :meth:`signature` is (``arguments``, ``results``)."""
+        """Return True if the kinds of the arguments and of the results are those of :meth:`signature`.
+
+        ``self.word`` lists the functions f in the product of operators f(ad_x). If ``self.word`` is empty,
+        return False.
+        """
         # An empty product is the identity map, which needs no operation.
         return bool(self.word) and super().accepts(arguments, results)
 

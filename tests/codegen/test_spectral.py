@@ -81,7 +81,7 @@ def test_the_coefficients_of_cf4_are_the_published_ones():
         "U3 = exp(1/2 z) u + h 1/2 phi1(1/2 z) N2",
         "U4 = exp(z) u + h (1/2 exp(1/2 z) phi1(1/2 z) - 1/2 phi1(1/2 z)) N1 + h phi1(1/2 z) N3",
     ]
-    assert "all are bounded" in " ".join(lines)
+    assert "all coefficients are bounded" in " ".join(lines)
 
 
 @pytest.mark.parametrize(
