@@ -102,7 +102,8 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         return 0.0
     # The exact value is rounded only once, because two roundings can give a wrong result.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # Here ``exponent`` is correct or too small by one.
+    # The integer part of |exact|/2^exponent has ``bits`` or ``bits`` + 1 bits. If it has ``bits`` + 1 bits,
+    # ``exponent`` is increased by one, so that ``bits`` bits remain.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer than ``bits`` significant bits.
     exponent = max(exponent, SUBNORMAL[bits])

@@ -126,8 +126,9 @@ class Program:
     statements are executed once for each substep.
 
     If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. Let q' and
-    m' be the new values of q and m. The new value of mu is computed as mu + (Ad*_{q'^-1} m' - Ad*_{q^-1} m).
-    Rounding errors nearly cancel in this difference.
+    m' be the new values of q and m. In exact arithmetic, Ad*_{q^-1} m is mu, and the new value of mu is
+    Ad*_{q'^-1} m'. The new value is computed as mu + (Ad*_{q'^-1} m' - Ad*_{q^-1} m). The two terms of the
+    difference have nearly equal rounding errors, which nearly cancel.
     """
 
     name: str
@@ -146,8 +147,9 @@ class Program:
                 yield from statement.body
 
     def counts(self) -> dict[str, int]:
-        """Return the number of assignments of each operation. The keys are the names of the operations, in
-        alphabetical order.
+        """Count how often each operation occurs in the program.
+
+        The keys of the result are the names of the operations, in alphabetical order.
         """
         total: dict[str, int] = {}
         for assign in self.assigns():
@@ -159,7 +161,7 @@ class Program:
         """Return the program as text, with one statement on each line."""
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
-        # In the program text, the name ``mu`` then denotes the body momentum.
+        # If ``self.frame`` is BODY, the name ``mu`` denotes the body momentum in all following lines.
         lines += ["  mu is replaced by the body momentum Ad*(q, mu):"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):

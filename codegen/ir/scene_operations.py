@@ -29,7 +29,10 @@ class OfScene(OfGroup):
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
-        """Return ``arguments``. If ``timed`` is true, ``Kind.REAL`` is appended for the time."""
+        """Return the kinds ``arguments``, followed by the kind of the time if ``timed`` is true.
+
+        The kind of the time is ``Kind.REAL``.
+        """
         return arguments + R if self.timed else arguments
 
 

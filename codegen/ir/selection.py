@@ -24,8 +24,11 @@ SELECTING = (CHOOSE, ABSOLUTE)
 
 
 class Kink(ArithmeticError):
-    """Raised if the constant term of a power series x does not determine which formula of a function must be
-    used at x."""
+    """Raised if ``choose``, ``fabs`` or a piecewise polynomial cannot select a formula for a power series.
+
+    The constant term of the power series is a boundary between two formulas, or the program cannot decide
+    whether the constant term is a boundary.
+    """
 
 
 def selects(function: str) -> bool:

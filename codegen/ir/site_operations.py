@@ -87,10 +87,13 @@ class Corrected(Operation):
 
 @dataclass(frozen=True)
 class Wedge(Operation):
-    """The vector with the components (p f_i - q gamma_i)/s, for a covector gamma and a vector f.
+    """The vector (p f - q gamma)/s, for a covector gamma, a vector f and numbers p, q and s.
 
-    For s = 0 the result is zero. Let alpha be a covector. For p = <gamma, alpha>, q = <f, alpha> and
-    s = |gamma|^2, the result is the bivector (gamma wedge f)/s times alpha (:mod:`codegen.kernel.site_sums`).
+    For s = 0 the result is zero.
+
+    The bivector gamma wedge f maps a covector alpha to the vector <gamma, alpha> f - <f, alpha> gamma.
+    The module :mod:`codegen.kernel.site_sums` sets p = <gamma, alpha>, q = <f, alpha> and s = |gamma|^2. For
+    these numbers, the result is the bivector (gamma wedge f)/|gamma|^2 applied to alpha.
     """
 
     name = "wedge"

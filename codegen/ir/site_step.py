@@ -68,10 +68,10 @@ class Sweep:
     - ``outside`` is a kernel for sites at the boundary of the lattice, or None. If a load refers to a
       neighbour that does not exist, ``outside`` computes the value of the load. Output k of ``outside``
       belongs to the load ``read_outside[k]``.
-    - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
-      single sites, ``axis`` is :data:`OWN`. In a sweep over pairs, the value 0 of
-      :attr:`Load.neighbour` denotes the second site of the pair. The second half of ``stores`` contains the
-      rows for the second site.
+    - ``axis`` is :data:`OWN` if the sweep visits single sites. If the sweep visits pairs of neighbouring
+      sites, ``axis`` is the index of the lattice axis along which the two sites are neighbours. In this case
+      the value 0 of :attr:`Load.neighbour` denotes the second site of the pair, and the second half of
+      ``stores`` contains the rows for the second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
       values g(u). In fixed-point iteration, the sweep stores g(u). In Newton's method, the sweep stores
       the difference g(u) - u.
@@ -154,8 +154,8 @@ class SiteNewton:
         # The matrix of a periodic chain is not block-tridiagonal, because the last site is a neighbour of the
         # first site.
         if periodic:
-            # The linear system is solved n more times, because a periodic chain couples its last site to all
-            # sites.
+            # Block elimination separates the n unknowns of the last site from all other unknowns, and solves
+            # one additional linear system for each of these n unknowns.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written

@@ -63,10 +63,10 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return one formula of the selection ``function(*args)``, and a list of expressions called margins.
+    """Return one formula of the call ``function(*args)``, and a list of expressions called margins.
 
-    ``side`` is the index of the formula. If all margins are positive, the formula and ``function(*args)``
-    have the same value.
+    The call selects one of several formulas. For example, the formulas of ``fabs(x)`` are -x and x. ``side``
+    is the index of the returned formula. If all margins are positive, the call selects this formula.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):

@@ -49,7 +49,8 @@ class OrderLoop:
 
     - ``first`` are expressions that are computed before the loop.
     - ``names`` are the names of the symbols that represent the values of ``first`` in the loop.
-    - ``coordinates`` are the names of the symbols for Taylor coefficient n of each coordinate.
+    - ``coordinates`` contains one symbol name for each coordinate. The symbol denotes coefficient n of the
+      Taylor series of this coordinate.
     - ``sums`` are the names of the symbols for the inner sums, the sums of a_j b_{n-j} over 0 < j < n.
     - ``left[k]`` and ``right[k]`` are the expressions for a_n and b_n, where a and b are the two series in
       the inner sum with the name ``sums[k]``.
@@ -101,7 +102,10 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
 
 def coordinate_names(count: int) -> tuple[str, ...]:
-    """Return ``count`` symbol names. In the loop over n, name i denotes coefficient n of coordinate i."""
+    """Return one symbol name for each of ``count`` coordinates.
+
+    In the loop over the order n, the symbol denotes coefficient n of the Taylor series of its coordinate.
+    """
     return tuple(f"coefficient.{i}" for i in range(count))
 
 
@@ -135,7 +139,7 @@ class _Loop:
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
-        # The symbol ``LINEAR`` is coefficient n of the Taylor series of the time.
+        # The symbol ``LINEAR`` denotes coefficient n of the time, which is 1 for n = 1, and 0 for n > 1.
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
@@ -166,8 +170,9 @@ class _Loop:
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return ``x`` if ``x`` is a number, otherwise a symbol. The value of the symbol is computed
-        before the loop.
+        """Return ``x`` if ``x`` is a number, otherwise a symbol for the value of ``x``.
+
+        The emitted code computes the value of ``x`` before the loop.
         """
         if x.op == "const":
             return x
@@ -178,7 +183,7 @@ class _Loop:
 
     def inner(self, a: Series, b: Series) -> Expr:
         """Return the symbol for the inner sum of a and b, the sum of a_j b_{n-j} over 0 < j < n."""
-        # The sum does not change if a and b are exchanged.
+        # The inner sum of a and b is equal to the inner sum of b and a, so both get the same key.
         key = min(id(a), id(b)), max(id(a), id(b))
         if key not in self.places:
             self.places[key] = len(self.pairs)
@@ -266,7 +271,8 @@ class _Loop:
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
-                # The second term has a minus sign, even if the first term is missing.
+                # One coordinate of the point (x, y) is constant, so only one of the two terms of x y' - y x'
+                # remains. The term with x' has a minus sign.
                 (mean,) = means
                 return space.sym(INVERSE) * (mean if self.known[id(slopes[0])] is not None else -mean)
             case Antiderivative(slope=slope, rate=rate):

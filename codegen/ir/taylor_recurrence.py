@@ -101,7 +101,7 @@ class _Builder:
         constants = [a.payload if a.op == "const" else None for a in node.args]
         match node.op:
             case "call" if node.payload == "sqrt":
-                # The argument of the root is kept whole, because sqrt(x^2) is |x| and not x.
+                # If the argument is a power, the exponent is not halved, because sqrt(x^2) is |x| and not x.
                 return one, node.args[0], Fraction(1, 2)
             case "neg":
                 ((c, x, e),) = parts
@@ -130,7 +130,8 @@ class _Builder:
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # The node is left unchanged if the resulting exponent is 0, 2, 3 or a larger integer.
+        # The node is rewritten as ``result`` only if the exponent of ``result`` is 1, negative, or not an
+        # integer.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:

@@ -267,7 +267,8 @@ class Antiderivative(Series):
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # The sum does not need coefficient n of ``self.rate``.
+        # ``_mean`` does not read coefficient n of ``self.rate``, because this coefficient may depend on the
+        # result.
         return _mean(self.domain, self.slope, self.rate, n)
 
 
@@ -310,7 +311,7 @@ class Angle(Series):
         self.rates = Quotient(domain, x, size), Quotient(domain, y, size)
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the angle.
+        """Return coefficient n of the polar angle of the point (x, y).
 
         Let p = x/(x^2 + y^2) and q = y/(x^2 + y^2). For n > 0, coefficient n is the sum of
         j (y_j p_{n-j} - x_j q_{n-j})/n over 0 < j <= n.
@@ -330,7 +331,10 @@ class Chosen(Series):
         self.test, self.a, self.b = test, a, b
 
     def following(self, n: int) -> Coefficient:
-        """Return a_n if ``test`` is positive at the beginning of the step, otherwise b_n."""
+        """Return coefficient n of the series a or b.
+
+        If ``test`` is positive at the beginning of the step, the series is a, otherwise b.
+        """
         a, b = self.a.term(n), self.b.term(n)
         if a is None and b is None:
             return None
@@ -349,7 +353,11 @@ class Start(Series):
         self.a, self.function = a, function
 
     def following(self, n: int) -> Coefficient:
-        """Return f(a_0) for n = 0, and None (zero) for n > 0."""
+        """Return coefficient n of the constant series f(a_0).
+
+        The function f is ``function``, and a_0 is the value of the series a at the beginning of the step.
+        For n > 0, the coefficient is zero, and the result is None.
+        """
         return self.function(self.a.term(0)) if n == 0 else None
 
 

@@ -1,4 +1,9 @@
-"""The update of the momentum conjugate to the time, for a linear step y -> M(t) y."""
+"""The update of the momentum u conjugate to the time t, in a step of a linear Hamiltonian system.
+
+The step maps the state y to M(t) y. In the extended phase space, t and u are additional coordinates. Since M
+depends on t, a step in the extended phase space is symplectic only if u changes, too
+(:mod:`codegen.scene.linear_extension`).
+"""
 
 from __future__ import annotations
 

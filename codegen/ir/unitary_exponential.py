@@ -81,7 +81,7 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The numbers of additions and multiplications for Taylor degree 12, without squarings."""
+        """The numbers of additions and multiplications in a call with Taylor degree 12 and no squarings."""
         return {"add": 110, "mul": 120}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
@@ -167,9 +167,9 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
 
 
 def _bound(x: Sequence[float]) -> float:
-    """Return an upper bound of the absolute values of the eigenvalues of H.
+    """Return an upper bound of the absolute values of the eigenvalues of a Hermitian matrix H of trace zero.
 
-    ``x`` are the coordinates of the matrix i H.
+    ``x`` are the coordinates of the matrix X = i H, where i is the imaginary unit.
     """
     # By the trigonometric formula for z^3 = p z + q, each eigenvalue z of H is 2 (p/3)^(1/2) times a cosine.
     return math.sqrt(1.3333333333333333 * half_trace(x))

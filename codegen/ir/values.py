@@ -43,7 +43,8 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # Both properties are False if the comparison of ``value`` with 0 or 1 is undecided.
+    # ``is_zero`` is False if the program cannot decide whether ``value`` is 0. In the same way, ``is_one`` is
+    # False if the program cannot decide whether ``value`` is 1.
     @property
     def is_zero(self) -> bool:
         """True if the coefficient is provably zero."""
@@ -63,7 +64,8 @@ class Coefficient:
     def evaluate(self, domain: Domain) -> Scalar:
         """Return the coefficient as a scalar of ``domain``, for example as a double or a power series."""
         value = domain.number(self.value)
-        # Terms with equal coefficients can share the product of ``value`` and h.
+        # The loop multiplies ``value`` by h^``power``. In emitted code, terms with equal coefficients share
+        # this product.
         for _ in range(self.power):
             value = domain.h * value
         return value

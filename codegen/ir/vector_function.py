@@ -61,9 +61,9 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return scalar formulas that replace a call with the arguments ``args``.
+        """Return simpler expressions for the results of the function with the arguments ``args``.
 
-        If emitted code must contain the call, return None.
+        If no simpler expressions are known, return None. Then emitted code calls the function.
         """
 
     @abstractmethod

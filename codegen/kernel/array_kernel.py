@@ -278,22 +278,22 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append statements that compute a matrix S, and return S.
+        """Append statements that compute a matrix S with B S B^T = W X^T - X W^T, and return S.
 
-        Let B be the matrix ``self.basis``, and let X be the point X_0 + B D. Here X_0 is the state at the
-        beginning of the step. The argument ``displacement`` is the matrix D, or None if D is zero.
+        - B is the matrix ``self.basis``. Its first k = ``self.k`` columns are the state X_0 at the beginning
+          of the step.
+        - X is the point X_0 + B D. ``displacement`` is the matrix D, or None if D is zero. If D has
+          fewer rows than B has columns, the missing rows are zero.
+        - W consists of k consecutive columns of B. The first of these columns has the index ``first``.
 
-        Let k = ``self.k`` be the number of columns of X. Let W be a block of k columns of B. The first column
-        of this block is the column of B with the index ``first``. The matrix S satisfies
-        B S B^T = W X^T - X W^T.
-
-        The matrices J and E select columns of B: X_0 = B J and W = B E. Let C = J + D. Then X is B C.
-        Therefore W X^T - X W^T is B (E C^T - C E^T) B^T, and S is the matrix E C^T - C E^T.
+        Let C be the matrix D after the k x k unit matrix is added to the first k rows. Then X is B C.
+        Therefore the last k rows of S are C^T, and the last k columns of S are -C. All other entries of S are
+        zero.
         """
         k = self.k
         # ``self.sum`` without terms sets all entries of the matrix ``core`` to zero.
         core = self.sum(Matrix(name, first + k, first + k))
-        # Without ``displacement``, all other blocks of ``core`` are zero.
+        # If ``displacement`` is None, ``below`` and ``right`` are the only nonzero blocks of ``core``.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
@@ -337,14 +337,16 @@ class _Builder:
 
         Smaller matrices are extended by zeros to the size of the largest matrix.
         """
-        # A smaller core S is extended by zero rows and columns, which do not change the element B S B^T.
+        # A smaller matrix S uses only the first columns of the basis B. The appended zeros multiply the other
+        # columns of B, so the product B S B^T does not change.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
-        """Append the computation of S in the bracket [B x B^T, B y B^T] = B S B^T, and return S.
+        """Append statements that compute the bracket of the matrices B x B^T and B y B^T.
 
-        The matrices x and y are skew-symmetric. With N = x B^T B y, the result is S = N - N^T.
+        B is the matrix ``self.basis``, and the matrices x and y are skew-symmetric. The bracket is the matrix
+        B S B^T, where S = N - N^T and N = x B^T B y. The result is S.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
         # The sizes of x, G and y do not depend on the number of rows of the state, so x G y is cheap.
@@ -375,12 +377,11 @@ class _Builder:
         return self.combination(name, terms)
 
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
-        """Append a statement that moves a point X to exp(B S B^T) X. Return the new displacement.
+        """Append a statement that multiplies a matrix X by exp(B S B^T) from the left.
 
         Here B is the matrix ``self.basis``, and S is ``core``. Let X_0 be the state at the beginning of the
-        step. The displacement of a point is the matrix D for which the point equals X_0 + B D. ``start`` is
-        the displacement of X, or None if the displacement of X is zero. The result is the displacement of
-        the point exp(B S B^T) X.
+        step. ``start`` is the matrix D with X = X_0 + B D, or None if X = X_0. The result is the matrix D'
+        with exp(B S B^T) X = X_0 + B D'.
         """
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)

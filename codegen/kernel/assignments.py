@@ -63,7 +63,8 @@ class Assignments:
             # Values that depend on the unknowns of loop k are collected in ``inside``, all others in
             # ``self.body``.
             inside: list[Let] = []
-            # If ``remembers`` is true, the start statement has already set the first values.
+            # If ``remembers`` is true, the statement from ``_start`` sets the initial values of all loops.
+            # Otherwise, each loop sets its own initial values.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
             # If ``block.leading`` is true, Newton's matrix is computed before the first sweep.
@@ -141,8 +142,8 @@ class Assignments:
 
     def _newton(self, block: Block) -> Newton:
         """Return the matrix of Newton's method for ``block``, and the assignments that compute it."""
-        # ``_place`` adds the variables assigned in ``own`` to ``done``, and other statements must not read
-        # these variables.
+        # Other statements must not read the variables that are assigned in ``own``. ``_place`` adds these
+        # variables to ``done``, so the old ``done`` is restored below.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
