@@ -23,7 +23,10 @@ from codegen.scene.flow import Flow
 from codegen.scene.problem import TIME, Problem
 
 Timed = tuple[str, Flow, Number]
-"""The name of a flow, the flow, and its duration divided by the duration of the sweep's first flow."""
+"""A flow in a sequence of flows: its name, the flow, and a ratio of durations.
+
+The ratio is the duration of this flow, divided by the duration of the first flow in the sequence.
+"""
 
 Word = Sequence[tuple[Summand, Number]]
 """The flows of a step in the order of application, each with its duration as a multiple of h."""
@@ -55,7 +58,8 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # Two groups with the same flows share one sweep if the durations are proportional.
+        # ``run`` contains successive flows that one sweep applies. Two runs with the same flows share a sweep
+        # if the durations in one run are proportional to the durations in the other run.
         first, moment = run[0][2:]
         ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)

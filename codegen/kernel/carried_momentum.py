@@ -99,7 +99,8 @@ class Frames:
 
         If the two kernels are not needed, the result is None.
         """
-        # The kernels are needed only if the frames differ and the steps do not convert the momentum.
+        # If ``_alike`` is true, the program and the emitted code use the same frame, so nothing is converted.
+        # Otherwise, each of the other two conditions means that each step converts the momentum.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

@@ -40,7 +40,8 @@ the value 4, the code of two methods changes (``orderconds regenerate --check``)
 def fastest(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of ``program`` for the fastest variant (implementation) of the group.
 
-    Variants are compared only for explicit programs that contain flows or integrate a field on T*G.
+    An explicit program is compiled with every variant if it contains exact flows, or if ``scene.group`` is a
+    group T*G. All other programs are compiled only with ``scene.group``.
     """
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
@@ -69,7 +70,7 @@ def fastest(program: Program, scene: Problem) -> Kernel:
 def _shortest(kernels: Sequence[Kernel]) -> Kernel:
     """Return the kernel whose step has the shortest estimated time.
 
-    If some of the kernels have outlined functions, only these kernels are considered.
+    A kernel without outlined functions is considered only if no kernel has outlined functions.
     """
     # The instruction cache limits the speed of a long step, so the shorter code with outlined functions is
     # preferred.
@@ -84,6 +85,6 @@ def time(kernel: Kernel) -> tuple[float, int]:
     nodes = walk(kernel.expressions())
     # Changes of sign are not counted: they are usually combined with additions.
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
-    # The estimate is the length of the critical path, plus the number of operations divided by the
-    # throughput.
+    # The estimated time of a step is the length of its critical path, plus the number of its operations
+    # divided by the throughput.
     return chain(kernel) + work / WIDTH, work

@@ -35,11 +35,11 @@ as the value 1. An infinite value would change the code of the splitting methods
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products, each with at most one late factor (a factor that depends on a slow operation).
+"""A sum of products s k v c, as a dictionary from c to (s, k, v).
 
-The key of a product is its late factor, or None if it has no late factor. A value describes the product
-without its late factor. The value contains a sign, the product of the factors that are constant in a run, and
-the product of the factors that vary in a run.
+The sign s is 1 or -1. The factor k is constant in a run, and the factor v may vary in a run. The factor c
+depends on a longer chain of slow operations (:data:`ATOMS`) than k and v. If a product has no factor c, its
+key is None.
 """
 
 
@@ -190,7 +190,9 @@ class _Chains:
             return total
         if node.op == "mul":
             a, b = node.args
-            # A product is expanded if the level of one argument, called ``a``, is below ``level``.
+            # The level of a node is the largest number of slow operations in a chain that ends at the node.
+            # The argument with the lower level becomes ``a``. The product is expanded if the level of ``a``
+            # is below ``level``.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
@@ -199,7 +201,7 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # The result is a single product, and ``node`` is the only factor.
+        # ``node`` is not expanded. In the notation s k v c of :data:`Sum`, c is the node and s = k = v = 1.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
@@ -239,9 +241,9 @@ class _Chains:
         for a, b in (node.args, node.args[::-1]):
             if self.fixed[a.id] and b.op == "mul":
                 for c, d in (b.args, b.args[::-1]):
-                    # A factor is fixed if the factor is constant in a run. If c and d are both fixed, the
-                    # product c d is fixed, too. In this case, the order of the multiplications is not
-                    # changed.
+                    # The factor a is constant in a run. The order of the multiplications is changed if c is
+                    # constant in a run and d varies. If c and d are both constant, then c d is constant, too,
+                    # and a (c d) needs no change.
                     if self.fixed[c.id] and not self.fixed[d.id]:
                         return self._product(a * c, d)
         return node

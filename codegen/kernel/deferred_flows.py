@@ -24,15 +24,18 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Parted:
-    """The three programs for the beginning, the steps and the end of a run.
+    """Programs for the beginning, the steps and the end of a run, and the durations of joined flows.
 
-    - ``begin`` is executed before the first step. It is None if no flows of successive steps are joined.
-    - ``core`` is executed in each step. The duration of a joined flow in ``core`` is the variable
-      :data:`LEAD`.
-    - ``last`` and ``later`` are two factors. LEAD is ``last`` * h in the last step of a run, and
-      ``later`` * h in all other steps.
-    - ``finish`` is executed after the last step, and is None if no flow is deferred to the end of the run.
-      The flows in ``finish`` have the duration :data:`ELAPSED`, the sum of the durations of all steps.
+    A joined flow replaces a flow at the end of a step and a flow at the beginning of the next step. A
+    deferred flow commutes with all other flows. One flow at the end of a run replaces equal deferred flows of
+    all steps.
+
+    - ``begin`` is executed before the first step. It is None if no flows are joined.
+    - ``core`` is executed in each step. The duration of each joined flow is the variable :data:`LEAD`.
+    - ``finish`` is executed after the last step. It contains the deferred flows, with the duration
+      :data:`ELAPSED`, the sum of the durations of all steps. If no flow is deferred, ``finish`` is None.
+    - ``last`` and ``later`` are factors: LEAD is ``last`` * h in the last step of a run, and ``later`` * h in
+      all other steps.
     """
 
     begin: Program | None
@@ -133,7 +136,10 @@ def _joined(
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
-    """Return the largest n such that the first n flows belong to different parts and commute pairwise."""
+    """Return the largest n such that the first n flows commute pairwise and belong to different parts.
+
+    ``letters`` contains the flows. A part is a term of the Hamiltonian.
+    """
     n = 0
     # If the first n flows commute pairwise, each of these flows can be moved to the beginning.
     while n < len(letters) and all(
@@ -149,7 +155,10 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
-    """Return the program that applies the flows ``letters`` and has the additional inputs ``more``."""
+    """Return a copy of the program ``old`` with different flows and with additional inputs.
+
+    ``letters`` contains the flows of the copy, and ``more`` contains the additional inputs.
+    """
     # ``body`` begins with the assignments of all stage times.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]

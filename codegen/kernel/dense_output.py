@@ -29,7 +29,8 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
     """
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))
-    # With ``chains=COMBINED``, the code is not split into functions, so no function names clash.
+    # Outlined functions of this kernel could have the same names as outlined functions of the step. The
+    # argument ``chains=COMBINED`` prevents outlining.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
     # The outputs are the coefficients of theta^1, ..., theta^degree. These are all coefficients of the
     # polynomial sigma(theta), because sigma(0) = 0.

@@ -21,7 +21,10 @@ from codegen.kernel import newton
 from codegen.passes.rewrite import uses
 
 MANY = 12
-"""The largest number of unknowns for which all products of sums in Newton's matrix are expanded."""
+"""For at most MANY unknowns, each product a (b + c) in Newton's matrix is expanded to a b + a c.
+
+For more unknowns, a product may keep its factor b + c if this sum contains neither the unknowns nor h.
+"""
 
 LONGEST_MATRIX = 1500
 """The largest number of operations for the exact matrix of Newton's method. A matrix with more operations is
@@ -58,7 +61,10 @@ class Block:
     kept: tuple[tuple[str, Expr], ...] = ()
 
     def targets(self) -> tuple[Expr, ...]:
-        """Return the expressions that each sweep computes: the images, and the expressions in ``kept``."""
+        """Return the expressions that each sweep (iteration) computes.
+
+        These are ``images`` (the values g(u) or r(u)), followed by the expressions in ``kept``.
+        """
         return (*self.images, *(x for _, x in self.kept))
 
 
@@ -70,9 +76,9 @@ def compared(
     ``block`` and ``entered`` describe the same equations. The matrix is -r'(u), expanded to first order in h.
     The result is None if ``block`` has no residuals, or if the residuals cannot be expanded in h.
 
-    The function also changes ``env``. Let d be the change of the unknowns u in a sweep. Some values v(u) are
-    replaced by the approximation v(u) + v'(u) d of v(u + d), where v'(u) is expanded to first order in h.
-    Only elements of a Lie algebra or of its dual space are replaced.
+    The function also changes ``env``. Suppose that a sweep (one iteration) changes the unknowns from u to
+    u + d. Some values v(u + d) in ``env`` are replaced by the approximation v(u) + J d, where the matrix J is
+    v'(u) to first order in h. Only elements of a Lie algebra or of its dual space are replaced.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -187,7 +193,10 @@ class Solved:
                 self.known[image.id] = self.space.sym(name)
 
     def value(self, value: Any) -> Any:
-        """Return ``value`` with each g_i(u) replaced by the unknown u_i."""
+        """Return ``value`` with the unknown u_i in place of each expression g_i(u).
+
+        The equations are u_i = g_i(u).
+        """
         return tuple(map(self._one, value)) if isinstance(value, tuple) else self._one(value)
 
     def _one(self, root: Expr) -> Expr:

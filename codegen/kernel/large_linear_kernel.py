@@ -180,7 +180,8 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # The value of the field is (h A(t))/h^1, with the exponent 1.
+            # A :class:`_Value` is x/h^p, where x is a combination of matrices h A(t_i). The value of the
+            # field is A(t) = (h A(t))/h, so p is 1.
             case Field():
                 # An autonomous matrix A is constant, so any time gives the same value.
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)

@@ -75,12 +75,11 @@ ZERO = Number.rational(0)
 
 @dataclass(frozen=True)
 class _Element:
-    """The vector field u -> h^power (a lambda u + b) for the coefficient u of one Fourier mode.
+    """The vector field u -> h^power (a lambda u + b), where u is the coefficient of one Fourier mode.
 
-    Here a is the number ``a``, and lambda is the eigenvalue of the linear operator L for this mode.
-
-    The vector b is a linear combination of values of the nonlinearity N. The attribute ``b`` contains its
-    coefficients.
+    The number lambda is the eigenvalue of the linear operator L for this mode. The term b is a linear
+    combination of values of the nonlinearity N. The attribute ``b`` contains the coefficients of this linear
+    combination.
     """
 
     a: Number
@@ -267,7 +266,8 @@ class _Execution:
         """Record an evaluation of the nonlinearity N at ``point`` and ``time``."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # The result is the vector field u -> lambda u + N_j, where N_j is the value of the new evaluation.
+        # The result is the vector field u -> lambda u + N_j. N_j is the value of N in the evaluation that was
+        # just recorded, and j is the index of this evaluation.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
@@ -276,7 +276,8 @@ class _Execution:
         return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
 
     def _product(self, g: _Map, k: _Map) -> _Map:
-        # The composition g(k(u)) is exp((g.a + k.a) z) u + h (exp(g.a z) k.b + g.b).
+        # The map g is u -> exp(g.a z) u + h g.b with z = h lambda, and k is a map of the same form. Therefore
+        # g(k(u)) = exp((g.a + k.a) z) u + h (exp(g.a z) k.b + g.b).
         return _Map(g.a + k.a, _sum([(_constant(ONE), g.b), (Multiplier.of(EXP, g.a), k.b)]))
 
     def _moved(self, g: _Map, point: Sum) -> Sum:
@@ -284,8 +285,8 @@ class _Execution:
         return _sum([(Multiplier.of(EXP, g.a), point), (_constant(ONE), g.b)])
 
     def _bracket(self, x: _Element, y: _Element) -> _Element:
-        # The bracket of (a, b) and (c, d) is (0, lambda (a d - c b)). The factor lambda is z/h. The factor
-        # 1/h decreases ``power`` by one.
+        # The bracket of (a, b) and (c, d) is (0, lambda (a d - c b)), and lambda is z/h. The factor 1/h
+        # decreases the exponent of h, ``power``, by one.
         z = Multiplier.of(POWER, ONE)
         b = _sum([(z.scaled(x.a), y.b), (z.scaled(-y.a), x.b)])
         return _Element(ZERO, b, x.power + y.power - 1)

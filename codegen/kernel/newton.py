@@ -79,7 +79,12 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
 
 class _AtZero(ExprDomain):
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return the value in :data:`AT_ZERO` if the first argument is zero, otherwise a call node."""
+        """Return the expression function(args).
+
+        The table :data:`AT_ZERO` contains values of functions at zero. If the first argument is zero and the
+        table contains the function, the value in the table is returned. ZeroDivisionError is raised if this
+        value is None.
+        """
         # The closed forms of Stumpff functions are 0/0 at zero, so the values come from :data:`AT_ZERO`.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]

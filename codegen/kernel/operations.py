@@ -156,12 +156,14 @@ def costs(kernel: Kernel) -> list[str]:
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
         # The end of a run needs two more additions for each component of the momentum.
         added = {"add": 2 * len(turned[1].outputs)}
-        # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
+        # The counted operations convert the momentum. A run executes ``inward`` and ``outward`` at its
+        # beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
-        lines.append(f"{first} at the beginning of a run, {last} at its end")
+        lines.append(f"{first} at the start of a run, {last} at the end of a run")
     for each_kernel in kernel.deferred.kernels if kernel.deferred is not None else ():
-        # A kernel of a deferred flow has no loops, so its text is one line.
+        # ``sentences`` returns more than one line only for a kernel with loops. The kernels in
+        # ``kernel.deferred`` have no loops.
         (line,) = sentences(operations(arrange(each_kernel)))
         lines.append(f"{line.removesuffix(' a step')} once in each run")
     return lines

@@ -55,17 +55,17 @@ class _Inputs:
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
 ) -> tuple[Function, list[int], list[str]]:
-    """Return a function that executes the assignments of ``tree``, and two lists.
+    """Return an outlined function that executes the assignments of ``tree``, and two lists.
 
-    The first list contains the indices of the tree inputs that the function needs. The second list contains
-    the names of the scene parameters that the function needs. The function returns result k of the tree if
-    ``read`` contains k. ``fixed`` has one entry for each input of the tree: the constant that all calls pass
-    for this input, or None.
+    The outlined function returns those results of the tree whose indices are in ``read``. The first list
+    contains the indices of the tree inputs that the outlined function needs. The second list contains the
+    names of the scene parameters that the outlined function needs. ``fixed`` has one entry for each input of
+    the tree: the constant that all calls pass for this input, or None.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # A formula that is built from the input expressions of one call may be wrong for the inputs of other
-    # calls. Therefore each input is a symbol, unless all calls pass the same constant for this input.
+    # The function must be correct for the inputs of all calls. Therefore each input is a symbol, unless all
+    # calls pass the same constant for this input.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -101,7 +101,7 @@ def function(
         else:
             own = assign.operation.evaluate(scene, domain, args)
             results += own
-            # ``texts[k]`` describes ``results[k]``. All results in ``own`` have the same text.
+            # ``texts[k]`` describes ``results[k]``, so each result of the operation gets the same text.
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]

@@ -50,7 +50,12 @@ If no point gives finite values, the verification tries ATTEMPTS further points 
 """
 
 Shape = tuple[Key, tuple[int, ...]]
-"""The key of a tree, and the indices of those results of the tree that are read outside the tree."""
+"""The shape of a tree (:class:`Tree`), a group of assignments that a function call can replace.
+
+A shape is a pair. The first entry is the key of the tree: trees with equal keys can share one function. The
+last assignment of the tree computes the results of the tree. The second entry of the pair contains the
+indices of those results that are read outside the tree.
+"""
 
 
 @dataclass
@@ -144,15 +149,20 @@ class Outline:
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
             kept = {key: alike for key, alike in groups.items() if len(alike) > 1}
-            # Trees with a unique shape are removed, because a function with one call saves nothing.
+            # All trees of one shape become calls of one function. If only one tree has a given shape, the
+            # function would have one call and would save nothing. Therefore this tree is removed.
             left = [t for alike in kept.values() for t in alike]
-            # If no tree was removed, a repetition would find the same groups.
+            # If no tree was removed from ``trees``, one more round would find the same groups.
             if len(left) == len(trees):
                 return {key: [trees[t] for t in alike] for key, alike in kept.items()}
             trees = [trees[t] for t in sorted(left)]
 
     def _read(self, roots: Sequence[Expr], trees: Sequence[Tree]) -> dict[int, set[int]]:
-        """For each tree, find the results of the tree that are read elsewhere, and return their indices."""
+        """For each tree, return the indices of those results that are read outside the tree.
+
+        A tree is a group of assignments. The results of the last assignment are the results of the tree. The
+        keys of the returned dictionary are the indices of the trees in ``trees``.
+        """
         ends: dict[int, tuple[int, int]] = {}
         for t, tree in enumerate(trees):
             for k, x in enumerate(self.trees.results(tree)):
@@ -169,8 +179,8 @@ class Outline:
         waiting = list(roots)
         while waiting:
             # Each element of ``trees`` is a group of assignments that a function call can replace. The keys
-            # of ``ends`` are the ids of the results of these function calls. ``walk`` visits such a result,
-            # but not the arguments of the result, because these arguments are read inside of the function.
+            # of ``ends`` are the ids of the values that these calls return. ``walk`` stops at such a value,
+            # because the operations that compute the value are inside the function.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]
@@ -183,9 +193,10 @@ class Outline:
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Return True if a single function call can replace ``tree``.
+        """Return True if one function call can compute all needed results of ``tree``.
 
-        ``read`` contains the indices of the results of ``tree`` that the call must return.
+        ``read`` contains the indices of the needed results. One call is not enough if some needed results are
+        computed outside the loop that contains the call, or if an input of the call may depend on a result.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
         # The loop of block ``deepest`` contains the function call. Results that do not depend on the unknowns
@@ -217,7 +228,8 @@ class Outline:
             try:
                 old = evaluate(before, domain, values)
                 new = evaluate(after, WithFunctions(domain, self.outlined), values)
-            # A pole at this test point proves nothing, so the next point is tried.
+            # If an evaluation fails, for example by a division by zero, ``old`` and ``new`` cannot be
+            # compared, and the next test point is tried.
             except (ArithmeticError, ValueError):
                 continue
             # The comparison is false for infinities and for NaN.

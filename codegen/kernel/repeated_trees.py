@@ -1,7 +1,8 @@
 """Finds repeated trees: groups of assignments that occur several times and can become one outlined function.
 
-If only one assignment reads the results of another assignment, both assignments can be joined into one tree.
-The pairs of trees that save the most lines of code are joined first.
+At first, each assignment is a tree of its own. A tree A can be joined with a tree B if only one assignment
+reads the results of A, and B contains this assignment. The pairs of trees that save the most lines of code
+are joined first.
 """
 
 from __future__ import annotations
@@ -129,7 +130,7 @@ class Trees:
     def joined(self) -> list[Tree]:
         """Join assignments into trees, as long as this saves lines of emitted code. Return the trees."""
         self._find_users()
-        # The key of a tree in ``trees`` is the index of its last assignment.
+        # ``trees[i]`` is the tree whose last assignment has the index i.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
         # Each round except the last joins at least one pair of trees, so the number of trees decreases.
@@ -182,7 +183,8 @@ class Trees:
         i, j = places[0]
         # If ``count`` exceeds ``k``, some trees are not joined and need their own function.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # Each joined pair saves a call, which is about three lines.
+        # If two trees are joined, one function call replaces two calls. This saves about three lines for each
+        # of the ``k`` pairs. ``copies`` counts the lines of the functions for trees that are not joined.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
@@ -259,7 +261,8 @@ class Trees:
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
-            # A ``Linear`` operation contains the values of coefficients, so it is omitted.
+            # Trees that differ only in the values of coefficients can share a function, so they need equal
+            # keys. A ``Linear`` operation contains the values of its coefficients, so it is omitted.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
@@ -304,7 +307,10 @@ class Trees:
 
 
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
-    """Return a pair (label, k) for each coefficient c h^k. Equal coefficients have equal labels."""
+    """Return a pair (label, k) for each coefficient c h^k.
+
+    The coefficient 1 has the label 0. Two coefficients have the same label only if both c and k are equal.
+    """
     seen: dict[Coefficient, int] = {}
     # Products with equal coefficients are computed once, and a product with the coefficient 1 is omitted.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)

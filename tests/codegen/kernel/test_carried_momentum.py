@@ -151,7 +151,7 @@ def test_what_a_run_does_once_is_not_done_in_its_steps():
     counts = emission.manifest["operations"]["step"]
     assert counts["add"] + counts["mul"] < 100  # turned in each step: 148
     text = emission.files["dipole_vcg_midpoint.c"]
-    assert "12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end" in text
+    assert "12 add, 18 mul at the start of a run, 12 add, 9 mul at the end of a run" in text
 
 
 def test_explicit_methods_and_fields_stay_in_space():
