@@ -45,7 +45,10 @@ class SharedCall:
 
     @property
     def function(self) -> str:
-        """The name of the function that computes c_k for all k in ``orders``, for example ``stumpff_12``."""
+        """The name of the called function. The digits in the name are the numbers in ``orders``.
+
+        For example, ``stumpff_12`` computes the Stumpff functions c_1 and c_2.
+        """
         return "stumpff_" + "".join(map(str, self.orders))
 
 
@@ -95,7 +98,12 @@ Simple = Assignment | SharedCall | Invocation
 
 @dataclass(frozen=True)
 class Beginning:
-    """The printable statement that sets the starting values of the unknowns."""
+    """The statement that sets the starting values of the unknowns of all implicit equations.
+
+    ``body`` contains the assignments that compute ``values``. If no solution of an earlier step is stored,
+    the starting values are ``values``. Otherwise the starting values are extrapolated from the stored
+    solutions (:class:`codegen.ir.kernel.Start`).
+    """
 
     start: Start
     body: tuple[Simple, ...]
@@ -289,8 +297,13 @@ class _Scope:
     def nested(
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
-        """Rewrite the assignments ``lets`` and the results ``values`` of a nested block, and return them."""
-        # A step may skip the block, so later statements do not read names assigned in the block.
+        """Return the statements and the results of a nested block, ready to print.
+
+        ``lets`` contains the assignments of the block, and ``values`` contains its results. Powers become
+        products, and one call computes all required Stumpff functions of an argument.
+        """
+        # If a step skips the block, the values of the block are not computed. Therefore the block has a scope
+        # of its own, and later statements cannot read these values.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
         rewritten = tuple(inner.rewrite(e) for e in values)
@@ -320,7 +333,8 @@ class _Scope:
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # Later expressions use the name of the result in place of ``let.name``.
+        # If ``value`` is the symbol of a result of a function call, no assignment is needed, because later
+        # expressions can read this symbol in place of ``let.name``.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before

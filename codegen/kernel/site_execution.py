@@ -137,7 +137,8 @@ class Execution:
     def _roots(self, operation: Operation) -> list[Expr]:
         """Return the formulas that ``operation`` evaluates."""
         if isinstance(operation, Energy):
-            # The formula returned here is the contribution of one site to the energy of the lattice.
+            # ``share`` returns the contribution of one site to the energy of the lattice. This contribution
+            # depends on which neighbours of the site exist.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
         # The coordinates of the point are symbols, so the results are formulas.
         if isinstance(operation, Differential):
@@ -186,7 +187,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # A symbol has only one entry in ``self.ghosts``, so a different entry requires a new symbol.
+        # ``self.ghosts`` maps each symbol to one value. If the dictionary already contains another value for
+        # one of these symbols, new symbols are needed.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
@@ -198,7 +200,8 @@ class Execution:
     def sweep(self, content: Content, sums: tuple[tuple[str, Row], ...]) -> Sweep:
         """Return the sweep that ``content`` describes.
 
-        For each sum over all sites, ``sums`` contains the name of the sum and the row of its terms.
+        ``sums`` contains a pair (name of the sum, row) for each sum over all sites. The row contains one term
+        of the sum for each site.
         """
         # The outputs of the kernel and the rows in ``stores`` have the same order.
         ends = [x for _, var in content.stored for x in flatten(var.kind, self.env[var])]
@@ -215,7 +218,8 @@ class Execution:
             # ``ghosts`` must have the same order as ``self.loads`` (:class:`codegen.ir.site_step.Sweep`).
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
-            # All values that the ghosts depend on are loaded, too.
+            # ``outside`` computes the values of neighbours outside the lattice. The sweep must also load the
+            # numbers that ``outside`` reads.
             read |= {n.payload for n in walk(outside.expressions()) if n.op == "sym"}
         loads = tuple(load for symbol, load in self.loads.items() if symbol in read)
         own = (unknowns, content.measured)

@@ -59,8 +59,9 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     If ``newton`` is true, Newton's method solves the implicit equations. The lattice must then be
     one-dimensional.
 
-    Methods other than splitting methods and Taylor's method may evaluate only the field, the energy, and the
-    derivatives of the energy. Otherwise MethodError is raised.
+    The method may evaluate the field, the energy, and the derivatives of the energy. If the method evaluates
+    another function of the scene, MethodError is raised. This rule does not apply to splitting methods and to
+    Taylor's method.
     """
     lowering = lowering_of(method.family)
     # No compiler pass rewrites flows, so the passes are skipped for splitting methods.

@@ -158,10 +158,10 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a site, computed from the stage values of the site and of its neighbours."""
-        # The field at site i + 1 reads values at site i + 2. If the equations at site i contain the field at
-        # site i + 1, these equations depend on values at site i + 2. In this case, Newton's matrix is not
-        # block-tridiagonal. Such equations contain nested evaluations: one evaluation of the field reads the
-        # result of another evaluation.
+        # In nested evaluations, one evaluation of the field reads the result of another evaluation. For
+        # example, the field at site i reads the field at site i + 1, and the field at site i + 1 reads values
+        # at site i + 2. Then the equations at site i depend on values at site i + 2, and Newton's matrix is
+        # not block-tridiagonal.
         if site != OWN:
             raise MethodError(
                 "Newton's method for a chain of sites cannot solve equations with nested evaluations of the "

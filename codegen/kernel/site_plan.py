@@ -48,7 +48,10 @@ class _Needs:
 
 @dataclass(frozen=True)
 class _Block:
-    """A system of implicit equations, and the indices of the first and the last sweep of an iteration."""
+    """A system of implicit equations that is solved by iteration.
+
+    Each iteration executes the sweeps (loops over all sites) with the indices ``first`` to ``last``.
+    """
 
     solve: Solve
     first: int
@@ -126,10 +129,12 @@ class Planner:
         """
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
-        # The rows of the workspace contain, in this order: variables, residuals, ``border`` and ``matrix``
-        # (:class:`codegen.ir.site_step.SiteNewton`).
+        # The workspace contains variables, residuals, the border and the matrix, in this order
+        # (:class:`codegen.ir.site_step.SiteNewton`). The border begins at row ``border``, and the matrix
+        # begins at row ``matrix``.
         border = count + most
-        # ``border`` needs rows only on a periodic chain, which couples the first and last sites.
+        # Only a periodic chain has a border, because its first and its last site are neighbours. The border
+        # occupies ``most * most`` rows.
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):
@@ -303,7 +308,8 @@ class Planner:
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
             # A set has no fixed order, but the workspace layout must be the same in every compilation.
             free = sorted({*free, *ended})
-            # The sweep before the first iteration stores the starting values in the rows of the unknowns.
+            # The sweep before ``block.first`` stores the starting values of the unknowns, so the unknowns
+            # need rows from that sweep on.
             begun = [u for block in self.blocks if block.first - 1 == number for u in block.solve.unknowns]
             stored = [v for v in self._ordered(need.computed) if self.sweep_of[v] == number]
             for var in [*begun, *(v for v in stored if used.get(v, -1) > number)]:

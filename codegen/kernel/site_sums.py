@@ -55,11 +55,12 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
     operation: Operation
     args: tuple[Var, ...]
     if isinstance(assign.operation, Secant):
+        # ``before`` and ``after`` are the energies of a site before and after the displacement x.
         g, x, before, after = assign.args
-        # The excess is computed at each site, and the results of all sites are added. The difference of two
-        # total energies would have a large rounding error.
+        # ``paired`` is the inner product of g and x at one site.
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
-        # ``excess`` is the sum over all sites of the energy difference minus the inner product of g and x.
+        # At each site, ``Excess`` computes ``after - before - paired``, and ``Total`` adds these numbers. The
+        # difference of two total energies would have a larger rounding error.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):

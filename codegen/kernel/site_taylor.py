@@ -109,9 +109,11 @@ class TaylorSweeps:
     def _load(
         self, rows: Sequence[Row], own: Sequence[str], around: Sequence[Sequence[str]], degree: int
     ) -> None:
-        """Record which rows contain a Taylor coefficient of the given ``degree``.
+        """Record in ``loads`` where the Taylor coefficients of the given ``degree`` are stored.
 
-        Formulas for neighbours outside the lattice are added to ``ghosts``.
+        ``rows[k]`` contains the coefficient of coordinate k at each site. In expressions, the symbol
+        ``own[k]`` denotes this coefficient at the site itself, and the symbol ``around[i][k]`` denotes this
+        coefficient at neighbour i. Formulas for neighbours outside the lattice are added to ``ghosts``.
         """
         # Coefficients with an empty name are zero, and are not loaded.
         self.loads |= {s: Load(s, row) for s, row in zip(own, rows, strict=True) if s}
@@ -124,9 +126,12 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return ``terms``, possibly with 0 in place of None. None represents a coefficient that is zero at
-        all sites and also outside the lattice. A coefficient that is zero at all sites, but not outside the
-        lattice, is represented by 0.
+        """Return ``terms``, with 0 in place of None if a coefficient outside the lattice may be nonzero.
+
+        ``terms`` contains the Taylor coefficients of the given ``degree`` at one site. None represents a
+        coefficient that is zero at all sites. In the result, None represents a coefficient that is zero at
+        all sites and also outside the lattice. Exception: for the largest degree, ``terms`` is returned
+        unchanged, because no neighbour reads these coefficients.
         """
         if degree == self.degree:
             return terms

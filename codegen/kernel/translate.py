@@ -117,7 +117,7 @@ class _Translation:
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
         self.blocks: list[Block] = []
-        # ``name`` returns none of the names in ``taken``.
+        # These names are in use, so the method ``self.name`` returns none of them.
         self.taken = {*scene.symbols, *scene.runtime, *scene.inputs, "h", TIME, LEAD, ELAPSED}
         # ``inside`` is true while the equations of a block are translated.
         self.outline, self.inside = Outline(program, scene, self.domain), False
@@ -191,7 +191,8 @@ class _Translation:
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # Variations need the values g(u), but ``compared`` replaces g(u) by residuals.
+        # ``compared`` replaces the equations u = g(u) for the unknowns u by equations r(u) = 0. If the kernel
+        # computes derivatives of the step (``self.variations``), g is needed, so u = g(u) is not replaced.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
         # The block ``residuals`` already contains Newton's matrix.
@@ -401,7 +402,7 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
 
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
-    """Return the kernel with the attributes ``inputs`` and ``samples``.
+    """Return a copy of the kernel in which the attributes ``inputs`` and ``samples`` are set.
 
     A sample contains all run-time inputs at one time.
     """

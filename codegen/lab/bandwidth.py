@@ -247,8 +247,9 @@ class _Runs:
     def timed(self, side: int, steps: int, repeated: int = 1) -> tuple[Status, float]:
         """Return the status of a run, and the CPU time in seconds for one site and one step.
 
-        The number of runs is ``repeated``, and the shortest time is returned. If a run fails, the method
-        returns the status of this run and a meaningless CPU time.
+        The same run is made several times, and the shortest CPU time is returned. The argument ``repeated``
+        is the number of runs. If a run fails, the method returns the status of this run and a meaningless CPU
+        time.
         """
         import numpy as np
 
@@ -277,7 +278,8 @@ class _Runs:
         while status == Status.OK and pace * sites * steps < RESOLVED:
             steps *= 2
             status, pace = self.timed(side, steps)
-        # An unstable method may fail in the last run.
+        # If the last run failed, for example because the method is unstable, the number of steps of the
+        # previous run is used.
         steps = steps if status == Status.OK else max(steps // 2, 1)
         return self.timed(side, steps, REPEATED)[1]
 

@@ -215,7 +215,7 @@ def emitted(
     adaptive: bool = False,
     equations: Equations | None = None,
 ) -> Candidate:
-    """Return the candidate for a method on a scene.
+    """Emit a method for a scene, and return the emitted integrator as a candidate for measurements.
 
     If the method cannot be emitted for the scene, return a :class:`Refused` with the reason.
     """
@@ -257,7 +257,8 @@ def table(rows: Sequence[Row]) -> str:
 def curves(result: Result, styles: Styles) -> list[Curve]:
     """Return one curve of errors and CPU times for each candidate with a successful run.
 
-    A curve contains only runs on the fastest forms of the equations (:func:`frontier`).
+    The runs of a candidate can use different forms of the equations. The curve omits a run if the candidate
+    reaches the same error faster with another form (:func:`frontier`).
     """
     drawn = []
     for label, rows in result.entries.items():

@@ -21,9 +21,10 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""For recipes up to this order, the compiler searches for the smallest number of commutators.
+"""The search for the fewest commutators is used only for methods of at most this order.
 
-For larger orders, the search takes seconds.
+In this search, the compiler determines how few commutators a method needs to keep its order. For higher
+orders, the search takes seconds.
 """
 
 

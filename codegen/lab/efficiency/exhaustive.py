@@ -2,11 +2,12 @@
 
 A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 
-1. The CPU time of each recipe is predicted from a few runs in the interpreter. 2. The predicted CPU time
-divided by the safety factor SAFE is a lower bound of the true CPU time. 3. A recipe is excluded if its lower
-bound exceeds a time limit for every required error. The time limit for an error is WORST times the CPU time
-of the best recipe of ``orderconds recommend`` for this error. 4. The remaining recipes are emitted, compiled
-and timed. 5. A sample of the excluded recipes is also timed, to test the lower bounds.
+1. The CPU time of each recipe for each required error is predicted from a few runs in the interpreter. 2. The
+predicted CPU time divided by the safety factor SAFE is a lower bound of the true CPU time. 3. Each required
+error has its own time limit: WORST times the CPU time of the best recipe of ``orderconds recommend`` for this
+error. A recipe is excluded if its lower bounds for all required errors exceed the time limits of these
+errors. 4. The remaining recipes are emitted, compiled and timed. 5. A sample of the excluded recipes is also
+timed, to test the lower bounds.
 """
 
 from __future__ import annotations
@@ -52,8 +53,10 @@ class Exhausted:
     - ``copies``: the number of recipes that were not timed, because their code equals that of a timed recipe.
     - ``excluded``: the number of recipes that were not timed, because their predicted CPU times were too
       long.
-    - ``nearest``: the smallest ratio c/b. Here b is the best CPU time, and c is the CPU time of a recipe in a
-      sample of the excluded recipes. If ``nearest`` is below 1, a faster recipe was excluded.
+    - ``nearest``: the result of a test, in which a sample of the excluded recipes is timed. For a recipe of
+      the sample and a required error, let c be the CPU time of the recipe, and let b be the least CPU time
+      measured earlier for this error. ``nearest`` is the minimum of c/b over the sample and all required
+      errors. If ``nearest`` is below 1, a faster recipe was excluded.
     - ``complete``: False if the time limit ended the search.
     """
 
@@ -85,8 +88,9 @@ class Exhausted:
         )
         if math.isfinite(self.nearest):
             counts += (
-                "; some excluded recipes were also measured, and their CPU times are at least "
-                f"{self.nearest:.1f} times the best CPU time measured before"
+                "; to test the predictions, some recipes with too long predicted times were also measured: "
+                f"they took at least {self.nearest:.1f} times as long as the fastest recipe measured before "
+                "them"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
 
@@ -132,7 +136,7 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Predict the CPU time for each pair (method, form of the equations), with equal steps."""
+    """Predict CPU times with a constant step size, for each pair (method, form of the equations)."""
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
     jobs = [(recipe, bars) for recipe in recipes]
@@ -154,10 +158,10 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
     ``limits`` maps each required error to its time limit in seconds. The time limits include the safety
     factor SAFE.
 
-    A prediction is unreliable in two cases:
+    A prediction is based on runs of the method in the interpreter. The prediction is unreliable in two cases:
 
-    - The runs in the interpreter failed.
-    - The runs in the interpreter had large errors, and the recipe is implicit or has step-size control.
+    - No run succeeded.
+    - The runs had large errors, and the recipe is implicit or has step-size control.
 
     For an unreliable prediction, let q be the predicted time of a single step, divided by the longest time
     limit. The result is q if q > 1, and otherwise 0.

@@ -79,7 +79,8 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # The factor 2 is needed: emitted code iterates to about 16 digits, this run to 9.
+    # The iterations above end at an accuracy of 9 digits (``SETTLED``). Emitted code iterates to about 16
+    # digits, so it needs about twice as many sweeps.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 

@@ -22,7 +22,8 @@ FRESH = 8
 """A constant that determines how often the limits in a :class:`Bar` are updated.
 
 A bar contains limits on the error and the CPU time of a recipe. The limits are computed from the predictions
-for earlier recipes. Limits from n predictions are updated after 1 + n // FRESH further predictions.
+for earlier recipes. Limits that were computed from n predictions are updated after 1 + n // FRESH further
+predictions. If FRESH is larger, the limits are updated more often.
 """
 
 
@@ -43,7 +44,12 @@ The next recipe comes from the queue with the smallest value of (n + d)/EVEN + s
 """
 
 FAILED = 4.0
-"""The slowness of a queue (:data:`EVEN`) if all predicted CPU times for its kind are infinite."""
+"""The slowness of a kind of recipes (:data:`Kind`) if all predicted CPU times for this kind are infinite.
+
+Otherwise the slowness is log2(T1/T2). Here T1 is the least predicted CPU time of all recipes of the kind, and
+T2 is the least predicted CPU time of all recipes. The docstring of :data:`EVEN` describes the use of the
+slowness.
+"""
 
 
 def usual_order(error: float) -> float:
@@ -78,8 +84,8 @@ class Jobs(Sequence[Job]):
 
     The choice of the next recipe is explained at :data:`EVEN`.
 
-    - ``goals``: the goals for which a recipe is predicted.
-    - ``controlled``: the goals that a recipe can meet with step-size control.
+    - ``goals``: for each recipe, the goals for which the CPU time of the recipe is predicted.
+    - ``controlled``: for each recipe, the goals that the recipe can meet with step-size control.
     - ``early``: names of the methods whose recipes are predicted first.
     """
 
@@ -136,15 +142,23 @@ class Jobs(Sequence[Job]):
         return recipe
 
     def _place(self, queue: Queue) -> float:
-        """Return (n + d)/EVEN + s for a queue. The symbols are explained at :data:`EVEN`."""
+        """Return the number (n + d)/EVEN + s. The next recipe comes from the queue with the smallest number.
+
+        - n is the number of recipes that were taken from the queue.
+        - d is the distance between the order of these recipes and the nearest order in ``self.usual``.
+        - s is the slowness of the queue (:meth:`_behind`).
+        """
         distance = min(abs(queue[1] - order) for order in self.usual)
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the slowness s (:data:`EVEN`) of a queue, or 0 if there are no predictions.
+        """Return the slowness of a queue. All recipes in a queue have the same kind (:data:`Kind`).
 
-        The slowness is computed for each goal of the first recipe in the queue, and the least value is
-        returned.
+        For each goal of the first recipe in the queue, let T1 be the least predicted CPU time of the recipes
+        of this kind, and let T2 be the least predicted CPU time of all recipes. The slowness is the minimum
+        of log2(T1/T2) over these goals. Goals are ignored if T1 is unknown, or if T2 is infinite.
+
+        If no goal remains, the slowness is 0. If T1 is infinite for all remaining goals, it is FAILED.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
@@ -158,10 +172,11 @@ class Jobs(Sequence[Job]):
         return math.log2(min(ratios)) if math.isfinite(min(ratios)) else FAILED
 
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
-        """Store a reliable prediction for a recipe.
+        """Store a prediction for a recipe, except in two cases.
 
-        A prediction with a ``failure`` is not stored. A ``vague`` prediction is stored only if its
-        attribute ``controlled`` is not None.
+        - The method cannot be used for the scene (``failure`` is not empty).
+        - The prediction with equal steps is unreliable (``vague`` is true), and there is no prediction with
+          step-size control (``controlled`` is None).
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return

@@ -90,11 +90,14 @@ class Numeric(Operation):
 
     @property
     def name(self) -> str:
-        """The name of the operation that ``function`` replaces."""
+        """The name of the operation that was replaced by the Python function."""
         return self.label
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
-        """Return the results of the attribute ``function`` for the inputs ``args`` and the step size."""
+        """Call the Python function with the components of ``args`` and the step size ``domain.h``.
+
+        Return the results of the call, with one entry for each element of ``parts``.
+        """
         flat: list[Scalar] = []
         for x in args:
             if isinstance(x, tuple):
