@@ -32,7 +32,11 @@ from codegen.run.step_cost import WEIGHTS, Amounts
 from codegen.scene.problem import Problem
 
 FEW_STEPS, MANY_STEPS = 8, 1024
-"""The smallest and the largest number of steps of an interpreted run with equal steps."""
+"""Limits for the number of equal steps in the test runs of a method.
+
+A test run is made in Python, without emitted code. The first test run of a method has FEW_STEPS steps. The
+number of steps is doubled from run to run, up to MANY_STEPS. A :class:`Bar` can change both limits.
+"""
 
 SMALL = 1e-2
 """An error counts as small if it is at most SMALL, relative to the size of the state.
@@ -54,17 +58,23 @@ PARTS times the error at the end of the first interval.
 """
 
 TRIES = 3
-"""If TRIES consecutive methods of one kind fail, fewer runs are made for this kind.
+"""If TRIES consecutive methods of one kind fail, fewer test runs are made for this kind.
 
-A kind is a pair (family, explicit). After failures with equal steps, runs with equal steps over the whole
-time span are omitted. After failures with step-size control, step-size control is not used.
+A kind is a pair (family, explicit). Failures with equal steps and failures with step-size control are
+counted separately:
+
+- After TRIES failures with equal steps, the runs with equal steps cover only the first interval of the time
+  span (:data:`PARTS`).
+- After TRIES failures with step-size control, no runs with step-size control are made.
 """
 
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
-"""Assumed numbers of sweeps (iterations for the implicit equations) in a step.
+"""Two constants for the prediction of the time of an implicit step.
 
-At least FEWEST_SWEEPS sweeps are assumed. Before the first run of a method, USUAL_SWEEPS sweeps are assumed.
+A sweep is one iteration for the implicit equations of the step. The predicted time includes at least
+FEWEST_SWEEPS sweeps. Before the first run of a method, the number of sweeps is unknown, and USUAL_SWEEPS
+sweeps are assumed.
 """
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
@@ -96,7 +106,8 @@ class Prediction:
     - ``steps``: the number of steps for which ``error`` is predicted.
     - ``error``: the predicted error with ``steps`` steps. The error is predicted from runs of the method in
       an interpreter, and is infinite if these runs fail.
-    - ``rough``: True if no run with equal steps over the whole time span has a small error (:data:`SMALL`).
+    - ``rough``: True if ``error`` is predicted from a run with a large error (above :data:`SMALL`) or from a
+      run over a part of the time span. Also True if all runs fail.
     - ``controlled``: the prediction with step-size control, or None.
     - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS.
     - ``failure``: the reason if the method cannot be used for the scene, and otherwise ''.
@@ -117,9 +128,10 @@ class Prediction:
     failure: str = ""
 
     def count(self, error: float) -> float:
-        """Return the predicted number of steps that a run needs to reach an error.
+        """Return the predicted number of steps that a run needs to reach ``error``.
 
-        The result is infinity if the attribute ``error`` is infinite.
+        If no test run of the method has a finite error, the number of steps cannot be predicted, and the
+        result is infinity.
         """
         if not math.isfinite(self.error):
             return math.inf
@@ -151,9 +163,10 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, x, e) for :meth:`too_high`. The family '' represents all families. The entry
-      x is True for explicit methods, and False for implicit methods. The number e is the least predicted
-      error of these methods after the CPU time ``seconds`` (see :data:`FAR`).
+    - ``least``: triples (family, x, e) for :meth:`too_high`. The entry x is True for explicit methods, and
+      False for implicit methods. The number e is the least of several predicted errors. One error is
+      predicted for each method of the family with this x, for a run that takes the CPU time ``seconds``.
+      Only methods of two higher orders are used (:data:`FAR`). The family '' represents all families.
     - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
       this run.
     - ``explicit``: True if only explicit methods are accepted.
@@ -172,8 +185,9 @@ class Bar:
 
         - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
         - ``self.explicit`` is True, and the argument ``explicit`` is False.
-        - ``self.least`` contains the triple (``family``, ``explicit``, e), and the error e exceeds
-          :data:`FAR` times ``self.error``. If the triple is missing, ('', ``explicit``, e) is used.
+        - The predicted error e in the triple (``family``, ``explicit``, e) of ``self.least`` exceeds
+          :data:`FAR` times ``self.error``. If ``self.least`` contains no triple for ``family``, the triple
+          for all families is used. If both triples are missing, this case does not apply.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -198,13 +212,15 @@ class Predictor:
     """Predicts the CPU times of recipes for one form of the equations of a scene.
 
     - ``exact``: the reference solution.
-    - ``beginning``: a function that returns a pair. The first entry contains the equations on the first
-      interval of the time span. The second entry is the reference solution at the end of this interval. The
-      time span is divided into :data:`PARTS` equal intervals.
+    - ``beginning``: None, or a function that returns a pair. Let the time span be divided into :data:`PARTS`
+      equal intervals. The first entry of the pair contains the equations on the first interval. The second
+      entry is the reference solution at the end of the first interval.
     - ``failures``: for each kind of method, a count of the methods that failed in runs with a constant step
       size. If a method of a kind succeeds, the count for this kind is set to zero.
-    - ``uncontrolled``: for each kind of method, a count of the methods that failed in runs with step-size
-      control. If a method of a kind succeeds, the count for this kind is set to zero.
+    - ``uncontrolled``: for each kind of method, a count of the methods that reached no small error
+      (:data:`SMALL`) with step-size control. If the count is :data:`TRIES`, step-size control is no longer
+      used for this kind. If a method of a kind reaches a small error with step-size control, the count for
+      this kind is set to zero.
     - ``costs``: for each operation, a pair. The first entry is the predicted time of the operation in
       nanoseconds. The second entry contains the number of components of each result of the operation.
     """

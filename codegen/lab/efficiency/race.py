@@ -29,7 +29,10 @@ from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED
 
 HALVINGS = 6
-"""The maximum number of bisection steps in the search for the fastest run of a recipe."""
+"""The maximum number of bisection steps in the search for the fastest run that is accurate enough.
+
+The bisection varies the number of equal steps or the tolerance of the step-size control.
+"""
 
 FINEST = 15.0
 """The exponent k of the smallest tolerance 10^-k."""
@@ -52,10 +55,12 @@ Here t is the argument ``best`` of :meth:`Racer.reach`.
 
 @dataclass(frozen=True)
 class Entry:
-    """A recipe in the race, with its emitted module ``artifact``.
+    """An entry of the race. The race is a comparison of the CPU times of recipes.
 
-    ``features`` contains properties of the emitted method, for example whether it is symplectic. ``label`` is
-    the label of the method.
+    - ``recipe``: a method, one form of the equations, and the choice of equal steps or step-size control.
+    - ``artifact``: the module that is emitted for the recipe.
+    - ``features``: properties of the emitted method, for example whether the method is symplectic.
+    - ``label``: the label of the method.
     """
 
     recipe: Recipe
@@ -81,7 +86,7 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # With this form of the equations, the states may leave the manifold of the scene.
+        # The recipe integrates a system on R^n, so the states may leave the manifold of the scene.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 

@@ -101,8 +101,8 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
     """Return the successful runs of one integrator, without slow runs.
 
     A run is slow if the integrator reaches the same error in less CPU time with another form of the
-    equations. For several forms, the runs in the result are sorted by error, from large to small. For a
-    single form, the runs have the same order as in ``rows``.
+    equations. If ``rows`` contains runs with several forms, the result is sorted by error, from large to
+    small. If all runs in ``rows`` have the same form, the result has the same order as ``rows``.
     """
     forms = by_form(rows)
     good = [r for r in rows if r.error and r.seconds]

@@ -31,7 +31,7 @@ class Requirement:
     stack: int | None = None
 
     def goal(self, decade: int) -> Goal:
-        """Return the goal of a search: the error 10^-``decade`` together with this requirement."""
+        """Return a goal: a method that meets this requirement and has an error of at most 10^-``decade``."""
         return Goal(10.0**-decade, self.needs, self.stack)
 
 

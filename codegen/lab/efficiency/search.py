@@ -52,7 +52,10 @@ On stiff scenes, a time that is predicted from equal steps can be a hundred time
 """
 
 ROUND = 6
-"""The largest number of recipes that :meth:`Search._next` returns."""
+"""The largest number of recipes that are measured between two corrections of the predicted times.
+
+A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
+"""
 
 GROUP = 50
 """The number of predictions between two progress messages."""
@@ -77,7 +80,11 @@ LONG_STEPS = 20_000
 """The number of steps of the long run that tests whether a method preserves conserved quantities."""
 
 SHORTER = 5
-"""If a long run loses a conserved quantity, the step size is halved, at most SHORTER times."""
+"""The largest number of times that the step size of a method is halved because a test fails.
+
+The test is a long run. The test fails if a step fails, or if the relative deviation of a conserved quantity
+is at least :data:`LOST`. Then the step size is halved, and the test is repeated.
+"""
 
 Kind = tuple[str, bool, bool]
 """A kind of recipe: the triple (family, explicit, adaptive).

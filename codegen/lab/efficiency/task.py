@@ -57,7 +57,11 @@ class Task:
         return _equations(self.scene, self.span, form)
 
     def recipes(self) -> list[Recipe]:
-        """Return the recipes that the search compares."""
+        """Return the recipes that the search compares.
+
+        A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size
+        control.
+        """
         if self.methods:
             return list(named(self.problem(), self.methods))
         return list(candidates(self.problem(), self.tableaux))

@@ -24,7 +24,8 @@ MOST_STEPS = 5 * 2**21
 AGAIN = 3
 """The maximum number of repetitions of a measurement.
 
-Two consecutive runs are measured again if the run with fewer steps took longer.
+The runs of an integrator are sorted from coarse to fine. Two neighbouring runs are measured again if the run
+with fewer steps took more CPU time.
 """
 
 NEAR_ROUNDING = 1e-9
@@ -194,7 +195,7 @@ class Refused:
         raise InputError(self.reason)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Always return True."""
+        """Return True (no further run is needed), because the method cannot be emitted."""
         return True
 
 

@@ -35,7 +35,10 @@ FEWEST = 2 * BLOCKS
 
 CONFIDENCE = 0.95
 PARTS = 5
-"""The number of sections of a record."""
+"""A record of deviations is cut into PARTS sections.
+
+A drift is found only if the mean deviations of these sections form a monotone sequence.
+"""
 
 LOST = 1.0
 """A conserved quantity counts as lost if its relative deviation is at least LOST."""
@@ -82,9 +85,9 @@ CONFINED.
 STRAIGHT = 0.0225
 """A record does not count as a random walk if its scatter about a line is below STRAIGHT.
 
-A line is fitted to the means over n blocks of the record. Let V be the variance of the residuals, and let D
-be the variance of the differences between consecutive means. The scatter is V/(n D). Only 1 % of all random
-walks have a scatter below STRAIGHT.
+The record is cut into n blocks, and the mean of each block is computed. A line is fitted to these n means.
+Let V be the variance of the residuals, and let D be the variance of the differences between consecutive
+means. The scatter is V/(n D). Only 1 % of all random walks have a scatter below STRAIGHT.
 """
 
 STEADY = 3.2
@@ -95,8 +98,11 @@ Here m is the average difference between the means of consecutive blocks, and s 
 """
 
 TINY = 1e-24
-"""Differences between block means count as rounding errors if their variance is below TINY d^2, where d is
-the largest deviation in the record.
+"""Differences between block means count as rounding errors if their variance is below TINY times d^2.
+
+A deviation is the difference between a conserved quantity and its exact value. The deviations in a run are
+divided into blocks. A block mean is the mean of the deviations in one block. The number d is the largest
+absolute deviation in the run.
 """
 
 FINE, NEAR, FAR = 100, 5, 20
@@ -122,8 +128,9 @@ class Drift:
     - ``later``: the largest deviation of the record, divided by the largest deviation in the first half.
     - ``ratios``: two variance ratios (:data:`WALKING`), both about 1 for a random walk.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
-    - ``unlike_walk``: True if the test with :data:`STRAIGHT` or the test with :data:`STEADY` shows that the
-      deviation is not a random walk.
+    - ``unlike_walk``: True if at least one of two tests shows that the deviation is not a random walk. One
+      test measures the distance of the deviation from a line (:data:`STRAIGHT`). The other test measures
+      whether the deviation grows steadily (:data:`STEADY`). Neither test uses :data:`CONFINED`.
     - ``until``: the time at which the deviation saturates, or None.
     """
 

@@ -148,7 +148,10 @@ def long_run(
 
 
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
-    """Return the two pairs (n, distance) of :attr:`LongRun.reversals`."""
+    """Run back to the start from two samples, and return two pairs (n, distance from the initial state).
+
+    The number n is the number of steps from the start to the sample, and also the number of steps back.
+    """
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
         n = trajectory.counts[k]
@@ -195,7 +198,10 @@ def _kept(
 def _before_saturation(
     name: str, whole: Drift, trajectory: Trajectory, early: Callable[[int], Trajectory]
 ) -> Drift:
-    """Return the drift of a quantity, fitted to the samples before the deviation saturates."""
+    """Return the drift of a quantity, fitted to the samples before its deviation stops growing.
+
+    The time at which a deviation stops growing is defined at :data:`codegen.lab.long_runs.drift.LEVEL`.
+    """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0
     if level > FEWEST:

@@ -3,14 +3,13 @@
 The defect measures how much the tangent map of the step changes the canonical symplectic form.
 
 Let q be an element of G, and let mu be its momentum. In right trivialisation, a tangent vector at (q, mu) is
-a pair (xi, nu) of an element xi of the Lie algebra and an element nu of the dual of the Lie algebra. The
-value of the symplectic form for two pairs (xi_1, nu_1) and (xi_2, nu_2) is (H. Marthinsen, *Lie group
-integrators*, eq. (2.26)):
+a pair (xi, nu) of an element xi of the Lie algebra and an element nu of the dual of the Lie algebra. For two
+pairs (xi_1, nu_1) and (xi_2, nu_2), the symplectic form has the value
 
     <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]>
 
 The brackets <nu, xi> denote the pairing of the dual with the Lie algebra, and [xi_1, xi_2] is the Lie
-bracket.
+bracket. The formula is eq. (2.26) of H. Marthinsen, *Lie group integrators*.
 """
 
 from __future__ import annotations
@@ -43,9 +42,9 @@ LEFT = 0.5
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of three steps of size ``h``.
 
-    The steps start at the first sample, the middle sample, and the sample with the fastest motion. Only the
-    samples of ``trajectory`` before the first large deviation of a conserved quantity are used
-    (:data:`LEFT`). Raises ArithmeticError or ValueError if a step cannot be computed with 40 digits.
+    The trajectory is used only up to the first large deviation of a conserved quantity (:data:`LEFT`). In
+    this part, the steps start at the first sample, the middle sample, and the sample with the fastest motion.
+    Raises ArithmeticError or ValueError if a step cannot be computed with 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))

@@ -130,7 +130,7 @@ def record(
 
 
 def scale(start: float, magnitude: float) -> float:
-    """Return the size of a conserved quantity, by which its deviation is divided.
+    """Return the size of a conserved quantity. Deviations of the quantity are divided by this size.
 
     ``start`` is the initial value of the quantity, and ``magnitude`` is the sum of the absolute values of its
     terms. If ``start`` and ``magnitude`` are zero, the size is 1. Otherwise the size is ``magnitude`` if the

@@ -134,15 +134,13 @@ class Advice(Measurement[Recommendations]):
         """Return a sentence with the fastest methods for the largest and for the smallest error bound."""
         own = result.advice[0].best if result.advice else ()
         choices = [
-            f"{best.method.partition(' (')[0]} ({duration(best.seconds)}) at an error of {decade(k)}"
+            f"{best.method.partition(' (')[0]} ({duration(best.seconds)}) for an error of {decade(k)}"
             for k, best in zip(DECADES, own, strict=False)
             if best
         ]
         if not choices:
             return ""
-        return (
-            f"Emitted code needs the least CPU time with {enumeration(choices[:: max(1, len(choices) - 1)])}."
-        )
+        return f"The fastest emitted method is {enumeration(choices[:: max(1, len(choices) - 1)])}."
 
     def section(self, result: Recommendations, subject: Subject) -> Section:
         """Return the section with two tables: the fastest methods, and the properties of methods."""
@@ -170,8 +168,7 @@ def searched(task: Task, subject: Subject) -> Searched:
 
 
 def advised(task: Task, k: int, place: Result) -> Advised:
-    """Return the data of ``place``. The argument ``place`` is the result of the fastest method for the error
-    10^-k."""
+    """Return the fastest method for the error 10^-``k``. Its measured run is ``place``."""
     recipe = place.entry.recipe
     return Advised(
         10.0**-k,
@@ -189,14 +186,13 @@ def completed(
 ) -> tuple[Line, ...]:
     """Return a copy of ``lines`` in which faster methods from ``known`` replace slower methods.
 
-    ``lines`` is the result of an unfinished search. ``known`` contains the properties of methods. ``entries``
-    maps the label of a method to the measured runs of this method. A line is not changed if its requirement
-    must be tested in a long run.
+    ``lines`` is the result of an unfinished search. Each line belongs to a requirement. For each error 10^-k,
+    a line contains the fastest method that the search found, or None. ``known`` contains the properties of
+    measured methods. ``entries`` maps the label of a method to the measured runs of this method.
 
-    The entry of a line for the error 10^-k is a method, or None if the search found no method. Let M be the
-    fastest method in ``known`` that satisfies the requirement of the line and reaches the error 10^-k. If the
-    entry is None, M becomes the entry. If the method in the entry needs more CPU time than M, M replaces this
-    method.
+    For each line and each error, let M be the fastest method in ``known`` that satisfies the requirement and
+    reaches the error. M replaces None, and M replaces a method that needs more CPU time than M. A line is not
+    changed if its requirement must be tested in a long run.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -233,9 +229,10 @@ def monotone(line: Line) -> Line:
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return a tuple with one :class:`Line`: the fastest peer (other integrator) for each error.
+    """Return a tuple that contains one :class:`Line`.
 
-    If no peer was measured, the tuple is empty.
+    For each error 10^-k with k in :data:`DECADES`, the line contains the fastest peer (other integrator). If
+    no peer was measured, the tuple is empty.
     """
     others = {label: rows for label, rows in entries.items() if rows and rows[0].target == "peer"}
     if not others:

@@ -56,9 +56,10 @@ class ConditionTables:
 
 
 class Conditions(Measurement[ConditionTables]):
-    """Lists the order conditions of each method family in the report.
+    """Creates the section of the report about order conditions.
 
-    The class also lists the conditions that each method violates, with their residuals.
+    The section lists the order conditions of each family to which a method of the report belongs. The section
+    also lists the conditions that each method violates, with their residuals.
     """
 
     name = "conditions"
@@ -82,16 +83,16 @@ class Conditions(Measurement[ConditionTables]):
         }
 
     def verdict(self, result: ConditionTables, subject: Subject) -> str:
-        """Return a sentence with the number of methods whose computed order is exact.
+        """Return a sentence with the number of methods that violate a condition of order p + 1.
 
-        The computed order p of a method is exact if the method violates a condition of order p + 1.
+        Here p is the computed order of the method.
         """
         if not result.methods:
             return ""
         exact, total = sum(bool(m.order.failing) for m in result.methods), len(result.methods)
         count = f"{exact} of {total}" if exact < total or total == 1 else f"all {total}"
         return (
-            f"For {count} methods, the computed order is exact, "
+            f"For {count} methods, the order is not higher than the computed order, "
             "because a condition of the next order is violated."
         )
 

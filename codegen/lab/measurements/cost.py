@@ -109,7 +109,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
             "Error against the CPU time of the whole run. Each point shows the shortest of several measured "
             "times. A broad line extends from the point to the upper quartile of the times. Dashed lines "
             "with open markers show peers (other integrators). Dash-dotted lines show methods with step-size "
-            "control. Dotted lines show errors proportional to 1/T^p at the CPU time T, for several p.",
+            "control. For several p, a dotted line shows the slope -p that is typical of methods of order p.",
             subject.bench_command(),
         ),
         "places": [

@@ -19,8 +19,8 @@ from codegen.lab.stability.stability_study import Findings, Stability, StiffScen
 from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 
 OVERVIEW = (
-    '<p class="note">{{ wrong }} of {{ all }} steps with extreme input have a wrong result without an error '
-    "status.</p>"
+    '<p class="note">{{ wrong }} of {{ all }} steps with extreme input reported success with a wrong result.'
+    "</p>"
 )
 
 NAMED = 2
@@ -84,8 +84,8 @@ class StabilityTests(Measurement[Result]):
         if answers:
             names = f" ({enumeration(list(dict.fromkeys(wrong)))})" if wrong else ""
             parts.append(
-                f"{len(wrong) or 'none'} of {len(answers)} steps with extreme input had a wrong result "
-                f"without an error status{names}"
+                f"{len(wrong) or 'none'} of {len(answers)} steps with extreme input reported success "
+                f"with a wrong result{names}"
             )
         if undetermined := sum(kind == "undetermined" for kind, _ in answers):
             parts.append(f"{undetermined} had an undetermined result")

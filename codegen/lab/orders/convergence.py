@@ -57,8 +57,9 @@ class Convergence:
     def observed(self) -> float | None:
         """The observed order, or None if fewer than two runs are usable.
 
-        The observed order is usually the last slope. If kinks make :attr:`limit` smaller than the stated
-        order, the slope between the first and the last usable run is used instead.
+        The observed order is usually the slope between the last two usable runs. If kinks (points where the
+        field is not smooth) limit the order to less than the stated order, the observed order is the slope
+        between the first and the last usable run.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:
@@ -70,7 +71,8 @@ class Convergence:
     def verdict(self) -> str:
         """The comparison of the observed order with the stated order: ``holds``, ``fails`` or ``undecided``.
 
-        If :attr:`limit` is lower than the stated order, the result is ``undecided``.
+        If kinks (points where the field is not smooth) limit the observed order to less than the stated
+        order, the result is ``undecided``.
         """
         if self.limit < self.stated.order:
             return "undecided"
@@ -130,8 +132,8 @@ class Convergence:
         number = len(self.kinks)
         places = "one point" if number == 1 else f"{number} points"
         return (
-            f"the solution crosses {places} where the field is not smooth, so runs with equal steps show at "
-            f"most order {self.limit}; order {self.stated.order} is expected only where the field is smooth"
+            f"the solution crosses {places} where the field is not smooth; therefore runs with equal steps "
+            f"have at most order {self.limit}; order {self.stated.order} requires a smooth field"
         )
 
     def _short(self) -> str:

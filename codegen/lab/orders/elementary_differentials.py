@@ -51,15 +51,24 @@ class RingDomain(Domain):
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Raise ArithmeticError, because a vector field with a function such as sine is not a polynomial."""
+        """Raise ArithmeticError, because the scene must be polynomial in its coordinates.
+
+        The method is called for each function in the scene, for example sine.
+        """
         raise ArithmeticError(f"{function} is not polynomial")
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Raise ArithmeticError, because a scene with function calls is not polynomial."""
+        """Raise ArithmeticError, because the scene must be polynomial in its coordinates.
+
+        The method is called for each function in the scene that has several results.
+        """
         raise ArithmeticError(f"{function} is not polynomial")
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Raise ArithmeticError, because this arithmetic cannot solve implicit equations by iteration."""
+        """Raise ArithmeticError, because the iteration for implicit equations is not exact.
+
+        Other domains use this method to decide whether an iteration for implicit equations has converged.
+        """
         raise ArithmeticError("elementary differentials cannot be computed for implicit equations")
 
 
