@@ -47,7 +47,11 @@ The field can be non-smooth at a zero of a margin.
 """
 
 SUBSTEPS = 24
-"""The largest number of tested points inside a step (:meth:`Sided.leaves`)."""
+"""The largest number of points inside a step at which :meth:`Sided.leaves` tests the signs of the margins.
+
+A margin is a function of the state and the time. A negative margin shows that an operation such as abs(x) has
+passed from one case to another inside the step.
+"""
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 

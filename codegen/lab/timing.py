@@ -22,9 +22,10 @@ FEWER = 3
 LONG = 0.2
 
 LEAST_STEPS, RESOLVED = 200, 1e-4
-"""A run that takes less than RESOLVED seconds is extended to several time spans (:func:`spans`).
+"""Limits for the extension of short runs to several time spans (:func:`spans`).
 
-The run is not extended beyond LEAST_STEPS steps. RESOLVED is about a hundred times the overhead of a call.
+The number of time spans is doubled until the run takes at least RESOLVED seconds, or until the next doubling
+would give more than LEAST_STEPS steps. RESOLVED is about a hundred times the overhead of a call.
 """
 
 CONFIRMED, MOST = 0.03, 21
@@ -115,10 +116,9 @@ class Overhead:
 
     @cached_property
     def times(self) -> tuple[float, ...]:
-        """Measured CPU times of the call ``idle()`` in seconds, in increasing order.
+        """For each of several batches of calls ``idle()``, the mean CPU time of one call in seconds.
 
-        Several batches are timed. A batch is a sequence of calls ``idle()``. For each batch, the tuple
-        contains the mean time of one call. If ``idle`` is None, the tuple contains only the number zero.
+        The times are in increasing order. If ``idle`` is None, the tuple contains only the number zero.
         """
         return (0.0,) if self.idle is None else samples(self.idle)
 

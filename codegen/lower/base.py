@@ -106,7 +106,10 @@ class Lowering(ABC):
 
     @abstractmethod
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the argument ``problem`` of :meth:`lower` for a scene and a method.
+        """Return the scene, or a modified copy of the scene, from which :meth:`lower` makes the step program.
+
+        For example, splitting methods need a copy that contains the exact flows of the parts of the
+        Hamiltonian. The result is the argument ``problem`` of :meth:`lower`.
 
         The family must accept the scene (:meth:`objection`). If ``method`` cannot be used on the scene,
         :class:`codegen.errors.MethodError` is raised.

@@ -58,9 +58,10 @@ STORAGE = (
 
 
 STORAGE_OF_PAIR = (
-    "three registers: the state Y, and two elements K and E of the Lie algebra; with coefficients A_i, B_i "
-    "and D_i, stage i computes K <- A_i K + f(Y) and E <- E + D_i f(Y), then Y <- exp(h B_i K).Y; after the "
-    "last stage, Y is the new state, and exp(h E).Y is the embedded solution"
+    "three registers: the state Y, and two elements K and E of the Lie algebra; stage i evaluates F = f(Y) "
+    "and then computes K <- A_i K + F, E <- E + D_i F and Y <- exp(h B_i K).Y in this order, where A_i, B_i "
+    "and D_i are coefficients; after the last stage, Y is the new state, and exp(h E).Y is the embedded "
+    "solution"
 )
 
 
@@ -77,8 +78,8 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
     if embedded is not None:
         second = embedded.commutator_free().update
         exponent = second_exponent(method.commutator_free(), second, method.ring)
-        # ``exponent`` contains the coefficients D_i in exp(h sum_i D_i k_i). If ``exponent`` is None, the
-        # embedded method does not apply such an exponential.
+        # If the embedded solution is exp(h sum_i D_i k_i).y1 with the new state y1, ``exponent`` contains the
+        # coefficients D_i. If the embedded solution has another form, ``exponent`` is None.
         if exponent is None:
             return None
     # If ``holds`` is True, the scheme and the tableau define the same step.
@@ -115,7 +116,7 @@ def two_registers(
         register.append(build.lin(f"K{i + 1}", Kind.ALG, terms))
         if estimate is not None:
             terms = [(Coefficient(stages.number(estimate[i])), k[i])]
-            # The first stage has no earlier sum.
+            # E_i = E_{i-1} + D_i k_i, but E_1 = D_1 k_1, because ``sums`` is empty at the first stage.
             sums.append(build.lin(f"E{i + 1}", Kind.ALG, [*((one, x) for x in sums[-1:]), *terms]))
         x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
         state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))

@@ -26,7 +26,7 @@ class CompositionLowering(FlowLowering):
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
-        # Tableaux of all other classes than these two are rejected.
+        # This family accepts only tableaux of the classes AdjointComposition and Composition.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
         # A Strang step of length gamma h is a step of Phi*, then a step of Phi, each of length gamma h/2.

@@ -70,7 +70,8 @@ class DiscreteGradient(FieldLowering):
         where the field is not zero. The error is also raised if the force at an open boundary is not
         conservative.
         """
-        # A small lattice is used, because a single site does not conserve energy.
+        # For a lattice, the test uses a few sites in place of one, because only the total energy of all sites
+        # is conserved.
         if not _agrees(problem if problem.sites is None else small(problem)):
             if problem.sites is not None and problem.sites.outside:
                 raise MethodError(
@@ -109,7 +110,8 @@ def _program(scene: Problem, method: Method) -> Program:
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
-        # The bivector is evaluated at the midpoint. At y, the method would have order 1.
+        # The bivector is evaluated at the midpoint of the step. With the bivector at the initial point y, the
+        # method would only have order 1.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # H(x1) depends on the unknown xi, so the energies are part of the equation for xi.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
@@ -139,7 +141,7 @@ def _agrees(scene: Problem) -> bool:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # If ``image`` is zero and f is not, the result is False.
+        # If gamma is zero, ``image`` is zero, too. For this reason, ``image`` can differ from f.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

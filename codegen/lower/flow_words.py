@@ -56,10 +56,11 @@ class Parts:
     def arranged(self) -> list[Summand]:
         """The summands of all parts, in the order for the function :func:`pairs`.
 
-        A kick is a flow that changes only the momentum. If the scene is not a lattice, kicks come first,
-        because the kicks of two successive steps can be joined. On a lattice, kicks come last, because the
-        two kicks in the middle of Strang's step can be joined. Strang's step applies the flows of all
-        summands in the order of the returned list, and after this in the reverse order.
+        Strang's step applies the flows of all summands in the order of the returned list, and after this in
+        the reverse order. A kick is a flow that changes only the momentum. If the scene is not a lattice,
+        kicks come first. The last kick of a step and the first kick of the next step can then be joined into
+        one flow. On a lattice, kicks come last. The two kicks in the middle of Strang's step can then be
+        joined.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -95,7 +96,7 @@ class FlowLowering(Lowering):
             hint = 'list the parts of the field in the argument "parts" of the scene'
             # A Hamiltonian lattice lists parts of the Hamiltonian. Other lattices list parts of the field.
             listed = scene.parts if scene.paired else scene.sites.parts
-            expected = "a field that is a sum of parts with exact flows"
+            expected = "a field that is a sum of parts whose exact flows are known"
             return None if listed else Objection(", a lattice without parts", expected, hint)
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene")
@@ -104,7 +105,8 @@ class FlowLowering(Lowering):
         if scene.forced or scene.inputs:
             what = "a wrench" if scene.forced else "run-time inputs"
             return Objection(
-                f", which is driven by {what}", "a Hamiltonian that is the sum of parts with exact flows"
+                f", which is driven by {what}",
+                "a Hamiltonian that is a sum of parts whose exact flows are known",
             )
         if not scene.parts:
             hint = 'write parts={"T": T, "V": V} in the scene'
@@ -132,7 +134,7 @@ class FlowLowering(Lowering):
 
         if scene is None:
             return super().conditions(method)
-        # The order conditions that apply depend on the scene.
+        # The scene decides which order conditions apply.
         return families.get(self.read(scene, method).conditions)
 
     @abstractmethod

@@ -47,7 +47,10 @@ class LieElements:
     known: dict[Term, Scaled] = field(default_factory=dict)
 
     def exponent(self, target: str, combination: Combination) -> Var:
-        """Append an exponent of the step, and return its variable ``target``."""
+        """Append to the program a statement that computes an exponent of the step from ``combination``.
+
+        Return the variable of the exponent. The name of the variable begins with ``target``.
+        """
         # The argument 0 means that the sum is not divided by a power of h.
         return self._sum(target, combination, 0).var
 
@@ -88,9 +91,10 @@ class LieElements:
         return self._palindrome(term)
 
     def _palindrome(self, term: Product) -> Scaled:
-        """Append a product of an odd number of elements in symmetric order, for example x y z y x.
+        """Append the statements for a product in symmetric order, for example x y z y x, to the program.
 
-        If the group preserves a bilinear form, as SO(n) does, the Lie algebra contains these products.
+        Return the product as a variable times a power of h. The number of factors must be odd. If the group
+        preserves a bilinear form, as SO(n) does, the Lie algebra contains these products.
         """
         factors = term.factors
         # Other products, such as x y, are in general not elements of the Lie algebra.
@@ -107,6 +111,6 @@ class LieElements:
         for outer in reversed(factors[:middle]):
             x = self._value(outer)
             var = self.build.add(Sandwich(), "product", x.var, result.var)
-            # Each outer factor occurs twice in the product, so its power of h counts twice.
+            # The new product is x r x with the previous product r, so the power of h of x counts twice.
             result = Scaled(var, 2 * x.power + result.power)
         return result

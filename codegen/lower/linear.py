@@ -155,7 +155,8 @@ def _with_momentum(problem: Problem, step: Program) -> Program:
         return step
     # The update of the momentum follows all other operations of the step.
     ((_, point),) = step.outputs
-    # In ``moved``, the new momentum replaces the old momentum.
+    # The points ``point`` and ``moved`` differ only in u: ``point`` contains the old value of u, and
+    # ``moved`` contains the new value.
     moved = Var("y_with_u", Kind.POINT)
     # ``TimeMomentum`` differentiates the whole step with respect to t, so its argument is ``step``.
     last = Assign((moved,), TimeMomentum(step), (step.inputs[0], point, time))

@@ -107,7 +107,8 @@ class PartitionedLowering(Lowering):
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
                 # If the force does not depend on momenta, its values at ``mu`` and ``P`` are equal.
                 if not by_momentum:
-                    # ``mu`` is known at the start of the step, but ``P`` depends on unknowns.
+                    # ``mu`` replaces ``P``, because ``mu`` is known at the start of the step, but ``P``
+                    # depends on unknowns.
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
                 velocities.append(v)
                 forces.append(f)

@@ -36,7 +36,7 @@ class SymplecticIntegrator(VariationalLowering):
     family = "slgi"
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of an SLGI method.
+        """Return the program of one step of a symplectic Lie group integrator.
 
         :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
         """
@@ -73,7 +73,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def one() -> list[Var]:
         """For a method with one stage, append the momentum M to the program, and return [M]."""
-        # M = dexp*_{-b x} mu + h (b - a) dexp*_{-(b - a) x} n, where a = a_11, b = b_1 and x = h xi.
+        # M = L + h (b - a) F, where L = dexp*_{-b x} mu, F = dexp*_{-(b - a) x} n, a = a_11, b = b_1 and
+        # x = h xi. Here mu is the initial momentum, xi is the velocity, and n is the force of the stage.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])

@@ -36,8 +36,9 @@ class OrderStudy:
     - ``order``: the order from the order conditions.
     - ``convergences``: for each target (programming language), the runs with different step sizes.
     - ``times``: the CPU times of runs with the default target.
-    - ``spread``: the largest difference between the final states of the targets (:func:`largest_difference`),
-      or None if no number of steps permits a comparison.
+    - ``spread``: the largest difference between the final states of the targets (:func:`largest_difference`).
+      All compared runs have the same number n of steps, and n is at least :data:`COMPARED`. If no number n is
+      found with which all runs succeed, ``spread`` is None.
     - ``artifact``: the emitted files for the default target.
     """
 

@@ -4,9 +4,10 @@ A slope is the logarithm of the ratio of the errors of two consecutive runs, div
 ratio of their step sizes. A run is excluded if it fails or if its error is too small to be measured. Slopes
 are computed only for the longest sequence of consecutive runs that are not excluded.
 
-For a smooth problem, the difference between a slope and the order is approximately proportional to the step
-size. For this reason, two consecutive slopes give an estimate of the difference. The slopes have *settled*
-if the last two estimates are at most :data:`SETTLED`.
+Let p and q be two consecutive slopes, and let r > 1 be the ratio of consecutive step sizes. For a smooth
+problem, |q - p|/(r - 1) is an estimate of the difference between q and the order, because this difference is
+approximately proportional to the step size. The slopes have *settled* if the last two of these estimates are
+at most :data:`SETTLED`.
 
 The last slope and the stated order may differ by at most :data:`TOLERANCE`.
 """
@@ -114,8 +115,12 @@ class Refinement:
         - ``undecided`` if s equals ``stated`` and p is below ``stated``,
         - ``fails`` if neither p nor s equals ``stated``.
 
-        If the slopes have not settled, the verdict is ``undecided``, with one exception: the verdict is
-        ``holds`` if s equals ``stated``, p is not below ``stated``, and :attr:`too_fine` is True.
+        If the slopes have not settled, the verdict is ``holds`` if all of the following conditions are
+        satisfied, and ``undecided`` otherwise:
+
+        - s equals ``stated``,
+        - p equals ``stated`` or is above ``stated``,
+        - :attr:`too_fine` is True.
         """
         if self.observed is None:
             return "undecided"

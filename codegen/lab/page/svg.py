@@ -47,7 +47,10 @@ LIGHT = {
     "var(--paper)": "#ffffff",
     "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
 } | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
-"""The value of each CSS variable in a figure that is saved as a separate file."""
+"""Maps each CSS variable to the value that replaces it in a complete SVG document (:func:`standalone`).
+
+In a figure that is part of a page, the style sheet of the page defines the CSS variables.
+"""
 
 STYLE: dict[str, object] = {
     "svg.fonttype": "none",

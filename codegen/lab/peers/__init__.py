@@ -44,7 +44,7 @@ class Run(Protocol):
     """The type of a function that runs a peer (an integrator for comparison)."""
 
     def __call__(self, spans: int = 1, /) -> Outcome:
-        """Integrate from t0 to t0 + ``spans`` (t1 - t0), where [t0, t1] is the time span of the scene."""
+        """Integrate from t0 to t0 + n T, where n = ``spans``, and [t0, t0 + T] is the scene's time span."""
 
 
 @dataclass(frozen=True)

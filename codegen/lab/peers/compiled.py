@@ -41,7 +41,9 @@ def peer(name: str) -> Peer:
 
 
 def source(template: str, scene: Problem) -> str:
-    """Return the C source code of a peer for a scene, from the template file ``template``.
+    """Return the C source code of a peer (an integrator for comparison) for the equation of a scene.
+
+    ``template`` is the name of the template file of the peer, ``dop853.c.j2`` or ``rk4.c.j2``.
 
     Raises :class:`codegen.errors.SceneError` if the template needs a projection onto the manifold of the
     scene, and none is known.

@@ -48,11 +48,12 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 
 
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return an array of times, and an array with the largest deviation for each time.
+    """Return an array of times, and an array with the largest deviation for each of these times.
 
-    If ``figure.window`` is 0, each entry is the largest deviation up to its time. Most times are omitted
-    if the largest deviation grows slowly (:data:`GROWS`). If ``figure.window`` is positive, each entry is the
-    largest deviation in a group of ``figure.window`` states. Its time is the end of the group.
+    If ``figure.window`` is 0, the entry for a time t is the largest deviation up to t. In this case, the
+    array of times contains the last time and all times at which the largest deviation reaches a new level
+    (:data:`GROWS` defines the levels). If ``figure.window`` is positive, each entry is the largest deviation
+    in a group of ``figure.window`` states, and the time of the entry is the end of the group.
     """
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)

@@ -15,9 +15,10 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The steps forward in a run take at most about SECONDS seconds of CPU time.
+"""A run forward in time takes at most about SECONDS seconds of CPU time.
 
-If the steps forward would take longer, the number of steps is reduced.
+If the run forward would take longer, the number of steps is reduced. A run back to the initial time has the
+same number of steps as the run forward before it.
 """
 
 TRIAL = 1000
@@ -35,10 +36,10 @@ class Endurance:
     - ``returned``: the distance of the final state from the initial state after a run forward and back.
     - ``failure``: the error message of the integrator if a step failed.
 
-    The property :attr:`held` tests the result. A run that ends with an error message passes, because its user
-    learns that it failed. A complete run forward passes if ``defect`` is None or at most 2^-47 times the
-    number of steps (a bound for rounding errors). A complete run forward and back passes if ``returned`` is
-    finite. A large ``returned`` is permitted.
+    The property :attr:`held` tests whether the integrator returned a wrong result. A run that stops with an
+    error message passes the test, because the integrator returns no result. A complete run forward passes if
+    ``defect`` is None or at most 2^-47 times the number of steps (a bound for rounding errors). A complete
+    run forward and back passes if ``returned`` is finite. A large ``returned`` is permitted.
     """
 
     name: str

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 DIGITS = 60
 EPSILON = 2.0**-53
 TINY = 2.0**-1022
-"""The smallest normal double, below which the absolute value of a result counts as zero."""
+"""The smallest normal double. A result whose absolute value is less than TINY counts as zero."""
 
 ROUNDINGS = 256.0
 """The factor of an error bound. A result is wrong if its error exceeds ROUNDINGS * (d + e).
@@ -226,8 +226,10 @@ def _blocks(compiled: Compiled) -> list[range]:
 
 
 def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
-    """Return the state, time and step size of a case, with one random rounding error (seed ``number``) in
-    each number.
+    """Return the state, the time and the step size of a case with simulated rounding errors.
+
+    The relative error of each value is plus or minus :data:`EPSILON`. The signs are random, with the seed
+    ``number``.
     """
     draw, context = random.Random(number), mpmath_context(DIGITS)
 
@@ -238,10 +240,11 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
-    """Return the exact state after the step, and the final state of each probe.
+    """Make the step of a case once with at least 60 digits, and several times with simulated rounding errors.
 
-    A probe makes the step with simulated rounding errors. If the step size is above 1, the probes use more
-    digits, because long steps cause cancellation.
+    Return the state after the first of these steps, and a list of the states after the other steps. The first
+    state counts as exact. The steps with simulated rounding errors are called probes. If the step size is
+    above 1, the probes use more digits, because long steps cause cancellation.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -285,11 +288,13 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 
 
 class Rounding(BallDomain):
-    """Arithmetic with many digits that adds one rounding error of a double to the result of every operation.
+    """Arithmetic that simulates the rounding errors of double precision.
 
-    The errors are relative, and the signs of the errors are random. An iteration for the equations of an
-    implicit method evaluates each operation repeatedly. One random sign is used for all evaluations of an
-    operation. With a new random sign in each evaluation, the equations would change during the iteration.
+    Each operation is computed with many digits. After this, one rounding error of double precision is added
+    to the result. The errors are relative, and the signs of the errors are random. An iteration for the
+    equations of an implicit method evaluates each operation repeatedly. One random sign is used for all
+    evaluations of an operation. With a new random sign in each evaluation, the equations would change during
+    the iteration.
 
     In a system of two or more implicit equations, each right-hand side gets two errors. The first error is
     proportional to the right-hand side itself. The second error is proportional to another right-hand side.
@@ -318,7 +323,11 @@ class Rounding(BallDomain):
         return tuple((x * (1 + sign * self.unit)).mid() for x, sign in pairs)
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Return ``images``, the right-hand sides of implicit equations, with added rounding errors."""
+        """Add rounding errors to the right-hand sides of a system of implicit equations.
+
+        ``images`` contains the right-hand sides without the errors. The result contains the right-hand sides
+        with the errors.
+        """
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * self.unit for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]

@@ -48,7 +48,8 @@ def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit
     """Return the largest usable step size of a compiled method.
 
     The step size is T/n, where T is the length of the time span, and n is a positive integer. If n > 1, the
-    longer step size T/(n - 1) is not usable.
+    next longer step size T/(n - 1) is not usable. All step sizes longer than T/(n - 1) count as not usable,
+    although only some of them are tested.
     """
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "a longer step would exceed the time span", 0, 1

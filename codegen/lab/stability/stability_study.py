@@ -27,7 +27,8 @@ class Findings:
     """The results of the stability tests that execute steps of the method.
 
     - ``limit``: the largest usable step size.
-    - ``answers``: for each step with extreme input, the error and the verdict.
+    - ``answers``: for each step with extreme input, the verdict on the result of the step, and the relative
+      error of this result.
     - ``stiff``: for each stiff variant of the scene, the errors of the runs and the observed order.
     - ``endurance``: the results of the runs of many steps.
     - ``notes``: for each stiff variant that was not tested, the reason.
