@@ -286,7 +286,11 @@ def _fits(family: str, tableau: Tableau) -> bool:
 
 
 def _label(family: str, tableau: str) -> str:
-    """Return the label FAMILY:TABLEAU, or FAMILY(2):TABLEAU if the family has a cut-off."""
+    """Return a label FAMILY:TABLEAU of a method.
+
+    If the family truncates a series of Lie brackets, the label is FAMILY(2):TABLEAU. Here 2 is an example of
+    the order after which the series is truncated.
+    """
     return f"{family}(2):{tableau}" if family_class(family).takes_cutoff else f"{family}:{tableau}"
 
 

@@ -47,14 +47,15 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # The exact flow of a part with several summands is unknown, so the summands are used as parts.
+        # ``exact`` is True if the exact flow of each part is known. Otherwise the method composes the exact
+        # flows of all summands of the parts.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
             return _in_order(parts, tableau, steps, chosen)
         # A two-part splitting method corresponds to a composition of a basic method and its adjoint.
         if len(tableau.parts) == 2 and len(chosen) > 2:
-            # The composition has the order of the tableau for every basic method Phi (McLachlan 1995).
+            # For any basic method, this composition has the order of the tableau (McLachlan 1995).
             return pairs(parts.arranged, _as_pairs(steps)), self.family
         inexact = [part.name for part in parts.parts if not part.exact]
         raise MethodError(

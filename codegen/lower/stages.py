@@ -77,8 +77,9 @@ class Stages:
     ) -> Program:
         """Verify and return the program of the step.
 
-        The functions ``starts``, ``images`` and ``update`` append statements and return variables. In the
-        result of ``update``, the key of each new state is its name, for example "y".
+        The functions ``starts``, ``images`` and ``update`` append statements and return variables. The result
+        of ``update`` is a dictionary. For example, the dictionary maps the name "y" to the variable with the
+        new value of y.
         """
         # All functions append to one builder, so the order of the calls is the order of the statements.
         first = tuple(starts())

@@ -83,11 +83,12 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # Objects of the class Number can be compared by ==, even if their values are intervals.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # The indices in ``cuts`` divide the stages into the smallest possible pieces.
+    # ``cuts`` contains 0, the number of stages, and each k for which the first k stages form a substep.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # The loop begins with the smallest groups of stages. Smaller groups give more substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # Groups of stages are separated at every ``wide``-th cut.
+        # ``ends`` contains every ``wide``-th index in ``cuts``. Each group of stages extends from one index
+        # in ``ends`` to the next index.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # A step with weights b_j advances the time by h sum_j b_j.
@@ -101,7 +102,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
         ]
         # ``scaled`` contains the tableau of each group of stages.
         first = scaled[0]
-        # Explicit methods are not split, as the module docstring explains.
+        # A step is divided only into implicit substeps. If explicit substeps contain the same expression, the
+        # undivided step computes this expression only once.
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]
             return RungeKutta(tuple(elements[:-1]), elements[-1]), tuple(sums)

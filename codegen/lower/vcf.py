@@ -2,12 +2,16 @@
 
 Each exponent is a linear combination of the velocities xi_j of the stages. In exponent J of stage i, xi_j has
 the coefficient alpha_iJ^j. The superscript j is an index, not a power. In exponent J of the update, xi_j has
-the coefficient beta_J^j. The products of exponentials are
+the coefficient beta_J^j. Exponent J is X_iJ in stage i, and Y_J in the update:
 
-    X_iJ = h sum_j alpha_iJ^j xi_j,   E_i^J = exp(X_iJ) E_i^{J-1},   Q_i = E_i q0,
-    Y_J = h sum_j beta_J^j xi_j,      e^J = exp(Y_J) e^{J-1}.
+    X_iJ = h sum_j alpha_iJ^j xi_j,   Y_J = h sum_j beta_J^j xi_j.
 
-The empty products E_i^0 and e^0 are 1. E_i and e are the products of all factors. With the Lagrangian l, the
+The group elements E_i^J and e^J are products of J exponentials:
+
+    E_i^J = exp(X_iJ) E_i^{J-1},   E_i^0 = 1,
+    e^J = exp(Y_J) e^{J-1},        e^0 = 1.
+
+E_i and e are the products of all factors. The position of stage i is Q_i = E_i q0. With the Lagrangian l, the
 discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), where b_i = sum_J beta_J^i. Let (xi_j, n_j) = f(Q_j, M_j) be
 the velocity and the force of stage j, nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j. Hamilton's
 equations for the discrete Lagrangian are
@@ -72,10 +76,10 @@ class _Product:
         return cls(rows, tuple(minus), tuple(partial))
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
-        """Append a covector to the program, and return the variable of the covector.
+        """Return a new variable for the covector dexp*_y Ad*_{p^-1} m.
 
-        The covector is dexp*_y Ad*_{p^-1} m, where y is ``minus[J]``, and p is ``partial[J]``. The index i is
-        used only in names of variables.
+        Here y is ``minus[J]``, and p is ``partial[J]``. The assignments that compute the covector are
+        appended to the program. The index i occurs only in names of variables.
         """
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)

@@ -37,7 +37,8 @@ class VariationalCrouchGrossman(VariationalLowering):
         return _program(problem, method)
 
 
-# The quotient a_ji/b_i is computed first, because it is exactly 1 if a_ji = b_i.
+# The coefficient b_j a_ji/b_i in the equation for M_i is computed as b_j (a_ji/b_i). If a_ji = b_i, the
+# quotient a_ji/b_i is exactly 1, even if a_ji and b_i are intervals.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs

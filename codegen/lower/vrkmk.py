@@ -11,9 +11,9 @@ xi_i and n_i be the velocity and the force of stage i, (xi_i, n_i) = f(exp(X_i) 
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-In general, the unknowns are v_i and m_i for all stages i. If a stage i satisfies a_ji = 0 for j = 1, ..., i,
-the program computes m_i from Lambda and from the lambda_j with j > i. In this case, Lambda is an unknown, but
-m_i is not.
+In general, the unknowns are v_i and m_i for all stages i. If a_ji = 0 for all j <= i, the sum over j in the
+equation for m_i contains only later stages j > i. Then the program computes m_i from Lambda and from the
+lambda_j of these later stages. In this case, Lambda is an unknown, but m_i is not.
 """
 
 from __future__ import annotations
@@ -95,7 +95,10 @@ class _Step(ExpandedStep):
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
-        """Append the new value of m_i: b_i Lambda + sum_j a_ji lambda_j."""
+        """Return a new variable for b_i Lambda + sum_j a_ji lambda_j, the new value of m_i.
+
+        The assignments that compute this variable are appended to the program.
+        """
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):

@@ -95,10 +95,10 @@ class _Step(ExpandedStep):
         ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M.
         """
         terms: Terms = []
-        # The vector R*_(r)(x, v) M is the sum of the vectors ad*_{z_i} (ad*_x)^i M for i = 0, ..., r - 1.
-        # Here r is ``self.r``, and z_i is the variable ``subscript``. The vector z_i is the sum of the
-        # vectors -ad_x^{k-1-i} v/(k+1)! for k = i + 1, ..., r.
+        # With r = ``self.r``, the vector R*_(r)(x, v) M is the sum of ad*_z (ad*_x)^i M over i = 0, ..., r-1.
+        # The vector z is different in each term.
         for i in range(self.r):
+            # z = -v/(i+2)! - ad_x v/(i+3)! - ... - ad_x^{r-1-i} v/(r+1)!
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             subscript = self.build.lin("z", Kind.ALG, inner)
             terms.append((ONE, self.build.bracket("R", subscript, momenta[i])))
@@ -113,7 +113,7 @@ class _Step(ExpandedStep):
         # contains the moved terms with the changed signs.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # Two terms of stage j have the coefficient ``factor``.
+            # ``factor`` = -h b_j a_ji/b_i is the coefficient of dexp*_{X_j} n_j and of R*_(r)(X_j, v_j) M_j.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))

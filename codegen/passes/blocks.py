@@ -40,7 +40,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
-    # The nodes are the indices of the assignments. Sets of integers have a reproducible order.
+    # The nodes are the indices of the assignments. If the nodes were variables, the order of the nodes in a
+    # set, and therefore the order of the statements, could differ from run to run.
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
     # The graph must also contain the assignments without edges.

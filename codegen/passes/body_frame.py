@@ -7,7 +7,8 @@ transformed:
 - an element x of the algebra becomes Ad_{q^-1} x,
 - a momentum mu becomes Ad*_q mu.
 
-A position Q = E q is not transformed, but the new program computes Q by the formula Q = q E~.
+A position Q = E q is not transformed. The new program computes Q as the product q E~, because
+q E~ = q q^{-1} E q = E q = Q.
 
 The operations in :data:`EQUIVARIANT` commute with this transformation. The pass applies each of these
 operations to the transformed arguments.
@@ -80,7 +81,10 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """Maps each position Q = E q to the variable that contains E, or to None if E is the identity."""
+    """Maps each position Q to the variable that contains E, or to None if E is the identity.
+
+    The group element E satisfies Q = E q, where q is the position at the start of the step.
+    """
 
     def run(self) -> Program:
         program = self.program

@@ -22,8 +22,8 @@ def run(program: Program) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             pairs, twins = _distinct(statement)
-            # The dictionary ``same`` contains the replacements of all earlier blocks, because every later
-            # statement may read a removed unknown.
+            # ``same`` maps each removed unknown to the unknown that replaces it. The entries of earlier
+            # blocks are kept, because later statements may read the removed unknowns.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
             # Some assignments may now be equal. A later pass, value numbering, merges them.

@@ -96,8 +96,9 @@ class _Bounded(PreciseDomain):
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function.
 
-        OverflowError is raised if an argument has |x| > 10^(digits/2), because few digits of the result would
-        be correct.
+        Numbers have d = ``self.digits`` decimal digits. OverflowError is raised if |x| > 10^(d/2) for an
+        argument x. The rounding error of such an argument is about 10^(-d/2) or larger, so at least half of
+        the digits of sin x, for example, would be wrong.
         """
         if any(abs(x) > self.rational(10) ** (self.digits // 2) for x in args):
             raise OverflowError(function)
@@ -289,8 +290,8 @@ class Reference:
     def _confirmed(self, program: Program, step: _Step, account: str) -> str:
         """Repeat the step with many digits, and describe the difference between the programs.
 
-        The result is '' if there is no difference. If the repeated step fails, ``account``, the description
-        of the difference in doubles, is returned.
+        The result is '' if there is no difference. If the repeated step fails, the result is ``account``. The
+        text ``account`` describes the difference in double precision.
         """
         if NOT_A_NUMBER in account:
             return account

@@ -15,7 +15,8 @@ def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
     # Every round removes at least one map, so the loop ends.
     while True:
-        # The next round counts uses, so unused operations are removed.
+        # Each round counts how often a value is read. Reads by unused operations must not count, so unused
+        # operations are removed.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return program

@@ -43,7 +43,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     # The time t + 0 h of a stage at the start of the step is replaced by t.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
-    # Zeros and identities are recognised by the operations that compute them.
+    # An argument counts as zero only if the operation Zero computes it, and as the identity only if the
+    # operation Identity computes it.
     sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
     zero = [isinstance(source, Zero) for source in sources]
     identity = [isinstance(source, Identity) for source in sources]

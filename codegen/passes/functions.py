@@ -96,7 +96,7 @@ def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tup
 
 
 Part = tuple[Var, Word, Var]
-"""A value f(ad_x) v as a triple (x, factors of f, v)."""
+"""A triple (x, factors, v) for the value f(ad_x) v, where the function f is the product of the factors."""
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:

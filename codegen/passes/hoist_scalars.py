@@ -14,10 +14,10 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""A description of the sums that contain a value v, and of the coefficients of v in these sums.
+"""The coefficients of one value v in all sums that contain v, divided by the first of these coefficients.
 
-The sum with index k contains the term c_k v. Let m be the index of the first of these sums. The pattern
-consists of the pairs (k, c_k / c_m).
+Each sum has an index. If the sum with index k contains the term c_k v, the pattern contains the pair
+(k, c_k / c_m). Here m is the index of the first sum that contains v.
 """
 
 

@@ -6,7 +6,8 @@ matrix W. A block of implicit equations computes an unknown v of the stage from 
 2. The velocity is w = W P.
 3. Further invertible linear maps compute v from w.
 
-The pass adds assignments that compute w from v, P from w, and M from P.
+The pass keeps these three steps. It adds assignments for the inverse steps, which compute w from v, P from w,
+and M from P.
 """
 
 from __future__ import annotations
@@ -24,7 +25,10 @@ from codegen.passes.tearing import ordered
 from codegen.scene.problem import Problem
 
 INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
-"""Invertible linear maps, applied to the last argument. Functions of ad_x are invertible if x is small."""
+"""Operations that apply an invertible linear map to their last argument.
+
+InverseDexp and AdSeries apply functions of ad_x. These functions are invertible if x is small.
+"""
 
 
 @dataclass(frozen=True)
@@ -54,7 +58,8 @@ def run(program: Program, scene: Problem) -> Program:
 
     If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
     """
-    # ``scene.body.inverse`` describes the map from the velocity to the momentum.
+    # If the velocity is w = W P with a constant invertible matrix W, ``scene.body.inverse`` contains the
+    # matrix W^{-1}. Otherwise ``scene.body.inverse`` is None.
     if scene.body is None or scene.body.inverse is None:
         return program
     build = Builder({v.name for v in defined(program)})
@@ -70,7 +75,8 @@ def run(program: Program, scene: Problem) -> Program:
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # In later statements, the unknown replaces the right-hand side of its equation.
+        # At the solution, an unknown equals its image, the right-hand side of its equation. Later statements
+        # that read the image of an unknown now read the unknown.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -90,7 +96,7 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # Newton's method needs as many residuals as unknowns.
+            # Newton's method needs a residual for each unknown, and each residual is computed from a path.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -153,8 +159,9 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     The maps of ``route`` compute ``route.unknown`` from ``route.base``. The new assignments apply the
     inverses of these maps, in reverse order.
 
-    The first result maps each variable x of ``route`` to the variable that replaces x.
-    The second result is the new variable for ``route.base``.
+    The variables of ``route`` contain values that are computed from ``route.base``. The new assignments
+    compute these values again, from ``route.unknown``. The first result maps each old variable to the
+    variable with the new value. The second result is the variable with the new value of ``route.base``.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -188,9 +195,10 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if ``route.inward`` is one map Ad*_{exp x}, applied to a sum of terms f(ad*_y) v.
+    """Return True if the momentum P of the stage is Ad*_{exp x} applied to a sum of terms f(ad*_y) v.
 
-    The terms can differ in f, y and v. For each y, a rational number s with x = s y must exist.
+    P is ``route.velocity.args[1]``. Here x and y are elements of the Lie algebra, and v is a covector. The
+    terms can differ in f, y and v. For each y, a rational number s with x = s y must exist.
     """
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
@@ -207,7 +215,11 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return ``block`` with additional assignments, which compute ``route.base`` from ``route.unknown``."""
+    """Return ``block`` with additional assignments that compute a momentum from an unknown.
+
+    In ``block``, the maps of ``route`` compute the unknown ``route.unknown`` from the momentum
+    ``route.base``. The additional assignments apply the inverses of these maps.
+    """
     # A later pass removes the new variables that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()

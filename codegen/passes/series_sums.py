@@ -1,9 +1,9 @@
 """Sums of functions of ad_x in nested form.
 
 On some groups, each term of such a sum is f (1 + b ad_x + c ad_x^2) v with numbers f, b and c. Let A, B and C
-be the sums of f v, f b v and f c v over all terms. The pass replaces the sum by the equal expression A + ad_x
-(B + ad_x C), for example in equation (3.19) of Marthinsen's thesis. For n terms, this reduces the number of
-brackets from 2 n to 2.
+be the sums of f v, f b v and f c v over all terms. The pass replaces the sum by the equal expression
+A + ad_x (B + ad_x C). For n terms, this reduces the number of brackets from 2 n to 2. For example, the
+momenta of variational Crouch-Grossman methods are such sums (equation (3.19) of Marthinsen's thesis).
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class SeriesSums:
                     break
             else:
                 groups.append([term])
-        # A nested sum of a single term saves no Lie brackets.
+        # A group with a single term is omitted, because the nested form of one term saves no Lie brackets.
         return [group for group in groups if len(group) > 1]
 
     def _nested(

@@ -14,7 +14,7 @@ Terms = frozenset[tuple[Coefficient, Var]]
 
 
 def run(program: Program) -> Program:
-    """Return the program in which a sum is computed as the negative of an earlier sum, if possible."""
+    """Return the program with a sum replaced by -x if the sum is the negative of an earlier sum x."""
     outside: dict[Terms, Var] = {}
     body = [
         # Each block has its own table of earlier sums.

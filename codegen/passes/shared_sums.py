@@ -71,7 +71,8 @@ def _worthwhile(program: Program) -> set[Share]:
     """
     worthwhile: set[Share] = set()
     for statement in program.body:
-        # Only blocks are searched, because the body of a block is evaluated many times in a step.
+        # Only blocks of implicit equations (statements of the class Solve) are searched. Iterations evaluate
+        # the statements of a block many times in a step. Other statements are not iterated.
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
         shares: dict[Key, dict[Share, None]] = {}

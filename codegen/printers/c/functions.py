@@ -43,7 +43,7 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
-ONE_TEST = "All values x are finite if their sum is finite, or if all differences x - x are 0."
+ONE_TEST = "If the sum of the values x is not finite, x - x is tested: 0 if x is finite, otherwise NaN."
 
 
 class FunctionPrinter:
@@ -176,7 +176,8 @@ def _without_zeros(row: Sequence[str]) -> str:
     """Return the text of a row without zeros at the end, because C sets missing entries to zero."""
     # All rows of a table have the same length, so short rows end with zeros.
     kept = list(row)
-    # C11 does not allow an empty initialiser, so the first entry always stays.
+    # The loop removes zeros at the end of the row. The first entry always stays, because C11 does not allow
+    # an empty initialiser.
     while len(kept) > 1 and not float(kept[-1].removesuffix("f")):
         kept.pop()
     return ", ".join(kept)
@@ -433,7 +434,8 @@ class _Body:
             yield from fill("event(", _arguments(given), ";", separator="")
             return
         if name == "sample":
-            # ``given[0]`` is the text "input, context". The context is moved to the end of the call.
+            # In C, a user function is passed as two parameters, so the text ``given[0]`` is "input, context".
+            # The printed line calls ``input`` with ``context`` as the last argument.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
