@@ -152,7 +152,8 @@ def ignored(path: str) -> bool:
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
     """Write the expected files and remove stale files. Return the differences found before these changes."""
     changed = compare(directory, files)
-    # Manifests are written last, so after an interruption the old manifests still list the stale files.
+    # The manifests are written last. If the writing is interrupted, the old manifests still list the stale
+    # files. Therefore the next call finds and removes these files.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))
     try:
         for difference in last:

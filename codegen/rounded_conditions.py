@@ -44,10 +44,10 @@ def rounded_residual(method: Method, family: Family, order: int, target: Precisi
 
 
 def largest_residual(tableau: Tableau, family: Family, order: int) -> float | None:
-    """Return an upper bound of the absolute residuals of the order conditions up to ``order``.
+    """Return an upper bound of the absolute residuals of order conditions up to ``order``.
 
-    The bound applies to a subset of the conditions. The conditions in the subset imply all other conditions.
-    The bound is rounded upwards. The result is None in these cases:
+    A condition that follows from other conditions may be omitted. The bound does not apply to the residuals
+    of omitted conditions. The bound is rounded upwards. The result is None in these cases:
 
     - The family cannot read the tableau.
     - An order has more than :data:`MOST` conditions.

@@ -140,5 +140,6 @@ def _product(x: Rendering, operator: str, y: Rendering) -> Rendering:
     # A product on the right needs parentheses, because ``a * (b * c)`` and ``a * b * c`` may have different
     # rounding errors.
     right = y.text if y.precedence > PRODUCT else f"({y.text})"
-    # The signs of the operands do not change the rounding.
+    # The sign of the result is stored separately. In IEEE arithmetic, (-x) * y and -(x * y) have the same
+    # rounded result. The same is true for (-x) / y and -(x / y).
     return Rendering((*left, f"{operator} {right}"), PRODUCT, x.negative != y.negative)

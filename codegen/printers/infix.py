@@ -60,7 +60,10 @@ SHORT, LONG = 48, 80
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Return the segments joined by spaces, or ``segments`` if the joined text is longer than ``most``."""
+    """Join ``segments`` by spaces to one segment of at most ``most`` characters.
+
+    If the joined segment would be longer, ``segments`` is returned unchanged.
+    """
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 

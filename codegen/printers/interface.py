@@ -135,13 +135,14 @@ class Interface:
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
-        """Return the interface that :meth:`as_json` converted to ``data``."""
+        """Convert ``data``, a result of :meth:`as_json`, back to an interface."""
         # The method ``as_json`` converted tuples to lists. Here, the lists are converted back to tuples.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))
 
 
 def _order_of_extension(kernel: Kernel) -> int:
     """Return the order of the continuous extension of a kernel, or 0 if there is none."""
-    # If ``kernel.observed`` is None, the module has no function for runs to a given end time.
+    # Only runs to a given end time use a continuous extension. If ``kernel.observed`` is None, the module has
+    # no function for these runs, and therefore no extension.
     extension = None if kernel.observed is None else kernel.observed.extension
     return 0 if extension is None else extension.order

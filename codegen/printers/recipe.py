@@ -52,10 +52,12 @@ IN_MANIFEST = "copy the initial state from the manifest to the variable state"
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
-    """Return the indices and values of the nonzero entries of an initial state.
+    """Return a pair (index, value) for each coordinate that the usage example sets one by one.
 
-    For a state with at most :data:`LONGEST_STATE` coordinates the result is None. For a longer state with
-    more than :data:`MOST_ENTRIES` nonzero entries the result is empty.
+    - For a state with at most :data:`LONGEST_STATE` coordinates, the result is None, because the usage
+      example contains the whole initial state.
+    - For a longer state, the result contains the pairs of all nonzero coordinates. If there are more than
+      :data:`MOST_ENTRIES` of these pairs, the result is empty, because the usage example would be too long.
 
     >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
     (None, ((99, 1.0),))

@@ -85,7 +85,8 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
         sequence += [Array(values), Call("sample", (inputs, value(sample.time)), (values,))]
-        # Each input has one variable for each sample time.
+        # ``values`` contains the values of all inputs at this sample time. The value of input i is assigned
+        # to the variable ``sample.symbols[i]``.
         sequence += loaded(sample.symbols, values, read)
     return sequence
 

@@ -65,10 +65,12 @@ _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 
 def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
     """Return the functions of a step. Each function comes after the functions that it calls."""
-    # Several moves can call the same function. For each function name, ``moves`` contains the first move.
+    # A move is a statement that multiplies a point by a matrix exponential. Several moves can call the same
+    # function. For each function name, ``moves`` contains the first move.
     moves: dict[str, Move] = {}
     for move in (s for s in step.body if isinstance(s, Move)):
-        # Moves with the same function must have equal sizes, because the function contains the sizes.
+        # The sizes of the matrices are constants in the function. Therefore all moves that call the function
+        # must have matrices of the same sizes.
         assert _sizes(moves.setdefault(_name(move), move)) == _sizes(move)
     functions = [_Exponential(name, move, plan.format).function() for name, move in moves.items()]
     return (*functions, _advance(plan, step))
@@ -171,9 +173,9 @@ class _Exponential:
         A point X = X_0 + B D is represented by the matrix D, which is called the displacement of X. The
         function reads the displacement of X and computes the displacement of the product exp(B S B^T) X.
 
-        The first k columns of B are X_0. Let C be D with 1 added to the entries D_11, ..., D_kk. Then
-        X = B C. The displacement of the product exp(B S B^T) X is D + S phi(G S) G C, where
-        phi(z) = (exp(z) - 1)/z.
+        The first k columns of B are X_0. Therefore X_0 = B I, where the columns of I are the first k columns
+        of the unit matrix. Hence X = X_0 + B D = B C with C = I + D. The displacement of the product
+        exp(B S B^T) X is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
@@ -194,8 +196,9 @@ class _Exponential:
         body = (*(Array(loops.arrays[x.name]) for x in local), *self.statements())
         about = (
             "Multiply the point X by the matrix exponential exp(B S B^T). Let X_0 be the state at the "
-            "beginning of the step. All points of the step are X_0 + B D with the same matrix B, and only D "
-            f"is stored. The argument core is the {m} x {m} matrix S. The argument gram is B^T B."
+            "beginning of the step. The matrices X_0 and B are the same for all points of the step. A point "
+            "X = X_0 + B D is stored as the matrix D. The array result is the matrix D of the product "
+            f"exp(B S B^T) X. The argument core is the {m} x {m} matrix S. The argument gram is B^T B."
         )
         return Function(self.name, about, parameters, tuple(body))
 
@@ -218,7 +221,8 @@ class _Exponential:
         # Frobenius norm of the skew matrix B S B^T. The eigenvalues of a skew matrix form conjugate pairs, so
         # the squared spectral norm is at most half of ``square``.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
-        # Rounding can make ``square`` slightly negative. Then the norm is 0, but a NaN remains a NaN.
+        # Rounding can make ``square`` slightly negative. Then ``square - square`` gives the norm 0. If
+        # ``square`` is a NaN, ``square - square`` is a NaN, too, so the norm is a NaN.
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))

@@ -137,9 +137,10 @@ def near(name: str) -> str:
 
 
 def complete(name: str) -> str:
-    """Return the name of the function that computes ``name`` for arguments of every size.
+    """Return the name of the variant of the function ``name`` that is valid for small and large arguments.
 
-    The result is ``name`` itself, except for the sine and the cosine.
+    For the sine and the cosine, the variant is a separate function. For all other functions, the result is
+    ``name``.
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')
@@ -175,7 +176,8 @@ def _advance_lanes(plan: Plan) -> Function:
         *loaded,
         *inside,
         *ends,
-        # The lane advances only if ``check`` is 0, and x - x is 0 only for a finite x.
+        # x - x is 0 for a finite x, and otherwise a NaN. Therefore ``check`` is 0 only if all components are
+        # finite and the lane has not stopped. Otherwise the lane does not advance.
         Assign(check, paired([x - x for x in (*new, *unread)]) + stopped[_LANE]),
         *(
             # A selection between the new and the old value is used, because a branch would prevent vector

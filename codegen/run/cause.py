@@ -19,8 +19,10 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # With a warm start, :mod:`codegen.run.continuation` finds the cause. The function cannot find an input
-    # that is NaN at a stage time.
+    # With a warm start, :mod:`codegen.run.continuation` finds the cause. With run-time inputs, an input may
+    # be NaN at a later time of the step, for example at t + h/2. A step of size zero reads the inputs only at
+    # the time t. Therefore the step of size zero would succeed, and the step size would wrongly be reported
+    # as the cause.
     return plan.start is None and not plan.kernel.inputs
 
 
@@ -51,8 +53,11 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
 
 
 def step_arguments(plan: Plan) -> tuple[Term, ...]:
-    """Return the arguments of a step function, except the state, the time and the step size."""
-    # The statistics of the caller do not count the test step of size zero.
+    """Return the arguments that the function ``cause`` passes to the step function.
+
+    The state, the time and the step size are not included.
+    """
+    # ``cause`` makes a step of size zero as a test. The statistics of the caller do not count this step.
     counted = tuple(absent(x) for x in plan.counted)
     # If a step consists of substeps, its function has no argument for an error estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None and not plan.parts else ()
@@ -60,7 +65,7 @@ def step_arguments(plan: Plan) -> tuple[Term, ...]:
 
 
 def searched(plan: Plan, state: Term, t: Term = TIME, h: Term = STEP) -> list[Statement]:
-    """Return a list with the statement that calls the function ``cause`` if the status is NOT_FINITE.
+    """Return a list with one emitted statement: if the status is NOT_FINITE, call the function ``cause``.
 
     If the emitted code has no function ``cause``, the list is empty. The failed step has the size ``h`` and
     begins at the time ``t`` and at ``state``.

@@ -1,9 +1,10 @@
-"""Continuation in h: find the solution of a step from the solutions of shorter steps.
+"""Continuation in h: find the solution of a failed step from the solutions of shorter steps.
 
-If a step of size h fails, the step is attempted again. The first new attempt has the size h of the failed
-step. The initial guess of the first new attempt does not use the solutions of earlier steps. If the first new
-attempt fails, the step is halved until an attempt succeeds. Each solution is then the initial guess for a
-longer step. The continuation finds the solution that changes continuously as h grows from 0.
+If a step of size h fails, the emitted function first tries the same step with another initial guess. This
+guess does not use the solutions of earlier steps. If this attempt fails, too, the function tries shorter
+steps: it halves the step size until an attempt succeeds. Each solution is then the initial guess for a longer
+step, until a step of size h succeeds. The continuation finds the solution that changes continuously as h
+grows from 0.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ from codegen.run.terms import (
 )
 
 CONTINUED = "continued"
-"""The name of the function that repeats a failed step."""
+"""The name of the emitted function that solves a failed step by continuation in h."""
 
 LARGEST_FACTOR = 4.0
 """After a success, the step size is increased by at most this factor."""
@@ -67,7 +68,7 @@ def continued(plan: Plan, core: str) -> Function:
 
 
 class _Continuation:
-    """Builds the emitted function that repeats a failed step.
+    """Builds the emitted function that solves a failed step by continuation in h.
 
     The class attributes are variables of the emitted function.
     """
@@ -85,7 +86,7 @@ class _Continuation:
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
-        """Return the emitted function that repeats a failed step."""
+        """Return the emitted function that solves a failed step by continuation in h."""
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
         # The solution is stored in ``memory`` as the initial guess of the next step.
@@ -106,7 +107,7 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # Every failed attempt replaces this initial value.
+            # Every failed attempt replaces the initial value of ``failure`` by the status of the attempt.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
@@ -130,7 +131,9 @@ class _Continuation:
 
     def cause(self) -> Term:
         """Return the status that is reported for the failed step."""
-        # A run-time input may be the cause of the failure, and not the length of the step.
+        # An input may be NaN at a time that a shorter step does not reach. Therefore the success of a shorter
+        # step does not prove that the failed step was too long (TOO_FAR), and the status of the last failed
+        # attempt is returned.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
@@ -171,8 +174,9 @@ class _Continuation:
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         # After a successful attempt, ``latest`` is its solution.
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # A success squares ``factor``. Failures before the first success do not change ``factor``. Each later
-        # failure replaces ``factor`` by its square root.
+        # After the first success, the next step size is ``factor`` times the largest successful step size,
+        # but at most h. A success squares ``factor``. A failure after the first success replaces ``factor``
+        # by its square root. Failures before the first success do not change ``factor``.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),

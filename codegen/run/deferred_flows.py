@@ -123,7 +123,8 @@ class _Deferring:
     The class attributes represent local variables of the emitted functions.
     """
 
-    # ``begun`` is True if the previous step has already applied the first flow of this step.
+    # The last flow of a step and the first flow of the next step can be applied as one flow. ``begun`` is
+    # True if the first flow of the current step was applied together with the last flow of the previous step.
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
     # ``careful`` requires a test of the state after every step, and ``good`` is the result of the last test.
     shown, careful, good, again = flag("shown"), flag("careful"), flag("good"), flag("again")
@@ -159,7 +160,7 @@ class _Deferring:
         return Function("step", "", parameters, body, Kind.STATUS, public=True)
 
     def complete_step(self) -> Function:
-        """Return the function that makes one step and applies all its flows."""
+        """Return the function that makes one step. No flow of the step is deferred to a later step."""
         plan, state, deferred = self.plan, self.plan.state(), self.deferred
         kernel = plan.kernel
         begin: list[Statement] = []
@@ -206,7 +207,8 @@ class _Deferring:
             # the second attempt fails, the third attempt makes only the steps before the failed step.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
-            # The failed step begins at the time ``t`` + ``asked`` * ``h``.
+            # After a failure, ``asked`` is the number of steps before the failed step. Therefore the failed
+            # step begins at the time ``t`` + ``asked`` * ``h``.
             *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
             *completed(),
             Return(STATUS),
@@ -217,8 +219,9 @@ class _Deferring:
         """Return the statements that make the steps of a run, but stop if a tested state is not finite."""
         state = self.plan.state()
         failed = (
-            # If ``careful`` is True, this attempt has tested the state after every step. DONE is the number
-            # of successful steps.
+            # If ``careful`` is True, this attempt has tested the state after every step. Therefore DONE is
+            # the number of successful steps, and the next attempt makes only these steps. If ``careful`` is
+            # False, the next attempt makes all steps again and tests the state after every step.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
@@ -252,7 +255,9 @@ class _Deferring:
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # The rounding errors of the deferred flows grow with LATE, so LATE is at most LONGEST.
+            # If ``stop`` is True, the deferred flows are applied at the end of this step. LATE is the number
+            # of steps since these flows were last applied. The rounding errors of these flows grow with LATE,
+            # so LATE is at most LONGEST.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:

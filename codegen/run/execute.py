@@ -141,7 +141,8 @@ class Machine:
         If the function returns a status, the replacement is NOT_FINITE. Otherwise the replacement is NaN, and
         all output arrays are filled with NaNs.
         """
-        # A division by zero raises an exception in Python, but gives an infinity or a NaN in IEEE arithmetic.
+        # Where Python raises an exception, for example for a division by zero, IEEE arithmetic gives an
+        # infinity or a NaN. The status NOT_FINITE reports such values.
         if function.guard == RAISES_STATUS:
             return STATUSES.index(NOT_FINITE)
         changed = written(self.unit, function)

@@ -29,9 +29,9 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
-    # Let b be the scaled matrix, m the degree, and v the vector ``result``. The Taylor polynomial of exp(b) v
-    # is v + b p/m!, where p is the sum of (m!/j!) b^(j - 1) v over j = 1, ..., m. Unlike 1/j!, the
-    # integers m!/j! have no rounding errors.
+    # Let b be the scaled matrix, m the degree, and v the vector ``result``. Horner's rule computes
+    # p = m!/1! v + m!/2! b v + ... + m!/m! b^(m - 1) v. The Taylor polynomial of exp(b) v is v + b p/m!.
+    # Unlike the coefficients 1/j!, the integers m!/j! have no rounding errors.
     horner = (
         Assign(weight, weight * factor),
         Assign(factor, factor - 1.0),

@@ -89,7 +89,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     # Lines of the header comment have at most 96 characters.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
-        # Titles and names from users may contain ``*/``.
+        # A title or a name from the user may contain ``*/``, which would end the C comment. Therefore the
+        # function ``comment`` replaces ``*/`` by ``* /``.
         "recipe": [comment(line) for line in comments],
         "usage": example(interface, recipe),
         "module": interface.module,
@@ -170,7 +171,8 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 def helpers(unit: Unit) -> list[str]:
     """Return the sorted names of the helper functions and library functions that a module calls."""
-    # Branches prevent vector instructions, so loops over lanes or sites call variants without branches.
+    # Branches prevent vector instructions. Therefore loops over the systems of a batch or over the sites of a
+    # lattice call helpers without branches, for example ``sin_near`` instead of ``sin``.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
     # A step tests whether its new state is finite, so ``isfinite`` is always needed.
@@ -215,8 +217,7 @@ def inverted(kernel: Kernel) -> int:
     :data:`~codegen.run.sweeps.WIDE`.
     """
     sizes = inverted_sizes(kernel)
-    # A positive result requires that all matrices inverted by elimination have one common size, and that this
-    # size is at most WIDE.
+    # ``sizes`` is a set. It has one element if all these matrices have the same size.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
@@ -226,7 +227,8 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The function ``invert`` adds one call, and an inlined kernel removes one call.
+    # One call needs about FRAMES // 2 bytes. Newton's method adds a call of ``invert``. If the kernel is
+    # inlined in the loop over the steps (``is_looped``), there is no call of the kernel.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],

@@ -28,7 +28,10 @@ from codegen.run.terms import Kind, Term, paired
 from codegen.snippets.graph import LIBRARY
 
 FUNCTIONS = {"abs": "fabs", "power": "pow"}
-"""A map from function names in :mod:`codegen.run.terms` to C names, if the names differ."""
+"""A map from function names in :mod:`codegen.run.terms` to C names.
+
+A function that has the same name in C is omitted.
+"""
 
 
 def literal(precision: Precision, x: float) -> str:

@@ -48,7 +48,8 @@ class FunctionPrinter:
     def definition(self, function: Function) -> list[str]:
         """Return the lines of a function."""
         own = self.identifiers[function.name]
-        # The template contains the public functions. All functions printed here get a leading underscore.
+        # The name gets a leading underscore, because all functions printed here are private in Python. The
+        # template of the module contains the public functions.
         head = filled(f"def _{function.name}(", [own.of(p) for p in function.parameters], "):", 0)
         # Triple quotes in the text would end the docstring. A backslash would start an escape sequence.
         about = function.about.replace("\\", "\\\\").replace('"""', "'''")
@@ -186,7 +187,8 @@ class _Body:
             return s.value if reading else s.target
 
         entries = [_entry(one(s)) for s in (*group, statement)]
-        # If ``reading`` is True, every target must be a name, so that the assignments do not change the list.
+        # If ``reading`` is True, the assignments must not change the list that they read. Therefore every
+        # target must be a name, and not an entry of a list.
         if any(e is None for e in entries) or (
             reading and any(s.target.op != "name" for s in (*group, statement))
         ):

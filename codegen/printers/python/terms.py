@@ -162,8 +162,9 @@ class Terms(Infix):
         """
         (x,) = term.args
         inner = self.text(x)
-        # In double precision, reals are Python floats, so no conversion is needed. In single precision,
-        # ``wide`` leaves integers and doubles unchanged.
+        # In double precision, reals are Python floats, so no conversion is needed. In single precision, terms
+        # of the kind REAL are numbers of the type float32, and ``wide`` converts them to Python floats. Terms
+        # of other kinds are Python floats or integers, so ``wide`` does not convert them.
         if not self.single or (term.op == "wide" and x.kind is not Kind.REAL):
             return inner
         return Text(closed("float(" if term.op == "wide" else "float32(", inner.segments, ")"))
