@@ -119,16 +119,20 @@ class _Step:
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
-            # The exponent is an argument of this function. Therefore one function is enough for all exponents
-            # without commutators.
+            # An exponent without commutators is stored as one matrix. The function EXPONENTIAL has the matrix
+            # as an argument, so EXPONENTIAL is enough for all exponents without commutators.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
+        # Commutators are not stored as matrices, so each exponent with commutators has its own function.
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
         # If several functions have the same name, ``_unique`` keeps only the first one.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
-        """Return the array of the matrix ``step.letters[number_of]``."""
+        """Return the emitted array that contains the matrix ``step.letters[number_of]``.
+
+        This matrix is a linear combination of the matrices h A(t_i). It is called a letter.
+        """
         return real(f"letter_{number_of + 1}", self.stored.letter_size)
 
     def letters(self, element: Element) -> tuple[Term, ...]:
@@ -266,7 +270,11 @@ class _Step:
             Return(code(OK)),
         )
         what = self.text(element) if element.commutators else "a"
-        about = f"Multiply the state by exp({what}). The method is scaling and Taylor polynomials."
+        about = (
+            f"Multiply the state by exp(X) for X = {what}. The integer 'parts' is chosen such that the norm "
+            "of X/parts is small. Then the state is multiplied 'parts' times by a Taylor polynomial of "
+            "exp(X/parts)."
+        )
         return Function(name, about, (*given, state), body, Kind.STATUS)
 
     def norms(self, element: Element) -> tuple[Statement, ...]:

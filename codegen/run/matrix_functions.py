@@ -173,7 +173,8 @@ class _Exponential:
         def terms(k: Term) -> list[Term]:
             return [self.entry(a, _ROW, k, p) * self.entry(b, k, _COLUMN, q) for p, q in factors]
 
-        # The loop below adds the terms in the order of this sum, so the rounding errors are the same.
+        # A small matrix needs no loop for this sum. The loop for larger matrices adds the terms in the same
+        # order, so the sum has the same rounding errors with and without a loop.
         if self.n <= UNROLLED:
             return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
         # The terms are added in a scalar variable. The sum is then stored in ``entry``.
@@ -216,16 +217,23 @@ class _Exponential:
         return Function(self.name, self._about(), (a, result), tuple(body))
 
     def _about(self) -> str:
-        what = f"the exponential of the {self.n} x {self.n} matrix a"
+        what = f"exp(A) for the {self.n} x {self.n} matrix A in the array a"
         if self.level:
-            single = ", and its derivative in the direction E. The input contains a, then E"
-            several = f" + E. E is a polynomial in {self.level} symbols. The square of each symbol is 0."
+            single = (
+                ". After A, the array a contains a matrix E. After exp(A), the result contains the "
+                "derivative of exp at A in the direction E"
+            )
+            several = f". The matrix A is a function of {self.level} variables. After A, the array a contains"
             what += (
-                single if self.level == 1 else f"{several} The input contains a, then the coefficients of E"
+                single
+                if self.level == 1
+                else f"{several} the partial derivatives of A that are at most of first order in each "
+                "variable. After exp(A), the result contains the same derivatives of exp(A)"
             )
         return (
-            f"result = {what}. The method is a Taylor polynomial and repeated squaring. If the estimate of "
-            f"the relative error exceeds 2^-{LEAST_DIGITS}, all entries of the result are NaN."
+            f"result = {what}. The algorithm is scaling and squaring: a Taylor polynomial of exp(A/2^s) is "
+            "squared s times. If the estimate of the relative error exceeds "
+            f"2^-{LEAST_DIGITS}, all entries of the result are NaN."
         )
 
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
@@ -309,9 +317,9 @@ class _Exponential:
             self.norm(result, bound),
             # Both ``growth`` and the Frobenius norm are upper bounds of the spectral norm.
             Assign(bound, select(bound < growth, bound, growth)),
-            # The norm of the n x n matrix is at most r = ``bound``, and its error is at most e = ``error``.
-            # With the unit roundoff u, the error of the computed square is at most about
-            # 2 r e + n^2 u r^2.
+            # Let r = ``bound`` be an upper bound of the norm of the n x n matrix, and let e = ``error`` be an
+            # upper bound of the error of the matrix. With the unit roundoff u, the error of the computed
+            # square is at most about 2 r e + n^2 u r^2.
             Assign(error, 2.0 * bound * error + (n * n * unit) * (bound * bound)),
             # If the norm of a matrix is at most ``growth``, the norm of its square is at most ``growth``^2.
             Assign(growth, growth * growth),

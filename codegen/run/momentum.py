@@ -1,9 +1,11 @@
 """Conversion of the momentum between the space frame and the body frame.
 
-The caller's state contains the space momentum, but the steps of a run use the body momentum. Rounding makes
-the group element q slightly non-orthogonal, so a conversion has an error. At the beginning and at the end of
-a run, the body momentum is converted to the space momentum. The errors nearly cancel in the difference of the
-two results. This difference is added to the caller's momentum.
+The caller's state contains the space momentum, but the steps of a run use the body momentum. The body
+momentum is converted to the space momentum twice: at the beginning of a run and at the end of the run. The
+difference of the two converted momenta is added to the caller's momentum.
+
+Rounding makes the group element q slightly non-orthogonal, so each of the two conversions has an error. The
+two errors are nearly equal, so they nearly cancel in the difference.
 """
 
 from __future__ import annotations
@@ -86,7 +88,8 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Return(code(OK)),
     )
     about = (
-        "Update the state at the end of a run. The increase of the momentum is computed in the space frame, "
-        "and is added to the momentum of the state."
+        "Update the state at the end of a run. The group element is copied from 'moving'. The momentum in "
+        "'moving' is converted to the space frame. The converted momentum minus 'before' is the increase of "
+        "the momentum during the run. This increase is added to the momentum of the state."
     )
     return Function(LEAVE, about, (moving, before, state), body, Kind.STATUS)

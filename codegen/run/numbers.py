@@ -20,8 +20,9 @@ def numbers_held(unit: Unit) -> int:
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
-    # A compiler may inline private functions, so the sum contains the scalars of all private functions. Only
-    # one public function runs at a time.
+    # A compiler may inline all private functions into one function. Then the scalars of all private functions
+    # are on the stack at the same time, so their numbers are added. Of the functions in ``public``, only one
+    # runs at a time, so only the largest number in ``public`` is added.
     return sum(held.values()) - sum(public) + max(public)
 
 

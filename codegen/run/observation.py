@@ -449,7 +449,7 @@ class Observation:
         )
 
     def observed(self) -> Function:
-        """Return the function that finds events and computes the states at output times in one step.
+        """Return the function that finds the events in a step and the states at the output times in the step.
 
         If an event ends the run, later output times are omitted.
         """

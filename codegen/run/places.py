@@ -24,7 +24,8 @@ class Place:
     @property
     def term(self) -> Term:
         """The entries of the block, as a slice of the array."""
-        # The stopping rule needs the largest absolute value of the entries.
+        # The array may contain other blocks, too. The stopping rule needs the largest absolute value in this
+        # block, so the slice leaves out the other blocks.
         return real(self.array, self.whole).part(self.start, self.size)
 
 

@@ -108,7 +108,11 @@ class _Kick:
 
 @dataclass(frozen=True)
 class _Part:
-    """Builds the emitted functions of one flow. The flow is not a kick."""
+    """Builds the emitted functions of one flow, for all flows except kicks.
+
+    A kick is a flow that changes single sites and reads their neighbours. The functions of a kick must treat
+    sites at the boundary separately, so another class builds them (``_Kick``).
+    """
 
     plan: Plan
     step: SiteStep
@@ -122,7 +126,12 @@ class _Part:
 
     @property
     def special(self) -> bool:
-        """True if the emitted code contains the function ``whole_K`` for K = ``index``."""
+        """True if the emitted code has two functions for this flow: ``flow_K`` and ``whole_K``.
+
+        K is ``index``. ``flow_K`` then calls fast sines, cosines and Stumpff functions, which are valid only
+        near zero. ``whole_K`` calls functions that are valid for all arguments. If the property is False,
+        only ``flow_K`` exists, and calls functions that are valid for all arguments.
+        """
         _, inside, _ = split(self.own.kernel, set())
         # The functions ``sqrt``, ``fabs`` and ``choose`` never have branches, so they need no fast variant.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
@@ -132,7 +141,11 @@ class _Part:
 
     @property
     def strided(self) -> bool:
-        """True if the pairs are along the last axis. Sites along this axis are adjacent in memory."""
+        """True if the flow changes pairs of neighbours along the last axis of the lattice.
+
+        The two sites of a pair are then adjacent in memory. Therefore the first sites of consecutive pairs
+        have the distance (stride) 2.
+        """
         return self.paired and self.own.axis == self.step.dimension - 1
 
     @property
@@ -161,8 +174,8 @@ class _Part:
     def entry(self, row: Row, neighbour: int) -> Term:
         """Return the entry of a row at one site.
 
-        If ``neighbour`` is OWN, the site is a single site or the first site of a pair. Otherwise, it is the
-        second site of a pair.
+        In a flow of single sites, ``neighbour`` is OWN. In a flow of pairs, ``neighbour`` is OWN for the
+        first site of a pair, and 0 for the second site.
         """
         place = PLACE if neighbour == OWN else _NEAR
         array = ARRAYS[row.array]
@@ -233,7 +246,10 @@ class _Part:
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
-        """Return the function for the pair of the last and the first site of a row."""
+        """Return the function that applies the flow to one pair of sites.
+
+        The pair consists of the last and the first site of a periodic row.
+        """
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         parameters = (PLACE, _NEAR, SITES, *self.arrays, *self.scalars)
         body = [*before, *self._moved(inside, ends)]
@@ -289,7 +305,8 @@ class _Part:
             else:
                 body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
-                # The last column has an odd index, so its pairs have the colour 1.
+                # The first site of this pair is in the last column. The index of this column is odd, because
+                # the number of columns is even. Therefore the pair has the colour 1.
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:
@@ -303,8 +320,9 @@ class _Part:
         parameters = (WHOLE, shape, _COLOUR, SITES, *self.arrays, *self.scalars)
         first = [Assign(COLUMNS, shape[last])]
         about = (
-            f"Pairs of sites: {self.own.about}. If colour is 0, the first site of each pair has an even "
-            "index along the axis of the pairs. If colour is 1, this index is odd."
+            f"Pairs of sites: {self.own.about}. The two sites of each pair are neighbours along one axis of "
+            "the lattice. If colour is 0, the first site of each pair has an even index along this axis. If "
+            "colour is 1, the first site has an odd index."
         )
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 

@@ -110,9 +110,10 @@ class ChainSolver:
         return self.work[_BASE + site * (3 * n * n) + inner]
 
     def border(self, site: Term, i: Term, j: Term) -> Term:
-        """Return the entry of the border for equation ``i`` at ``site``, in column ``j``.
+        """Return an entry of the border of Newton's matrix, for a periodic chain.
 
-        This entry is the coefficient of unknown ``j`` of the last site.
+        The border contains the coefficients of the last site's unknowns in the equations of all other sites.
+        The entry belongs to equation ``i`` at ``site`` and to unknown ``j`` of the last site.
         """
         # Each column must have the same layout as the residuals, because ``substitute`` reads both.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
@@ -254,12 +255,17 @@ class ChainSolver:
         return For(_I, whole(self.n), (For(_J, whole(self.n), body),))
 
     def border_columns(self) -> list[Statement]:
-        """Return the statements that compute all entries of the border (:meth:`border`)."""
-        # In a periodic chain, the last site is a neighbour of two sites: site 0 and the last but one.
+        """Return the statements that compute the border of Newton's matrix, for a periodic chain.
+
+        The border contains the coefficients of the last site's unknowns in the equations of all other sites.
+        """
+        # The unknowns of the last site occur only in the equations of its two neighbours: site 0 and the last
+        # but one. All other entries of the border are zero.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # If the chain has two sites, both blocks are added to the same entries of the border.
+            # In a chain of two sites, site 0 is also the last but one. Then two blocks of site 0, LEFT and
+            # RIGHT, belong to the same entries of the border. Therefore each block is added to the entries.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -268,8 +274,9 @@ class ChainSolver:
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that compute and invert the pivot block of the last site.
 
-        The statements first call ``substitute`` for each column of the border (:meth:`border`). The column is
-        the right-hand side, and the solution overwrites the column.
+        Let T be Newton's matrix without the rows and columns of the last site. For each column c of the
+        border (:meth:`border`), the statements first solve the equation T x = c with ``substitute``. The
+        solution x overwrites the column c.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)

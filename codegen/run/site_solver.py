@@ -134,8 +134,8 @@ def _measure(step: SiteStep) -> Function:
     The function MEASURE computes the three numbers that the stopping rule needs.
     """
     work = ARRAYS[WORK]
-    # All blocks of equations use the same two rows of the workspace: one for the changes and one for the
-    # absolute values of the unknowns.
+    # For each site, the first row contains the largest change of an unknown. The second row contains the
+    # largest absolute value of an unknown. All blocks of equations use the same rows as the first block.
     change_row, size_row = (row_of(step, row.number) for row in step.sweeps[step.blocks[0].last].measured)
     start = [count("changes"), count("sizes")]
     most, all_changes, largest = real("most"), real("sum"), real("largest_unknown")
@@ -151,8 +151,8 @@ def _measure(step: SiteStep) -> Function:
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )
     about = (
-        "Compute the largest change of an unknown and the largest absolute value of an unknown. The third "
-        "result is 0 if all changes are finite, and NaN otherwise."
+        "Compute three numbers: the largest change of an unknown, the largest absolute value of an unknown, "
+        "and a number that is 0 if all changes are finite, and NaN otherwise."
     )
     return Function(
         MEASURE,

@@ -1,4 +1,8 @@
-"""The names of arguments and arrays in the functions of a lattice, and the positions of numbers in arrays."""
+"""Names and helper functions for the emitted functions of a lattice.
+
+The names denote arguments and arrays. The helper functions build parallel loops over sites, and find the
+array entry that contains a given quantity at a given site.
+"""
 
 from __future__ import annotations
 
@@ -119,7 +123,8 @@ def with_stride(function: Function) -> Function:
 
     A function that does not read the stride is returned unchanged.
     """
-    # C compilers warn about variables that are computed but not used.
+    # C compilers warn about a variable that is assigned but not read. Therefore STRIDE is assigned only in
+    # functions that read STRIDE.
     used = any(term.text == STRIDE.text for term in terms(function.body))
     return replace(function, body=(Assign(STRIDE, padded(SITES)), *function.body)) if used else function
 

@@ -145,7 +145,10 @@ class Loop:
 
     @property
     def near(self) -> bool:
-        """True if all mathematical functions in the sweep have variants without branches."""
+        """True if ``sweep_K`` calls fast sines, cosines and Stumpff functions that are valid only near zero.
+
+        The condition is that all mathematical functions in the sweep can be computed without branches.
+        """
         before, inside, _ = split(self.own.kernel, set())
         called = called_by([*before, *inside])
         return all(name in VECTORISED or name.startswith("stumpff_") for name in called)
@@ -252,7 +255,7 @@ class Loop:
         return f"{of}_{self.index}"
 
     def sweep(self) -> Function:
-        """Return ``sweep_K`` for K = ``index``, a loop over consecutive sites whose neighbours exist."""
+        """Return the loop over consecutive sites whose neighbours exist: ``sweep_K`` with K = ``index``."""
         before, inside, ends = split(self.own.kernel, self.shared)
         starts = [count(f"start_{k}") for k in self.neighbours]
         nears = {k: start + INDEX for k, start in zip(self.neighbours, starts, strict=True)}
@@ -313,9 +316,9 @@ class Loop:
     def rows(self) -> tuple[Term, ...]:
         """Return the arguments that describe one row of the lattice.
 
-        The arguments ROW and ``row_k`` are the indices at which this row and the row of neighbour k begin. In
-        an open lattice with several rows, the last arguments are flags. The flag ``inside_k`` is true if the
-        row of neighbour k exists.
+        ROW is the index of the first site in this row. For each neighbour k, ``row_k`` is the index of the
+        first site in the row of neighbour k. In an open lattice with several rows, the last arguments are
+        flags. The flag ``inside_k`` is true if the row of neighbour k exists.
         """
         starts = [count(f"row_{k}") for k in self.neighbours]
         flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours
@@ -360,7 +363,8 @@ class Loop:
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
         regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
-        # If ``_INNER`` is 0, the first loop below computes the whole row.
+        # The function ``site_K`` computes the first ``_LEAD`` sites of the row. If ``_INNER`` is 0, these are
+        # all sites of the row.
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
@@ -416,7 +420,8 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
-        # A block of equations repeats all its sweeps, so ``calls`` collects them first.
+        # One iteration for a block of equations executes all sweeps of the block. Therefore ``calls`` keeps
+        # the calls of these sweeps until the last sweep of the block.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls

@@ -54,7 +54,8 @@ The second trial makes one step. The step size is the usual size, multiplied by 
 """
 
 SWEEPS = 50
-"""A solver is robust only if it needs at most SWEEPS sweeps in its second trial.
+"""The second trial of a solver makes one step of LONGER times the usual size. A solver is robust only if it
+needs at most SWEEPS sweeps in this trial.
 
 SWEEPS is half of ``Loop.limit``, the largest number of sweeps of an iteration.
 """
@@ -72,7 +73,10 @@ With more than LARGE unknowns, continuation in h is not tried.
 
 
 NONLINEAR = 2
-"""All nonlinear expressions in the unknowns count as degree 2."""
+"""The degree that ``_degree`` returns for every nonlinear expression in the unknowns, such as u^3 or sin(u).
+
+An expression without unknowns has the degree 0, and a linear expression has the degree 1.
+"""
 
 
 @dataclass(frozen=True)
@@ -345,8 +349,9 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return a limit in nanoseconds for the time of a step with another solver.
+        """Return an upper limit, in nanoseconds, for the step time of a solver that has not been tried.
 
+        If a step with the untried solver takes at least this time, ``solver`` is the better choice.
         ``candidate`` contains the results of the trials of ``solver``.
         """
         # A robust solver is preferred, even if it is slower by a factor of up to PRICE.
@@ -362,7 +367,7 @@ class _Selection:
 
         The bound assumes one sweep for each block in each substep, and omits the inversion of small matrices.
         """
-        # The second list contains zeros, because the loop below adds the work for matrices.
+        # The number of matrices is 0 for each block here, because the loop below adds the work for matrices.
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
         )

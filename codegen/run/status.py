@@ -29,7 +29,7 @@ MEANINGS = {
     NOT_FINITE: "the new state would contain an infinity or a NaN",
     BAD_STEP: "h is infinite or NaN",
     LIMIT: "the end was not reached in the given number of steps",
-    TOO_FAR: "the step is too long for a finite result; a shorter step has a finite result",
+    TOO_FAR: "the step is too long: no finite new state was computed; a shorter step succeeds",
     SINGULAR: "the matrix of an implicit block is singular",
     TOO_SHORT: "the end was not reached: the step became too small to change t",
     EVENT: "the run ended at an event, or the buffer for events is full",
@@ -47,7 +47,7 @@ REASONS = {
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
     LIMIT: "the end time is not reached within the limit of steps",
-    TOO_FAR: "the step is too long for a finite result: take a shorter step",
+    TOO_FAR: "the step is too long: no finite new state was computed; take a shorter step",
     SINGULAR: "the matrix of {block} is singular",
     TOO_SHORT: "the end is not reached: the step became too small to change t",
     BAD_TIMES: "the output times are not finite, not in order, or not between t and end",
@@ -101,7 +101,8 @@ def reason(status: str, block: str, h: float) -> str:
     >>> reason("NOT_FINITE", "", 0.1)
     'the new state is not finite'
     """
-    # The text in REASONS mentions the new state, which does not exist if a block has failed.
+    # If a block of equations fails, the step ends before a new state is computed. Therefore the text
+    # REASONS[NOT_FINITE], which mentions the new state, would be wrong.
     text = NOT_FINITE_BLOCK if status == NOT_FINITE and block else REASONS[status]
     return text.format(block=block, h=h)
 
