@@ -73,10 +73,11 @@ class RunRequest:
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Refuse the options that cannot be combined with compensated summation.
+    """Raise :class:`MethodError` if one of ``options`` is requested.
 
-    The keys of ``options`` are the names of such options. A value is True if the option is requested.
-    :class:`MethodError` is raised if a value is True. The message names ``method``.
+    The function must be called only if compensated summation is requested. Each key of ``options`` is the
+    name of an option that cannot be combined with compensated summation. The value is True if the option is
+    requested. The message of the error names ``method``.
     """
     for option, requested in options.items():
         if requested:

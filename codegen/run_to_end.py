@@ -132,5 +132,7 @@ class RunToEnd(ABC):
     ) -> Reached:
         """Call the emitted function, which stops at the end or when the buffer of events is full.
 
-        ``span`` is (t, end, h), and ``bounds`` is (rtol, atol, least, greatest).
+        ``span`` is (t, end, h): the initial time, the end time, and the first step size. ``bounds`` is
+        (rtol, atol, least, greatest): the relative and the absolute tolerance, and the least and the greatest
+        step size.
         """

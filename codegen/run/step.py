@@ -119,14 +119,18 @@ def _aged(plan: Plan) -> list[Statement]:
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # A matrix that is older than ``period`` steps would slow down the convergence.
+        # After ``period`` steps the age is set to 0, because an older matrix would slow down the convergence.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence
 
 
 def exact_time(start: Term, steps: Term, h: Term) -> Term:
-    """Return the time ``start + steps * h``. It is computed in double precision and then rounded once."""
+    """Return the time ``start + steps * h`` in the precision of the emitted code.
+
+    The product and the sum are computed in double precision. Only the sum is rounded to the precision of the
+    emitted code.
+    """
     # Repeated updates ``t += h`` would accumulate rounding errors.
     return narrow(wide(start) + wide(steps) * wide(h))
 

@@ -58,7 +58,8 @@ from codegen.run.terms import (
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0
 FIRST = 16.0
 """If the caller gives no step size, the first trial step is the length of the time interval divided by FIRST.
-After the first accepted step, the step size grows at most by the factor FIRST."""
+If this trial step is accepted, the step size grows at most by the factor FIRST. After each later step, the
+step size grows at most by the factor MOST."""
 
 SHARE = 0.2
 """A constant in the exponents of the controller.
@@ -70,7 +71,8 @@ has the exponent -4 SHARE/p. The error norm of the previous accepted step has th
 FLOOR = 1e-4
 """The least error norm that the controller stores for the next step.
 
-A smaller norm may occur by accident.
+The error norm of a step may be tiny by accident. A tiny stored norm would make the next step size too small,
+so the controller stores FLOOR in place of a smaller norm.
 """
 
 RTOL, ATOL = real("rtol"), real("atol")
@@ -273,8 +275,10 @@ class Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed after a rejected step.
 
-        The run continues with a shorter step, and the status is set to OK. If this step is too short to
-        change the time in floating-point arithmetic, the status keeps its value, and the run ends.
+        Let t be the time and h the size of the next, shorter trial step. If t + h differs from t in
+        floating-point arithmetic, the status is set to OK, and the run continues. If t + h equals t, the run
+        ends. If the rejected step failed, the final status is the status of the rejected step. If only the
+        error of the rejected step was too large, the final status is TOO_SHORT.
         """
         # If a step fails and no shorter step is possible, the run ends with the status of the failed step.
         following = real("next")

@@ -44,7 +44,9 @@ class Amounts:
     - ``arithmetic`` is the number of additions, products and other operations of about one cycle.
     - ``divisions`` is the number of divisions.
     - ``calls`` is the number of function calls.
-    - ``corrections`` is the number of sweeps of Newton's method for equations u = g(u).
+    - ``corrections`` is the number of products of an inverse matrix and a vector g(u) - u. Newton's method
+      for equations u = g(u) computes one such product in each sweep. Newton's method for equations r(u) = 0
+      computes products with r(u), which are not counted.
     - ``cubes`` is the sum of n^3 over all inversions of n x n matrices.
     """
 
@@ -57,7 +59,8 @@ class Amounts:
     cubes: float = 0.0
 
     def __add__(self, other: Amounts) -> Amounts:
-        # The code does not name the attributes, so it remains correct with additional attributes.
+        # ``astuple`` lists all attributes of the class, so this line needs no change if an attribute is added
+        # to the class.
         return Amounts(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
 
     def times(self, factor: float) -> Amounts:
@@ -109,7 +112,8 @@ def of_step(kernel: Kernel, work: Work) -> Amounts:
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of work in one sweep."""
-    # Each sweep of Newton's method for u = g(u) counts as one correction.
+    # Corrections are counted only for Newton's method for equations u = g(u), one in each sweep. If
+    # ``residuals`` is true, the equations are r(u) = 0.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 
@@ -130,7 +134,7 @@ def of_matrix(loop: Loop, work: Work) -> Amounts:
 
 def inversion(n: int) -> Amounts:
     """Return the amounts of work for the inversion of an n x n matrix."""
-    # The constant factor of n^3 is part of the weight of ``cubes``.
+    # The predicted time of the inversion is n^3 times the constant ``WEIGHTS.cubes``.
     return Amounts(cubes=n**3)
 
 

@@ -101,7 +101,8 @@ class Stopping:
     @cached_property
     def warm(self) -> bool:
         """True if the initial guess is extrapolated from previous steps (a warm start)."""
-        # A loop with a warm start has no formulas for the initial guess.
+        # ``starts`` contains the formulas for the initial guess. With a warm start there are no formulas, so
+        # ``starts`` is empty.
         return not self.loop.starts
 
     def before(self) -> list[Statement]:
@@ -214,8 +215,9 @@ class Stopping:
                 (Assign(rate, CHANGE / self.previous),),
                 (Assign(first, first + CHANGE),),
             ),
-            # At a constant rate below 1/2, the next change and all later changes add up to less than twice
-            # the next change.
+            # Let q be the rate. If q is constant, the sum of all later changes is q/(1 - q) times ``change``.
+            # For q < 1/2 this sum is less than 2 q ``change``. Therefore the test below bounds only
+            # q ``change``.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
                 flag("converged"),
@@ -255,7 +257,9 @@ class Stopping:
     def going_on(self, astray: Term | None = None) -> Term:
         """Return the condition under which the loop continues.
 
-        The test ``astray`` is true if the loop cannot converge.
+        The loop continues if the status is NOT_CONVERGED, the number of sweeps is below ``loop.limit``, and
+        the test ``astray`` is false. If the test ``astray`` is true, further sweeps cannot lead to
+        convergence. If there is no such test, ``astray`` is None.
         """
         # If an iteration converges too slowly, the loop ends at the largest number of sweeps.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
@@ -264,11 +268,13 @@ class Stopping:
     def after(self) -> list[Statement]:
         """Return the statements that store the rate of a converged loop for the next step.
 
-        One sweep cannot measure a rate. If the loop for equations u = g(u) made only one sweep, the stored
-        rate is doubled. In the first sweep, the stopping test multiplies the change of the unknowns by the
-        stored rate. If this product is small, the loop ends after one sweep. Each doubling makes the product
-        larger. As soon as the product is too large, the loop makes a second sweep, and the second sweep
-        measures the rate.
+        If the loop has no warm start, no rate is stored. After two or more sweeps, the measured rate is
+        stored. A single sweep measures no rate. After a single sweep, a loop for equations r(u) = 0 stores
+        the old rate again, and a loop for equations u = g(u) stores twice the old rate.
+
+        The factor 2 has the following reason. After the first sweep, the stopping test uses the old rate. If
+        the old rate is too small, the loop ends too early. The doubling makes the stored rate grow until the
+        stopping test demands a second sweep. The second sweep measures the rate again.
         """
         if not self.warm:
             return []

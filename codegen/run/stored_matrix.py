@@ -123,8 +123,10 @@ class StoredMatrix(ABC):
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
         """Return an entry of a linear combination of constant matrices.
 
-        For each constant matrix, ``entries`` contains the index of its coefficient, its entries, and the name
-        of a table. Entries are formulas or numbers. A number is read from the table at the index ``place``.
+        ``entries`` contains one triple for each constant matrix M. The first part of the triple is the index
+        of the coefficient of M in the linear combination. The second part is a formula for the entries of M,
+        or a tuple of numbers. The third part is the name of the table that contains the numbers. A number is
+        read from the table at the index ``place``.
         """
         total: Term | None = None
         for term, given, table in entries:
@@ -138,7 +140,11 @@ class StoredMatrix(ABC):
         return total
 
     def before(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term) -> list[Statement]:
-        """Return the statements that convert ``row`` and ``column`` to reals for formulas in ``entries``."""
+        """Return the statements that assign the indices ``row`` and ``column`` to real variables.
+
+        The formulas in ``entries`` contain these variables. An index that occurs in no formula is not
+        assigned.
+        """
         indices: dict[str, Statement] = {}
         for _, given, table in entries:
             for statement in constant_entry(self.hoist(given), table, row, column, row)[0]:
@@ -163,7 +169,8 @@ class BandedMatrix(StoredMatrix):
         """The length of the array for the matrix h A(t_i) at one time t_i."""
         return self.n * len(self.matrix.offsets)
 
-    # A linear combination of the matrices h A(t_i) has the same diagonals as each of the matrices.
+    # The nonzero entries of all matrices h A(t_i) are on the same diagonals, so the nonzero entries of a
+    # linear combination are on these diagonals, too. Therefore all arrays have the same length.
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
@@ -209,7 +216,8 @@ class BandedMatrix(StoredMatrix):
         return _largest_sum(a, self.n, [Assign(_TOTAL, total)])
 
     def _product(self, a: Term, x: Term, y: Term) -> Function:
-        # A stored main diagonal comes first and overwrites ``y``, so ``y`` needs no zeros.
+        # If the main diagonal is stored, its loop comes first and assigns a value to each entry of ``y``.
+        # Otherwise, all entries of ``y`` are set to zero first.
         k, covered = self.columns, self.matrix.offsets[0] == 0
         zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
         body: list[Statement] = [] if covered else [zero]
@@ -226,7 +234,12 @@ class BandedMatrix(StoredMatrix):
 
 
 class FullMatrix(StoredMatrix):
-    """A matrix whose entries are computed from the row i and the column j and are not stored."""
+    """A full matrix A(t). The entries of A(t) are not stored.
+
+    The formulas of the entries have subexpressions that depend on neither the row i nor the column j. The
+    array for a time t contains the values of these subexpressions. Each entry is computed from i, j and these
+    values when the entry is needed.
+    """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         super().__init__(matrix, columns, nodes)
@@ -255,9 +268,10 @@ class FullMatrix(StoredMatrix):
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
         """Return the statements that fill the array ``target``.
 
-        The parameter ``letter`` is a linear combination of the matrices A(t_i). The first entries of
-        ``target`` are the coefficients, multiplied by the step size h. Copies of the arrays in ``nodes``
-        follow. Matrix entries are computed from ``target`` when they are needed.
+        The parameter ``letter`` contains the coefficients c_i of a linear combination of the matrices
+        h A(t_i). The first entries of ``target`` are the numbers h c_i, one for each time t_i. Copies of the
+        arrays in ``nodes`` follow. The entries of the linear combination are computed from ``target`` when
+        they are needed.
         """
         weights = dict(letter)
         # If the linear combination does not contain the matrix A(t_i), its coefficient is zero.
@@ -316,8 +330,13 @@ class FullMatrix(StoredMatrix):
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
-        """Return the statement that adds the contribution of one diagonal to ``_ENTRY``."""
-        # An offset is added to one index, because a difference of unsigned indices could wrap around.
+        """Return the statement that adds a number to ``_ENTRY`` if j = i + ``offset``.
+
+        The entry in row i and column j is then on a diagonal of a constant matrix. The number is the product
+        of ``weight``, the coefficient with the index ``term``, and the entry on this diagonal.
+        """
+        # The emitted test adds |offset| to i or to j. It does not compute j - i, because the indices are
+        # unsigned, and a negative difference of unsigned numbers wraps around.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]

@@ -113,7 +113,10 @@ class _Loop:
         ]
 
     def named(self, word: str) -> list[Term]:
-        """Return a variable for each unknown, called ``word`` followed by the name of the unknown."""
+        """Return one variable for each unknown u.
+
+        The name of each variable consists of ``word`` and the name of u.
+        """
         return [own(f"{word} {u}") for u in self.iteration.loop.unknowns]
 
     def begin(self) -> list[Statement]:
@@ -128,7 +131,10 @@ class _Loop:
         return [*sequence, *self.rule.before()]
 
     def computed(self) -> list[Statement]:
-        """Return the statements of a sweep that evaluate g(u) in u = g(u), or r(u) in r(u) = 0."""
+        """Return the statements of a sweep that count the sweep and compute the images.
+
+        For equations u = g(u), the images are g(u). For equations r(u) = 0, the images are r(u).
+        """
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
@@ -143,8 +149,9 @@ class _Loop:
     ) -> list[Statement]:
         """Return the loop with the given body, and the statements that follow the loop.
 
-        The loop ends if the test ``astray`` is true. If the final status is not OK and the test ``singular``
-        is true, the status becomes SINGULAR.
+        The loop ends if a sweep sets a status other than NOT_CONVERGED, or after the largest number of
+        sweeps. If the test ``astray`` is given, the loop also ends as soon as this test is true. If the final
+        status is not OK and the test ``singular`` is true, the status becomes SINGULAR.
         """
         # Array languages have no ``break`` statement. Therefore the loop condition tests the status and the
         # number of sweeps.

@@ -102,7 +102,8 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     number of products is ``width``. Product c uses column c of ``left``, column c of ``right``, and entry c
     of ``sums``. Row j - 1 of ``left`` contains a_j, and row j - 1 of ``right`` contains b_j.
     """
-    # In each product, the row indices of the two factors add up to k - 1.
+    # Row j - 1 of ``left`` (a_j) is multiplied by row n - j - 1 of ``right`` (b_{n-j}). The two row indices
+    # add up to n - 2 = k - 1.
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
@@ -166,7 +167,12 @@ class _Controlled:
         self.series = real("series", self.degree * self.size)
 
     def polynomial(self) -> tuple[Function, ...]:
-        """Return the functions that compute and evaluate the Taylor polynomial and convert coordinates."""
+        """Return the emitted functions ENTER, EXPAND, EVALUATE and LEAVE.
+
+        EXPAND computes the Taylor coefficients, and EVALUATE evaluates the Taylor polynomial. ENTER converts
+        the state to the coordinates of the polynomial, and LEAVE converts these coordinates to the state. If
+        a conversion is not needed, the function for this conversion is omitted.
+        """
         enter, leave = self.expansion.enter, self.expansion.leave
         listed = []
         if enter is not None:
@@ -249,8 +255,9 @@ class _Controlled:
         # at least two numbers.
         width = m + m % 2
         left, right = (real(name, (self.degree - 1) * width) for name in ("left", "right"))
-        # The last n outputs of the kernel ``first`` are the coefficients of order 1. The other outputs of
-        # ``first`` are values that the loop over the orders needs.
+        # The kernel ``first`` is executed once. After it, a loop computes the coefficients from order 2 on.
+        # The last n outputs of ``first`` are the coefficients of order 1. The other outputs of ``first`` are
+        # values that the loop reads.
         sums, values = own("sum", width), len(ends) - n
         operands = [value(x) for x in every.arrangement.outputs]
         padding = [number(0.0)] * (width - m)

@@ -317,7 +317,10 @@ def total(terms: Iterable[Term]) -> Term:
 
 
 def paired(terms: Iterable[Term]) -> Term:
-    """Return the sum of terms, added in pairs: (a + b) + (c + d) + ..."""
+    """Return the sum of terms, for example ((a + b) + (c + d)) + (e + f).
+
+    Neighbouring terms are added in pairs. The sums of the pairs are added from left to right.
+    """
     listed = list(terms)
     if len(listed) < 3:
         return total(listed)

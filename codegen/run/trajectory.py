@@ -71,8 +71,9 @@ def is_looped(plan: Plan) -> bool:
 
 
 def _may_raise(kernel: Kernel) -> bool:
-    """Return True if Python may raise an exception where C computes an infinity or a NaN."""
-    # Python catches exceptions only in the function for a step, not in an inlined kernel.
+    """Return True if emitted Python may raise an exception where emitted C computes an infinity or a NaN."""
+    # In emitted Python, the function for one step catches these exceptions. An inlined kernel is not in this
+    # function, so a kernel that may raise an exception is not inlined.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 

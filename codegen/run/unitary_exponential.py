@@ -74,10 +74,11 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
         ),
     )
     about = (
-        "result = exp(X), where X is the traceless skew-Hermitian 3 x 3 matrix with the coordinates a. A "
-        "Taylor polynomial is evaluated modulo the characteristic polynomial, and its value is squared "
-        "repeatedly. The real parts of all entries of exp(X) come first. If the bound of the relative "
-        f"error exceeds 2^-{LEAST_DIGITS}, all results are NaN."
+        "result = exp(X), where X is the traceless skew-Hermitian 3 x 3 matrix with the coordinates a. X is "
+        "divided by 2^s to make its norm small. The Taylor polynomial of exp(X/2^s) is evaluated modulo the "
+        "characteristic polynomial of X/2^s, and the resulting matrix is squared s times. The real parts of "
+        "all entries of exp(X) come first. If the bound of the relative error exceeds "
+        f"2^-{LEAST_DIGITS}, all results are NaN."
     )
     return Function(function.name, about, (a, result), body)
 
@@ -141,7 +142,8 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
     added.
     """
     last = real("last")
-    # i^2 = -1 and i^3 = -i, so 1/k! is subtracted for k = 2 and k = 3.
+    # The powers i^0, i^1, i^2, i^3 are 1, i, -1, -i. Therefore the number a of the pair ``added`` = (a, k) is
+    # subtracted from the coefficient of I if k is 2 or 3, and added if k is 0 or 1.
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [
         # The old coefficient of H^2 is saved, because the last two statements still need it.

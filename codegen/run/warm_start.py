@@ -50,9 +50,9 @@ FEW = 12
 """The largest number of unknowns for which backward differences are computed in scalar variables."""
 
 SELDOM = 8
-"""The degree of the polynomial is adapted in each step until the ring buffer is full.
+"""The degree of the extrapolation polynomial is adapted in every SELDOM-th step of a run.
 
-Then the degree is adapted in every SELDOM-th step.
+In the first steps, until the ring buffer of solutions is full, the degree is adapted in each step.
 """
 
 _I = count("i")
@@ -156,7 +156,8 @@ class WarmStart:
     def difference(self) -> Function:
         """Return the function that computes a backward difference of the stored solutions.
 
-        The latest solution is added last, because it is known last.
+        The latest solution is added last. Therefore a processor can do all other additions before the latest
+        solution is known.
         """
         order, first, sign, result = count("order"), count("first"), real("sign"), real("sum", self.n)
         body = self.difference_of_few(order, first, sign, result) if self.n <= FEW else []
@@ -177,8 +178,9 @@ class WarmStart:
                 ),
             ]
         about = (
-            "Compute 'sign' times the backward difference of the given order. The first 'first' terms are "
-            "omitted."
+            "Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let "
+            "u_first be the latest stored solution, and let u_(j+1) be the solution one step before u_j. "
+            "Compute sum = sign (d_first u_first + ... + d_order u_order)."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
@@ -267,7 +269,8 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The previous solution, used as a guess, would have the error ``moved``.
+            # With the previous solution as the guess, the error of the guess would be ``moved``. If the error
+            # ``first`` of the extrapolated guess is not clearly smaller, the extrapolation was useless.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
@@ -310,6 +313,6 @@ class WarmStart:
         # ``place`` is true once in SELDOM steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
-            Note(f"adapt the degree; if the ring buffer is full, only in every {SELDOM}th step"),
+            Note(f"adapt the degree in each step until the ring buffer is full, then every {SELDOM} steps"),
             If(often, adapt),
         ]

@@ -44,9 +44,11 @@ digits must agree.
 class BodyField:
     """The field in the body frame, as formulas in q and in the momentum P in the body frame.
 
-    The formulas denote the components of P by the symbols of mu, the momentum in the space frame. The
-    equations of motion are q' = q.W and P' = N, where ``velocity`` is W and ``force`` is N. If W = A P with a
-    constant invertible matrix A, ``inverse`` contains the rows of A^-1.
+    The Hamiltonian of a scene contains symbols for the components of the momentum mu in the space frame. In
+    the formulas of this class, the same symbols denote the components of P.
+
+    The equations of motion are q' = q.W and P' = N, where ``velocity`` is W and ``force`` is N. If W = A P
+    with a constant invertible matrix A, ``inverse`` contains the rows of A^-1.
     """
 
     velocity: tuple[Expr, ...]
@@ -100,8 +102,10 @@ def field_in_body(
 
     ``roots`` are the velocity xi and the force n in the space frame, as formulas in q and mu. The result is
     W = Ad_{q^-1} xi and N = Ad*_q n, as formulas in q and P = Ad*_q mu. In ``roots``, the name ``mu[k]``
-    denotes component k of mu. In the result, the name ``mu[k]`` denotes component k of P. q is
-    eliminated from every component whose value does not depend on q.
+    denotes component k of mu. In the result, the name ``mu[k]`` denotes component k of P.
+
+    A formula for a component of W or N can contain q although the value of the component does not depend on
+    q. In this case, the result contains a formula without q.
     """
     space = roots[0].space
     domain = ExprDomain(space)
