@@ -73,9 +73,10 @@ class StateForm:
 def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[float]]:
     """Return the form of a state, and the flat list of the numbers in the state.
 
-    ValueError is raised if the state does not consist of ``size`` real numbers. If the state is a tuple, each
-    entry must fill one field or several consecutive fields, else ValueError is raised. If there are fewer
-    than two fields, the sizes of the entries are not checked.
+    ValueError is raised if the state does not consist of ``size`` real numbers. ValueError is also raised if
+    the state is a tuple and the sizes of its entries do not match ``fields``. An entry matches one field, or
+    several consecutive fields together: if the fields have 4, 2 and 3 numbers, the tuple may have entries of
+    6 and 3 numbers. If there are fewer than two fields, the sizes of the entries are not checked.
 
     >>> form, numbers = read(([[1, 0], [0, 1]], [2, 3]), 6)
     >>> numbers, form.restore(numbers)
@@ -208,8 +209,8 @@ def _flat(part: Any) -> tuple[tuple[int, ...], list[float]]:
         table = np.asarray(part)
     except ValueError:
         raise ValueError(
-            "expected rows of equal lengths in state, found rows of different lengths; write parts of "
-            "different shapes as a tuple"
+            "expected rows of equal lengths in state, found rows of different lengths; if the parts of the "
+            "state have different shapes, write one tuple of all parts, such as (q, mu)"
         ) from None
     if table.dtype.kind not in "fiub":
         raise ValueError(f"expected real numbers in state, found an array of type {table.dtype}")

@@ -178,8 +178,6 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of the given order. Each term belongs to a Lyndon word of ordered trees."""
-
     def product(word: Word) -> Element:
         return field(b"".join(reversed(word)))
 

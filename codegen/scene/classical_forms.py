@@ -53,7 +53,10 @@ class ClassicalForm:
 
     @property
     def printed(self) -> bool:
-        """True if the form uses the coordinates of the scene."""
+        """True for the form "as printed", which has the original equations of the scene.
+
+        False for a form that uses the body frame or the coordinates of a covering group.
+        """
         return self.key == PRINTED
 
     def scene_state(self, domain: Domain, state: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -350,7 +353,10 @@ class _Change:
         )
 
     def field(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return ``roots`` if ``body`` is False, otherwise the field in the body frame.
+        """Convert the velocity and the force to the body frame if ``self.body`` is True.
+
+        ``roots`` contains the components of the velocity and, in a Hamiltonian scene, of the force, both in
+        the space frame. If ``self.body`` is False, ``roots`` is returned unchanged.
 
         In the body frame, the momentum is P = Ad*_q mu, and the formulas depend on P instead of mu. In these
         formulas, the component P_a is denoted by the symbol that the scene uses for the component mu_a.

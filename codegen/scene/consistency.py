@@ -91,7 +91,6 @@ def check_start(orbit: Orbit) -> None:
 
 
 def _check_invertible(orbit: Orbit, start: Vector[mpmath.mpf]) -> None:
-    """Raise :class:`SceneError` if the states are group elements, and the initial state has no inverse."""
     group = orbit.group.offers(Inverse) if orbit.action.on_itself else None
     if group is None:
         return
@@ -143,7 +142,7 @@ def check_equal(
     """Raise :class:`SceneError` if the formulas ``stated`` by the scene differ from the ``derived`` formulas.
 
     If ``derived`` is None, ``stated`` is compared with the velocity y' = f.y, where f is the field of the
-    scene. Error messages call the formulas ``what``.
+    scene. ``what`` is the name of the formulas ``stated`` in error messages, for example "velocity".
     """
     source = "f.y" if derived is None else "the derivatives of H"
     for point in orbit.points:

@@ -37,7 +37,7 @@ OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 
 
 class Conservative(Protocol):
-    """A problem with an optional Hamiltonian and named invariants."""
+    """A problem y' = f.y, where f is the field. ``hamiltonian`` may be None. ``invariants`` may be empty."""
 
     @property
     def group(self) -> LieGroup:
@@ -143,7 +143,10 @@ def canonical(problem: Conservative) -> bool:
 
 
 def _canonical(group: LieGroup, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
-    """Apply the canonical bivector at y to the covector alpha, on T*G or T*G_1 x ... x T*G_n."""
+    """Apply the canonical bivector at the state y to the covector alpha.
+
+    ``group`` is a cotangent bundle T*G, or a product T*G_1 x ... x T*G_n.
+    """
     product = group.offers(DirectProduct)
     if product is None:
         return group.require(CotangentBundle).canonical(d, y, alpha)

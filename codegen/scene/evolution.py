@@ -88,7 +88,7 @@ class Evolution:
             return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
-        # The rounding errors of the two converted momenta nearly cancel in their difference.
+        # The rounding errors of ``before`` and ``after`` nearly cancel in the difference b - a.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
@@ -167,7 +167,8 @@ def evolution(scene: Problem) -> Evolution:
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
     if scene.sites is not None:
-        # The formulas of a site may contain any coordinate of its neighbours, so all coordinates are kept.
+        # No coordinate of a site is omitted or replaced, because the formulas of the neighbours may contain
+        # this coordinate.
         return forms[0]
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:

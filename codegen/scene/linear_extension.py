@@ -3,10 +3,15 @@
 The canonical coordinates are y = (q, p) in R^2n. Let J be the 2n x 2n block matrix (0, I; -I, 0). If A(t) is
 in sp(2n), y' = A(t).y is Hamilton's equation for H = -y^T J A y/2.
 
-The momentum u conjugate to the time has the initial value -H. Its derivative u' is minus the partial
-derivative of H with respect to t. Let a step of a method map y to M(t) y, where M(t) is symplectic and t is
-the time at the start of the step. The step in (q, p, t, u) is canonical if it adds y^T M^T J (dM/dt) y/2 to
-u, where y is the state at the start of the step (H. Marthinsen's thesis, equation (4.15)).
+The momentum u conjugate to the time has the initial value -H. The derivative u' is minus the partial
+derivative of H with respect to t.
+
+A step of a method for linear problems starts at the time t in the state y. The new state is M(t) y, where
+M(t) is a symplectic matrix that depends on t. The method must also compute the new value of u. By equation
+(4.15) of H. Marthinsen's thesis, the step in the coordinates (q, p, t, u) is canonical if the new value of u
+is
+
+    u + y^T M^T J (dM/dt) y/2.
 """
 
 from __future__ import annotations

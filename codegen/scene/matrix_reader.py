@@ -395,8 +395,10 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
 def _entry(reader: Reader, given: EntryFormula, indices: tuple[object, ...], size: int, what: str) -> Entry:
     """Return the entries of a matrix or of a diagonal.
 
-    The result is one formula in the indices for all entries, or a tuple with one number for each entry.
-    SceneError is raised if a list ``given`` does not contain ``size`` rational numbers.
+    ``given`` is a list of ``size`` rational numbers, a function of ``indices``, or one scalar for all
+    entries. For a list, the result is a tuple of numbers. Otherwise the result is one formula for all
+    entries. SceneError is raised for a list with a wrong number of entries, and for a list with an entry that
+    is not a rational number.
     """
     if callable(given):
         given = given(*indices)

@@ -13,7 +13,7 @@ from codegen.ir.domain import FloatDomain
 from codegen.scene.problem import Problem
 
 DISPLACEMENT = 1e-4
-"""The distance from the initial state to the points that the test :func:`reaches_orbit` projects."""
+""":func:`reaches_orbit` moves the initial state by this distance, and then projects the moved point."""
 
 REDUCED = 1e-2
 """A factor in the test of :func:`reaches_orbit`.

@@ -73,8 +73,9 @@ class Problem:
       ``t``; empty for large matrices and semilinear equations.
     - ``paired``: True if the state is (q, mu).
     - ``parts``: summands of the Hamiltonian, by name.
-    - ``flows``: the exact flow of each part.
-    - ``stated``: the exact flows that the scene defines by formulas for q and mu at the time tau.
+    - ``flows``: the exact flows that a step of a splitting method uses, by name.
+    - ``stated``: formulas for exact flows, by the name of the part. The scene gives these formulas for some
+      parts or for none. The formulas give (q, mu) after the time ``tau``.
     - ``runtime``: the parameters that are arguments of emitted code.
     - ``fixed``: pairs (name, value) of the parameters that the user has set.
     - ``signals``: the formula of each signal, by the name of the signal.

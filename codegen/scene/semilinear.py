@@ -31,7 +31,8 @@ class Semilinear:
     - ``length``: the period.
     - ``initial``: the initial state as a formula in x.
     - ``formulas``, ``outer``: formulas g_i and orders m_i. N is the sum of all (d/dx)^m_i g_i.
-    - ``inner``: for each derivative of u in ``formulas``, its order and its symbol.
+    - ``inner``: a pair (n, s) for each derivative of u that occurs in ``formulas``. The symbol s denotes the
+      n-th derivative of u. For u itself, n is 0.
     - ``kept``: the fraction of the Fourier modes of N that is kept; the highest modes are replaced by zero.
     - ``timed``: True if N depends on the time.
     """

@@ -234,7 +234,7 @@ def _with_digits(formula: sympy.Expr) -> sympy.Expr:
 
 
 def _kept(name: str, dealias: object) -> Fraction:
-    """Return which fraction of the Fourier modes of the nonlinear term is kept."""
+    """Return the fraction of Fourier modes to keep: ``dealias``, where True means 2/3 and False means 1."""
     if isinstance(dealias, bool):
         return TWO_THIRDS if dealias else Fraction(1)
     kept = exact(dealias)
@@ -273,8 +273,7 @@ def _check(
         expected = [plus[0], *(-y for y in plus[1:])]
         if any(abs(a - b) > 1e-9 * (1 + abs(a)) for a, b in zip(expected, minus, strict=True)):
             raise SceneError(
-                f"an operator L that does not map real functions to real functions: the test fails at k = "
-                f"{k:g}",
+                f"L does not map real functions with the wave number k = {k:g} to real functions",
                 where=reader.name,
                 expected="a formula L whose value at -k is the complex conjugate of its value at k",
                 hint="write I*k for d/dx and abs(k) for sqrt(-d^2/dx^2)",

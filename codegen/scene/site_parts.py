@@ -127,8 +127,9 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
                     f"generator {k} of the part {part.name} is not constant along the flow of the part",
                     where=scene.name,
                     expected="generators f(y) for which the exact flow over a time tau is exp(tau f(y)).y",
-                    hint="split the part, or use other generators for the same velocity, for example "
-                    "J (S + T) in place of J T, for spins S, T and a number J",
+                    hint="split the part, or use other generators that give the same velocity; for example, "
+                    "if J is a number and S and T are spins with S' = J T x S, use J (S + T) in place of "
+                    "J T, because S x S = 0",
                 )
 
 
@@ -185,9 +186,10 @@ def _with_outside(
     states: Mapping[Offset, Mapping[str, mpmath.mpf]],
     absent: frozenset[Offset],
 ) -> dict[str, mpmath.mpf]:
-    """Return the values of all symbols in the field of a site.
+    """Return ``point``, extended by the coordinates of the neighbours of a site.
 
-    For an offset in ``absent``, ``sites.outside`` replaces the state of the neighbour.
+    ``point`` contains the coordinates of the site. ``states`` contains the coordinates of the neighbour at
+    each offset. At an offset in ``absent``, the site has no neighbour, and ``sites.outside`` is used instead.
     """
     values = dict(point)
     for k, offset in enumerate(sites.offsets):

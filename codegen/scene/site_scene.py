@@ -69,8 +69,8 @@ def SiteScene(
     - ``parts``: the summands of the field. A part is a column of formulas in ``y``, or a
       :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: the energy of a site, and the energies of pairs of neighbours (:class:`Bond`).
-    - ``invariants``: functions of the state of one site. Each function must be constant along all solutions
-      of y' = f.y, even if the states of the neighbours are replaced by arbitrary constants.
+    - ``invariants``: functions of the state of one site. In the equation y' = f.y, let the states of the
+      neighbours be arbitrary constants. Each function must be constant along all solutions of this equation.
 
     :class:`SceneError` is raised for each error that :func:`codegen.scene.FieldScene` lists, and for these
     errors: offsets of neighbours differ in length, ``outside`` has no state for a neighbour, the parts do not
@@ -151,8 +151,8 @@ def _check_energy(problem: Problem) -> None:
                 f"constant: the time derivative is {orbit.text(sum(terms))}",
                 where=problem.name,
                 expected="an energy that is constant along the solutions",
-                hint='at an open boundary, the argument "outside" must contain constants, or states that '
-                "exert no force",
+                hint='at an open boundary, each state in the argument "outside" must be constant or must '
+                "exert no force on the site",
             )
 
 
@@ -228,7 +228,8 @@ def outside_states(
                 f"the boundary is open, but there is no state for the neighbour {offset}",
                 where=reader.name,
                 expected='a column of formulas in the argument "outside"',
-                hint="write, for example, zeros, the coordinates y, constants, or formulas in t",
+                hint="the column can contain numbers such as 0, formulas in t, or the coordinates y of the "
+                "site",
             )
         listed.append(reader.column(given.pop(offset), size, f"outside {offset}"))
     if given:

@@ -132,8 +132,9 @@ def spline_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fr
 def _bends(widths: Sequence[Fraction], slopes: Sequence[Fraction]) -> list[Fraction]:
     """Return the second derivatives m_k of the spline at the points.
 
-    Interval k has the width w_k, and s_k is the slope of the straight line between its ends. There are n
-    intervals, and k begins at 0. The equations are m_0 = 0, m_n = 0 and, for 0 < k < n,
+    Interval k begins at point k and ends at point k + 1. The interval has the width w_k, and the straight
+    line through these two points has the slope s_k. There are n intervals, and k begins at 0. The equations
+    are m_0 = 0, m_n = 0 and, for 0 < k < n,
 
     w_{k-1} m_{k-1} + 2 (w_{k-1} + w_k) m_k + w_k m_{k+1} = 6 (s_k - s_{k-1}).
     """

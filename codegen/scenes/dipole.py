@@ -91,7 +91,7 @@ figures = [
     Motion(
         name="motion",
         title="Motion of the dipole",
-        caption="800 steps of size 0.01. The motion stops while the pointer is on the picture.",
+        caption="800 steps of size 0.01. The animation pauses while the pointer is on the picture.",
         bars={
             "stick": ((0, 0, 0), tuple(-g * e3)),
             "dipole": (tuple(g * Matrix([0, a, -1])), tuple(g * Matrix([0, -a, -1]))),

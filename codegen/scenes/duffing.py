@@ -1,9 +1,14 @@
 """Duffing's equation on the plane, with the group of translations.
 
-The equations are x' = y and y' = -a x - b x^3 with a = b = 1 (H. Marthinsen's thesis, section 2.2). In a
-step, Lie-Euler keeps the whole field constant. In the scene ``duffing_sl2``, the stiffness of the spring does
-not change in a step of Lie-Euler. In ``duffing_se2``, the cubic part of the force does not change in a step
-of Lie-Euler. Translations commute, so RKMK, CG and CF methods for ``duffing`` are Runge-Kutta methods.
+The equations are x' = y and y' = -a x - b x^3 with a = b = 1 (H. Marthinsen's thesis, section 2.2). The
+scenes ``duffing``, ``duffing_sl2`` and ``duffing_se2`` contain these equations with different groups. During
+a step, the method Lie-Euler keeps a different quantity constant in each scene:
+
+- ``duffing``: the field (y, -a x - b x^3).
+- ``duffing_sl2``: the stiffness a + b x^2 of the spring.
+- ``duffing_se2``: the cubic part -b x^3 of the force.
+
+Translations commute, so RKMK, CG and CF methods for ``duffing`` are Runge-Kutta methods.
 """
 
 from collections.abc import Sequence
@@ -45,8 +50,8 @@ figures = [
     PlaneCurves(
         name="frozen",
         title="Flows of the frozen fields of Duffing's equation",
-        caption="Each point of a curve is the result of one Lie-Euler step. The step sizes are from 0 to 20. "
-        "The reference is the exact solution.",
+        caption="There is one panel for each group. A curve contains the results of one Lie-Euler step from "
+        "the initial state, for step sizes from 0 to 20. The reference is the exact solution.",
         source="Fig. 2.1 of Marthinsen's thesis",
         point=(x, y),
         panels=True,

@@ -24,7 +24,8 @@ axis = Matrix(q[1:])
 def turned(real: Expr, v: Matrix) -> Matrix:
     """Return the vector v rotated by a unit quaternion.
 
-    The quaternion has the real part ``real`` and the imaginary part ``axis``.
+    The real part of the quaternion is ``real``. The imaginary part is always ``axis``, a variable of this
+    module.
     """
     c = 2 * axis.cross(v)
     return v + real * c + axis.cross(c)

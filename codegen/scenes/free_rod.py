@@ -12,8 +12,9 @@ mass of each piece is concentrated in its cross section. The strains contain the
 
 A prime denotes the second section, and delta_a3 is the Kronecker delta. S = (GA, GA, EA) contains the
 stiffnesses of shear and extension. K = (EI, EI, GJ) contains the stiffnesses of bending and torsion. The
-numbers D_a are D_1 = D_2 = GJ/2 and D_3 = EI - GJ/2. For a small rotation theta between the sections,
-sum_a D_a |d_a' - d_a|^2 is then sum_a K_a theta_a^2.
+numbers D_a are D_1 = D_2 = GJ/2 and D_3 = EI - GJ/2. Let theta be the vector of a small rotation from one
+section to the next, and theta_a = theta.d_a. With these D_a, sum_a D_a |d_a' - d_a|^2 is equal to
+sum_a K_a theta_a^2 up to terms of higher order in theta.
 
 The code divides all energies and momenta by ds.
 """

@@ -48,7 +48,7 @@ figures = [
     Motion(
         name="motion",
         title="Motion of the heavy top",
-        caption="200 steps of size 0.005. The motion stops while the pointer is on the picture.",
+        caption="200 steps of size 0.005. The animation pauses while the pointer is on the picture.",
         bars={
             "axis, from the fixed point to the centre of mass": ((0, 0, 0), tuple(g * e3)),
             "a line across the axis": (tuple(g * e3 - g[:, 0] / 4), tuple(g * e3 + g[:, 0] / 4)),

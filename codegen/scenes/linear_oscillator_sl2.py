@@ -79,8 +79,9 @@ figures = [
     ),
     TimeSeries(
         name="symmetric_canonical",
-        title="The energies H and −u of four methods: symmetric, canonical, both or neither",
-        caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
+        title="Energies of four methods, which are symmetric, canonical, both or neither",
+        caption="The energies are H and −u, where u is the momentum conjugate to the time; −u = H on exact "
+        "solutions. "
         "eps = 0.1, alpha = 0.123, h = 0.3. "
         "The thesis prints eps = 0.6, but only eps = 0.1 fits its figure.",
         source="Fig. 4.2 of Marthinsen's thesis",
@@ -96,7 +97,8 @@ figures = [
     Deviation(
         name="energy_errors",
         title="Energy errors: the maximum over each group of 500 steps",
-        caption="eps = 0.1, alpha = 0.123, h = 0.3. Lie-Gauss with h = 0.02 approximates the exact energy.",
+        caption="eps = 0.1, alpha = 0.123. All curves are for h = 0.3. "
+        "The exact energy is replaced by the energy that Lie-Gauss gives with h = 0.02.",
         source="Fig. 4.3 of Marthinsen's thesis",
         quantity=H,
         axis="largest difference from the exact energy",

@@ -38,9 +38,10 @@ class Neighbours(MetaPathFinder):
 
 @contextmanager
 def neighbours_of(file: Path) -> Iterator[None]:
-    """Let imports within a ``with`` block find the neighbours: modules in the folder of the scene file.
+    """Make the neighbours of a scene file importable within a ``with`` block.
 
-    The neighbours are removed from ``sys.modules`` at the end of the block.
+    The neighbours are the modules in the folder of the scene file. At the end of the block, the neighbours
+    are removed from ``sys.modules``.
     """
     folder = file.resolve().parent
     names = frozenset(name for name in _modules(folder) if not _installed(name))

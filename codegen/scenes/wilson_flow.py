@@ -2,9 +2,11 @@
 
 A link is a matrix V in SU(3). The equation of a link is V' = -g0^2 (dS(V)) V, where g0 is the coupling
 constant and S is the Wilson action. Let V^H be the conjugate transpose of V. The plaquette P = V0 V1 V2^H
-V3^H gives g0^2 S = 2 Re tr(1 - P). If V is V0 or V1, let X be the cyclic permutation of the product P that
-begins with V. If V is V2 or V3, let X be the cyclic permutation of the product P^H = V3 V2 V1^H V0^H that
-begins with V. The generator -g0^2 dS(V) is the traceless anti-Hermitian part of -X.
+V3^H gives g0^2 S = 2 Re tr(1 - P).
+
+For V0 and V1, the generator -g0^2 dS(V) is computed from the product P. For V2 and V3, the generator is
+computed from the product P^H = V3 V2 V1^H V0^H. The factors of the product are permuted cyclically until V is
+the first factor. Let X be the permuted product. The generator is the traceless anti-Hermitian part of -X.
 
 A link V is stored as a real 6 x 3 matrix: Re V above Im V.
 

@@ -4,10 +4,11 @@ The equation of a link V is V' = -g0^2 (dS(V)) V, where g0 is the coupling const
 (M. Luescher, Properties and uses of the Wilson flow in lattice QCD, JHEP 08 (2010) 071, arXiv:1006.4518,
 section 1).
 
-For each axis, one link leads from each site to the next site. A link V is stored as a real 6 x 3 matrix: Re V
-above Im V. A plaquette is a square of four links. For each plaquette that contains V, the product of the
-other three links is a staple of V. Let X be the product of V and the sum of the staples of V. The generator
--g0^2 dS(V) is the traceless anti-Hermitian part of -X.
+The lattice has links along all axes. A link along an axis leads from a site to the next site in the direction
+of the axis. A link V is stored as a real 6 x 3 matrix: Re V above Im V. A plaquette is a square of four
+links. For each plaquette that contains V, the product of the other three links is a staple of V. Let X be the
+product of V and the sum of the staples of V. The generator -g0^2 dS(V) is the traceless anti-Hermitian part
+of -X.
 
 The variable ``energy`` is the density of the action at a site: the sum of 2 Re tr(1 - P) over the plaquettes
 P of the site. Each site has one plaquette for each pair of axes.

@@ -36,7 +36,10 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 
 
 LEFT = 10
-"""The number of correct bits that a vector must keep after rotations (:func:`limit`)."""
+"""The condition in :func:`limit` bounds the rounding errors of a chain of rotations by 2^-LEFT.
+
+About LEFT correct bits are then left in the result of the last rotation.
+"""
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
@@ -44,9 +47,9 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 
     For z above the returned limit, c_k(z) is NaN. For a rotation by the angle a, z is a^2.
 
-    In a chain of rotations, the angle of each rotation is computed from the result of the preceding rotation
-    (:func:`codegen.ir.angle_depth.chain`). The number of these rotations is ``chain``. Let m be the largest
-    integer for which the angle a = 2^m satisfies the condition
+    A chain is a sequence of ``chain`` rotations. The angle of each rotation except the first is computed from
+    the result of the preceding rotation (:func:`codegen.ir.angle_depth.chain`). Let m be the largest integer
+    for which the angle a = 2^m satisfies the condition
 
         a^chain 8^(chain-1) 2^-bits <= 2^-LEFT,   with bits = ``precision.bits``.
 

@@ -1,10 +1,13 @@
 """The claimable families of a tableau. The tableau file should claim an order for each of these families.
 
-These families are:
+For three kinds of methods, these families are:
 
 - For a Butcher tableau: ``rk``, ``cg`` and ``rkmk``. If no weight is zero, also ``sprk``, ``vcg``, ``vrkmk``.
 - For a commutator-free method: ``rk`` and ``cf``. If no weight is zero, also ``vcf``.
-- For a partitioned method (a pair of tableaux): ``prk``, or ``sprk_separable`` if the pair is symplectic.
+- For a partitioned method, which is a pair of tableaux: only ``sprk_separable`` if the pair is symplectic,
+  otherwise only ``prk``.
+
+For other kinds of methods, see the method ``claimable`` of each family.
 """
 
 from __future__ import annotations
@@ -35,7 +38,9 @@ def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
 
 
 def unclaimed(tableau: Tableau) -> tuple[Family, ...]:
-    """Return the claimable families for which the file of the tableau contains no claimed order.
+    """Return the families in which the tableau file should claim an order, but claims none.
+
+    :func:`claimable_families` returns all families in which the tableau file should claim an order.
 
     >>> from orderconds.tableau import find
     >>> unclaimed(Tableau.load(find("kutta3")))

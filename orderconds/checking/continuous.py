@@ -68,9 +68,12 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the order condition for the coefficients of theta^p in the weights b_i(theta).
+    """Return the equation for the coefficients of theta^p in an order condition of dense output.
 
-    The order of ``condition`` is n. The right-hand side is ``condition.rhs`` if p = n, and zero otherwise.
+    The weights b_i(theta) of dense output are polynomials in theta. ``condition`` has the order n. For dense
+    output, the right-hand side is ``condition.rhs`` * theta^n. In the result, b_i denotes the coefficient of
+    theta^p in b_i(theta). Therefore the right-hand side of the result is ``condition.rhs`` if p = n, and zero
+    otherwise.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")

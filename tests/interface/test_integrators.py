@@ -129,7 +129,7 @@ def test_a_wrong_state_has_a_message(state: object, message: str) -> None:
         ),
         ((Q[:2], np.zeros(6)), "found parts of 6 and 6 numbers"),
         ((Q,), r"expected 12 numbers in state, found 9; a state is q \(9 numbers\), mu \(3 numbers\)"),
-        ([Q, MU], "write parts of different shapes as a tuple"),
+        ([Q, MU], "have different shapes, write one tuple of all parts"),
         ({"q": Q, "mu": MU}, "found an object of type dict"),
     ],
 )
