@@ -17,8 +17,8 @@ from orderconds.errors import InputError
 class Derivation:
     """The conditions of ``family`` (a label such as ``rkmk(1)``) up to ``order``.
 
-    ``by_order[n - 1]`` contains the conditions of order n. A derivation supports ``len``, indices and
-    iteration like the tuple ``conditions``.
+    ``by_order[n - 1]`` contains the conditions of order n. The tuple :attr:`conditions` contains all
+    conditions. For a derivation, ``len``, indices and iteration refer to this tuple.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation, len(derivation)

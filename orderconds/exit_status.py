@@ -48,7 +48,11 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """The exception that :func:`past_click` raises in place of the exception ``cause``."""
+    """A substitute for the exceptions KeyboardInterrupt and BrokenPipeError.
+
+    The library click would handle these two exceptions itself. To prevent this, the function
+    :func:`past_click` raises a substitute. The attribute ``cause`` contains the original exception.
+    """
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()

@@ -37,11 +37,11 @@ MAX_SECONDS = 2.0
 
 @dataclass(frozen=True)
 class ExactForms:
-    """A tableau with exact coefficients.
+    """A copy of a tableau. In the copy, exact numbers replace the rounded numbers of the original tableau.
 
-    - ``tableau`` is the tableau with exact coefficients.
+    - ``tableau`` is the copy with exact coefficients.
     - ``data`` contains the keys and values of a tableau file with exact coefficients.
-    - ``texts`` maps the name of each replaced coefficient to its exact value as text.
+    - ``texts`` maps the name of each rounded number in the original tableau to the exact number, as text.
     """
 
     tableau: Tableau

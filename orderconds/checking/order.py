@@ -247,8 +247,10 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield pairs (batch, flag). The conditions of the trees in all batches imply every condition of order n.
-    The flag is true if there is only one batch.
+    """Divide the trees of ``family.decisive_in_turn(n)`` into batches, and yield pairs (batch, flag).
+
+    Each tree has one condition. Together, the conditions of all batches imply every condition of order n. The
+    flag is true if there is only one batch.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

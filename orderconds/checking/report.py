@@ -120,7 +120,7 @@ class SymmetryOrder(Struct, frozen=True):
     at_least: bool = False
 
     def as_json(self) -> dict[str, object]:
-        """Return the order of symmetry as a dictionary for the JSON output of ``orderconds check``."""
+        """Return the four attributes in a dictionary, for the JSON output of ``orderconds check``."""
         return {
             "family": self.family,
             "order": self.order,

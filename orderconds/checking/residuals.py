@@ -30,8 +30,9 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""The verdict ``supported`` on a condition of order n requires a residual ball with a radius of at most
-RESOLUTION/n!."""
+"""Suppose that the residual of a condition of order n is a ball that contains zero and other numbers. The
+verdict on the condition is ``supported`` if the radius of the ball is at most RESOLUTION/n!, and
+``undecided`` if the radius is larger."""
 
 BITS = 256
 """The precision, in bits, of the balls that contain elements of a number field."""
@@ -68,7 +69,8 @@ class Failure:
 
     @cached_property
     def size(self) -> Decimal:
-        """The residual with its sign, as a decimal number of 20 digits."""
+        """The residual as a decimal number of 20 digits. In spite of the name ``size``, the number has the
+        sign of the residual."""
         if self.enclosure is not None:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:
@@ -169,8 +171,11 @@ _ENCLOSED = Memo(_enclosed)
 
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
-    """Return True if the exact residuals can be computed with rational numbers
-    (:mod:`orderconds.ring.nodal`)."""
+    """Return True if the exact residuals can be computed with rational polynomials in the nodes c_i.
+
+    The nodes may be irrational numbers. The docstring of :mod:`orderconds.ring.nodal` states which methods
+    allow this computation.
+    """
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
     return nodal_algebra(ring, (method.A,), method.b) is not None

@@ -255,7 +255,8 @@ def _beyond(
 ) -> FamilyOrder:
     """Derive the order in ``family`` from the orders in other families.
 
-    If the order cannot be derived, return ``ended``.
+    ``ended`` is the result of a search in ``family`` that reached a limit, so ``ended.order`` is only a lower
+    bound. If the orders in other families do not determine the order in ``family``, return ``ended``.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
@@ -386,7 +387,8 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 
         readers = ", ".join(member.label() for member in claimable_families(tableau))
         raise InputError(
-            f"a claim in family {label}, which does not accept tableaux of format {tableau.family}",
+            f"the tableau claims an order in family {label}, but this family does not accept tableaux of "
+            f"format {tableau.family}",
             where=where,
             expected=f"a family that accepts this format, such as {readers}",
         )
@@ -425,8 +427,9 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each family in which the file should claim an order, but does not.
 
-    If a proof exists, the coefficients of ``enclosed`` are balls (intervals) that contain the exact
-    coefficients.
+    The message contains the order of ``enclosed``. If the equations in the table ``[proof]`` of the file are
+    proved to have a solution, the coefficients of ``enclosed`` are balls (intervals) that contain this
+    solution. Otherwise ``enclosed`` is the argument ``tableau``.
     """
     from orderconds.checking.claimable import unclaimed
 

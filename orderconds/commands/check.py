@@ -78,8 +78,8 @@ WIDTH = 200
     "--require-claims",
     is_flag=True,
     help="Exit with status 1 if at least one tableau contains no claim for the checked families. Exit with "
-    "status 2 if a file in a DIR seems to be an incomplete tableau. An example is a JSON file with a matrix "
-    "under another key.",
+    "status 2 if a file in a DIR seems to be an incomplete tableau. For example, a JSON file seems to be "
+    "incomplete if it contains a matrix, but no key of a tableau, such as A, b or family.",
 )
 @click.option(
     "--skip-others",
@@ -298,7 +298,8 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
     """Yield the files to check, with each directory replaced by the tableau files below it.
 
-    If ``strict`` is true, files that only resemble a tableau are not skipped
+    A file in a directory may resemble a tableau, but lack the required names, such as A or b. This file is
+    yielded if ``strict`` is true, and skipped if ``strict`` is false
     (:func:`~orderconds.exchange.folder.reason_to_skip`).
     """
     for argument in arguments:

@@ -45,7 +45,8 @@ if TYPE_CHECKING:
 @click.option(
     "--symmetric",
     is_flag=True,
-    help="Search only for symmetric methods: a step of length -h undoes a step of length h.",
+    help="Search only for symmetric methods. A method is symmetric if a step of length -h undoes a step of "
+    "length h.",
 )
 @click.option(
     "--fsal",
@@ -170,9 +171,9 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # An invalid name is refused before the search, because a search may take hours.
     verify_name(options["name"], "--name")
-    # Let p be ``options["order"]``. Every search needs the trees up to order p - 1. Some searches do not need
-    # the trees of order p: if p is even, each symmetric method of order p - 1 also has order p. Therefore
-    # this test counts only the trees up to order p - 1.
+    # Let p be ``options["order"]``. Every search needs the trees up to order p - 1. If p is even, a search
+    # for symmetric methods does not need the trees of order p, because each symmetric method of order p - 1
+    # also has order p. Therefore this test counts only the trees up to order p - 1.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},

@@ -93,9 +93,10 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return the C source without strings and comments, and the comments before the first array.
+    """Remove strings and comments from C source. Return the remaining source and a list of texts.
 
-    Comments ``/* ... */`` inside arrays remain, because these comments contain exact values of numbers.
+    The texts are those of the removed comments ``/* ... */`` that precede the first array. Comments
+    ``/* ... */`` inside arrays are not removed, because these comments contain exact values of numbers.
     """
     kept: list[str] = []
     comments: list[str] = []

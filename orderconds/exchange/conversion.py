@@ -1,4 +1,4 @@
-"""Convert a tableau to one of the formats of :mod:`orderconds.exchange`, as text or bytes."""
+"""Convert a tableau to text or bytes in one of the formats of :mod:`orderconds.exchange`."""
 
 from __future__ import annotations
 

@@ -109,7 +109,11 @@ def _texts(text: str) -> Arrays:
 
 
 def _environments(text: str, where: str) -> Iterator[tuple[str | None, str]]:
-    """Yield (None, source of the rows) for a Butcher tableau, and (name, source of the rows) for a matrix."""
+    """Yield a pair (name, rows) for each Butcher tableau and each named matrix in the LaTeX source ``text``.
+
+    ``rows`` is the LaTeX source of the rows. ``name`` is the text before the equals sign of a matrix, such as
+    ``A``. For a Butcher tableau, ``name`` is None.
+    """
     opened: re.Match[str] | None = None
     for token in _ENVIRONMENT.finditer(text):
         if token[1] == "begin":

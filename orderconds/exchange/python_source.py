@@ -310,7 +310,8 @@ def _may_change(node: ast.AST, values: Values) -> bool:
     >>> [_may_change(ast.parse(x), values) for x in ("len(A) + A.sum(axis=1)", "A.pop()", "f(A)", "(A := 1)")]
     [False, True, True, True]
     """
-    # An instance of a class of the module may execute code even in an operation such as ``x + 1``.
+    # ``values.active`` may contain the name of an object x whose class overloads the operator ``+``. Then
+    # even ``x + 1`` may change a variable.
     if _mentioned(node) & values.active:
         return True
     for x in ast.walk(node):

@@ -107,7 +107,8 @@ class Values:
     _entries: int = 0
 
     def value(self, node: ast.expr) -> Value:
-        """Return the value of an expression, or a :class:`Computed` if the expression cannot be evaluated."""
+        """Return the value of an expression. If the expression cannot be evaluated, return a placeholder of
+        type :class:`Computed` that contains the reason."""
         try:
             return self._value(node)
         except _NotLiteral as problem:
@@ -270,7 +271,11 @@ class Values:
         function = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
         arguments = node.args
         if (root := root_of(node.func)) in self.known:
-            raise _NotLiteral(node, f"a call of {root}, which the module defines or imports")
+            raise _NotLiteral(
+                node,
+                f"a call of {root} must be executed, because {root} is defined in the file or imported from "
+                "an unsupported library",
+            )
         if isinstance(node.func, ast.Name):
             function = self.functions.get(function, function)
         if any(keyword.arg not in ("dtype", "precision", "dps") for keyword in node.keywords):
@@ -326,7 +331,8 @@ def _require_doubles(node: ast.Call) -> None:
 
 
 def _require_digits(node: ast.Call) -> None:
-    """Raise an error if a call such as ``Float('0.577', 2)`` drops digits of its text."""
+    """Raise an error if the precision in a call such as ``Float('0.577', 2)`` is too low for the digits of
+    the number. In this example, the precision is two digits."""
     text = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
     digits = sum(x.isdigit() for x in text) if isinstance(text, str) else 17
     # One bit corresponds to log10(2) = 0.30103 digits.

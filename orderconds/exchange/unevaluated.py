@@ -115,8 +115,11 @@ class UnevaluatedNumbers:
     def named_root(
         self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
     ) -> Unevaluated:
-        """Store the only real root of the polynomial ``minpoly`` in [near - unit, near + unit]. Return an
-        expression that consists of the name of the root."""
+        """Store a real root of the polynomial ``minpoly`` under the name ``name``. Return an expression that
+        consists of this name.
+
+        The root is the only root of the polynomial in the interval [near - unit, near + unit].
+        """
         self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
         return Unevaluated(Name(name))
 

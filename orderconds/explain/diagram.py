@@ -52,9 +52,9 @@ class Vertex:
 
     If ``sign`` is ``letter``, ``label`` is the printed text of the letter. Otherwise ``label`` is empty.
 
-    The module docstring defines forces and outward edges. For a force with n > 0 outward edges, ``legs`` is
-    the pair (m, n): m outward edges are to the left of the edge to the parent, and n - m are to the right.
-    For all other vertices, ``legs`` is None.
+    The module docstring defines forces and outward edges. For a force with at least one outward edge,
+    ``legs`` is a pair (m, n). Here n is the number of all outward edges, and m is the number of outward edges
+    to the left of the edge to the parent. For all other vertices, ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

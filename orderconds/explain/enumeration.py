@@ -24,7 +24,9 @@ DRAWN = 500
 
 @dataclass(frozen=True, repr=False)
 class ShownTree:
-    """A tree, a forest or a word, for example a rooted tree.
+    """A tree of the kind ``kind``, for example a rooted tree. The class prints and draws the tree.
+
+    Some kinds consist of forests or words. For these kinds, "tree" means a forest or a word.
 
     >>> tree = trees("rooted", 3)[1]
     >>> tree.text, tree.differential, str(tree.condition)

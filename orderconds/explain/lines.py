@@ -12,8 +12,8 @@ from orderconds.explain.diagram import Diagram, Edge, Sign, Vertex
 class Style:
     """The characters of one drawing style.
 
-    ``last`` is the corner at the last branch of a vertex, and ``fork`` is the junction at each other branch.
-    ``rail`` is a part of the vertical line between two branches.
+    ``last`` is the corner at the last branch of a vertex. ``fork`` is the junction at each branch except the
+    last branch. ``rail`` is a part of the vertical line between two branches.
 
     A text such as ``(▸*▸)`` after a vertex lists edges from left to right: ``▸`` is the edge to a branch, and
     ``*`` is the edge to the parent.

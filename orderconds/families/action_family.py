@@ -107,8 +107,9 @@ class ActionFamily(Family):
     def dependence_holds(self, order: int) -> bool:
         """Return True if the polynomials ``relations(order)`` pass a test in rational arithmetic.
 
-        The test passes if each polynomial equals the left-hand side of its condition. The test uses the exact
-        flow and one method with random rational coefficients.
+        The method :meth:`relations` returns one polynomial for each dependent condition. The test evaluates
+        the polynomial and the left-hand side of the dependent condition, for the exact flow and for one
+        method with random rational coefficients. The test passes if both values are always equal.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 

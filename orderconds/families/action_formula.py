@@ -235,9 +235,9 @@ class CrouchGrossmanFormula(ExponentialsFormula):
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. Only
-        one velocity contains the letter x: the velocity with the index ``stage``. In this velocity, x has the
-        coefficient one.
+        The velocity of each stage is a linear combination of letters. A new letter x is added to the velocity
+        of stage ``stage``, with the coefficient one. The velocities of all other stages do not contain x. The
+        word consists of the letters of ``before``, the letter x, and the letters of ``after``.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -272,9 +272,9 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. Only
-        one velocity contains the letter x: the velocity with the index ``stage``. In this velocity, x has the
-        coefficient one.
+        The velocity of each stage is a linear combination of letters. A new letter x is added to the velocity
+        of stage ``stage``, with the coefficient one. The velocities of all other stages do not contain x. The
+        word consists of the letters of ``before``, the letter x, and the letters of ``after``.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -319,9 +319,9 @@ class MuntheKaasFormula(ActionFormula):
 
         The exponential belongs to stage ``row``, or to the update if ``row`` is None.
 
-        The word consists of the letters of ``before``, a new letter x, and the letters of ``after``. Only
-        one velocity contains the letter x: the velocity with the index ``stage``. In this velocity, x has the
-        coefficient one.
+        The velocity of each stage is a linear combination of letters. A new letter x is added to the velocity
+        of stage ``stage``, with the coefficient one. The velocities of all other stages do not contain x. The
+        word consists of the letters of ``before``, the letter x, and the letters of ``after``.
         """
         return self._exponential(row, (*before, stage, *after))
 

@@ -79,8 +79,8 @@ class Family(ABC):
 
     # Relations to other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """Maps names of families to reasons. If a method has order p in this family, the method has at least
-    order p in each named family."""
+    """If a method has order p in this family, the method has at least order p in each family whose name is a
+    key of this map. The value of the key states the reason as text."""
     abelian: ClassVar[str | None] = None
     """The name of the family to which this family reduces on an abelian group, or None."""
     low_order: ClassVar[str | None] = None
@@ -106,8 +106,8 @@ class Family(ABC):
     takes_cutoff: ClassVar[bool] = False
     """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
-    """For methods of at most this order, the compiler can minimise the number of brackets. The minimisation
-    requires that the series of dexpinv is not truncated."""
+    """For methods of at most this order, the compiler can minimise the number of brackets. The compiler does
+    so only if ``cutoff`` is None, because a value of ``cutoff`` prescribes the brackets."""
     cutoff: int | None = None
     """The power of ad after which the series of dexpinv or dexp is truncated. None means no truncation."""
 
@@ -121,9 +121,9 @@ class Family(ABC):
     symplectic: ClassVar[bool] = False
     """True if a search considers only symplectic tableaux: b_i a_ij + b_j a_ji = b_i b_j for all i and j."""
     equal_abscissae: ClassVar[bool] = False
-    """In some families, each stage i has three abscissae: c_i for the position, chat_i for the forces, and
-    m_i for the transport of the momentum (:mod:`orderconds.solve.abscissae`). The value is True if positive
-    weights and order three imply c_i = chat_i = m_i."""
+    """True if all methods of at least order three with positive weights have equal abscissae: in each stage
+    i, c_i = chat_i = m_i. The abscissa c_i belongs to the position, chat_i to the forces, and m_i to the
+    transport of the momentum (:mod:`orderconds.solve.abscissae`)."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed, or None if there is no limit."""
 
@@ -163,7 +163,8 @@ class Family(ABC):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the independent and the dependent conditions of the given order.
 
-        By default, all conditions are independent, and the result is that of :meth:`conditions`.
+        The base class returns the result of :meth:`conditions`. A subclass overrides this method if its
+        method :meth:`conditions` omits dependent conditions.
         """
         return self.conditions(order)
 
@@ -221,9 +222,12 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of ``conditions(order)``. A subclass may use other conditions of this order.
+        """Return residuals of order conditions of the given order.
 
-        For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error.
+        For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error. The base
+        class returns the residuals of ``conditions(order)``. A subclass may return the residuals of another
+        set of conditions, for example of all conditions, both independent and dependent. The norm depends on
+        this choice.
         """
         return self.residuals(method, ring, self.conditions(order))
 
@@ -242,9 +246,10 @@ class Family(ABC):
         return self
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which the order of ``method`` is tested. The user can choose another family.
+        """Return the family in which the order of ``method`` is tested if neither the user nor a claim in the
+        tableau file names a family.
 
-        By default, return ``self``.
+        The base class returns ``self``.
         """
         return self
 
@@ -376,10 +381,9 @@ class Family(ABC):
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return pairs (label, bound), where ``label`` is the label of a family.
+        """Return pairs (label, bound) for a symmetric method that has order ``order`` in this family.
 
-        For a symmetric method of order ``order`` in this family, ``bound`` is a lower bound of the order in
-        the labelled family.
+        The method has at least the order ``bound`` in the family with the label ``label``.
         """
         return ((self.label(), order),)
 

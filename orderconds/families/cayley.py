@@ -72,9 +72,10 @@ class CayleyFamily(MagnusFamily):
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Express the coefficient of ``word`` in the series Omega as a multiple of another coefficient. The
-        factor is 1, -1 or 0. The other coefficient belongs to one of the words that :meth:`independent`
-        returns. If the factor is 0, the result is empty.
+        """Express the coefficient of ``word`` in the series Omega by coefficients of independent words.
+
+        The method :meth:`independent` returns the independent words. The result is the polynomial x, -x or 0,
+        where x is the coefficient of one independent word. The polynomial 0 is an empty dictionary.
         """
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}

@@ -50,7 +50,10 @@ EXPONENTIAL_SYMBOLS = {
 
 @register
 class CommutatorFreeFamily(OrderedForestFamily):
-    """Commutator-free methods. A Runge-Kutta tableau is read as a Crouch-Grossman method.
+    """Commutator-free methods.
+
+    The family also accepts a Runge-Kutta tableau. The tableau then defines a Crouch-Grossman method, which is
+    a special commutator-free method.
 
     >>> for condition in CommutatorFreeFamily().conditions(3):
     ...     print(condition)

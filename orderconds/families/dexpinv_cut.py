@@ -87,7 +87,10 @@ class DexpinvCut(Family):
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
         """Return an object that tests whether the truncation of dexpinv changes a condition.
 
-        Return None if :attr:`abelian` is None, or if ``method`` is not a Runge-Kutta tableau.
+        The attribute :attr:`abelian` names the family to which this family reduces on an abelian group. The
+        test uses the order of the method in that family, ``orders[abelian]``, because this order equals the
+        order without truncation. Return None if :attr:`abelian` is None, or if ``method`` is not a
+        Runge-Kutta tableau.
         """
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
@@ -95,7 +98,7 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return the greatest length of words that the truncation of dexpinv does not affect.
+    """Return the largest n for which the truncation of dexpinv changes no coefficient of a word of n letters.
 
     The series of dexpinv ends with the power ``cutoff`` of ad. If ``cutoff`` is None, the result is 2^30.
 

@@ -87,7 +87,7 @@ BAD = {
     "word.csv": (b"A,one\nb,1\n", "the name 'one'"),
     "family.csv": (
         b"A,0\nb,1\nclaims,magnus=2\n",
-        "claims.magnus: a claim in family magnus, which does not accept",
+        "claims.magnus: the tableau claims an order in family magnus, but this family does not accept",
     ),
     "unknown.csv": (b"A,0\nb,1\nclaims,rkk=2\n", "claims.rkk"),
     "twice.csv": (b"A,0\nb,1\norder,1\nclaims,rk=1\n", "two claims for rk"),
