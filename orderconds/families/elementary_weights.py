@@ -117,10 +117,10 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return an index sum for ``tree``.
+    """Return the sum of a product over the indices of all vertices of ``tree``.
 
-    The summand is a product. Its first factors are ``factors``. The branches of the root give the other
-    factors. The last element of ``indices`` is the summation index of the root.
+    The last element of ``indices`` is the index of the root. The factors of the product are ``factors`` and,
+    for each edge from a vertex with index i to its child with index j, a coefficient a_ij or ahat_ij.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

@@ -1,8 +1,8 @@
-"""Fer methods for Y' = A(t) Y. A step is a product of exponentials, exp(F_1) exp(F_2).
+"""Fer methods for Y' = A(t) Y. A step is exp(F_1) exp(F_2). A method computes exp(F_2) as one exponential or
+as a product of several exponentials.
 
 Let A_i = h A(c_i h), where c_i are the nodes. Then F_1 = sum_i b_i A_i, and
-F_2 = sum_{ij} phi_ij A_j A_i + .... If a method has more than two exponentials, F_2 denotes the logarithm of
-the product of all factors except exp(F_1).
+F_2 = sum_{ij} phi_ij A_j A_i + ....
 
 There is one condition for each Lyndon word. The letter k denotes X_k in A(t) = X_1 + t X_2 + .... Let F be
 the integral of A over one step, and let Y be the exact flow. For words with one letter, the conditions
@@ -73,8 +73,7 @@ class FerFamily(MagnusFamily):
         *others, last = expect(method, Magnus).extents()
         if last[1] > 1 or any(least == 1 for least, _ in others):
             raise InputError(
-                "the exponent that acts last contains commutators, or another exponent has terms without "
-                "commutators",
+                "the exponents are not those of a Fer method",
                 where=f"family {self.name}",
                 expected="the exponent that acts last contains no commutators, and all terms of the other "
                 "exponents are commutators",
@@ -92,9 +91,11 @@ class FerFamily(MagnusFamily):
     def formula(self, word: Word) -> Formula:
         """Return the left-hand side of the condition of a word as a sum over nodes.
 
+        A step is exp(F_1) exp(F_2). Let A_i = h A(c_i h), where c_i are the nodes. Let b_i be the coefficient
+        of A_i in F_1, and let phi_{ij...} be the coefficient of the product ... A_j A_i in F_2.
+
         For a word that consists of one letter k, the terms of the sum are b_i c_i^(k-1). For a longer word
-        with the letters k_1, k_2, ..., the terms are phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) .... The module
-        docstring defines phi.
+        with the letters k_1, k_2, ..., the terms are phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ....
         """
         return node_sum("b" if len(word) == 1 else "phi", word)
 

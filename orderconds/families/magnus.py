@@ -70,8 +70,8 @@ class MagnusFamily(WordFamily):
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the map of the method differs from the map of
-        this family, :attr:`transform`. The possible maps are "exp" and "cay"."""
+        """Raise :class:`~orderconds.errors.InputError` if ``method.transform`` and ``self.transform`` differ.
+        The possible values are "exp" (exponentials) and "cay" (Cayley transforms)."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:
             raise InputError(
@@ -139,9 +139,8 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Express the coefficient of ``word`` as a linear combination of coefficients of Lyndon words.
-
-    The linear combination is valid for every Lie element.
+    """Express the coefficient of ``word`` in a Lie element x as a linear combination of the coefficients of
+    Lyndon words in x. The linear combination is the same for all Lie elements x.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}

@@ -52,7 +52,8 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because the order in this family is equal to the order in the family ``prk``."""
+        """Return None, because no tableau file should claim an order in this family. A claim in the family
+        ``prk`` is sufficient, because a method has the same order in both families."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

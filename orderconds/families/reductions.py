@@ -33,8 +33,9 @@ if TYPE_CHECKING:
 
 
 class Substitute(Struct, frozen=True):
-    """A family whose conditions are checked in place of the conditions of another family. ``method`` is the
-    checked method, converted to a tableau format that ``family`` reads."""
+    """Let F be the family in which a method M is checked. The conditions of ``family`` are evaluated for
+    ``method``, in place of the conditions of F for M. ``method`` is M, converted to a tableau format that
+    ``family`` reads."""
 
     family: Family
     method: Method
@@ -43,8 +44,9 @@ class Substitute(Struct, frozen=True):
 class UnseenCut(Struct, frozen=True):
     """An object that tests whether the truncation of dexpinv changes a condition.
 
-    ``order`` is the order of the method without truncation. If ``length(key)`` <= ``longest``, the truncation
-    does not change the condition of the tree or forest ``key``.
+    ``order`` is the order of the method without truncation. The condition of a tree or forest ``key`` is
+    computed from words, whose letters are trees. ``length(key)`` is the length of the longest of these words.
+    If ``length(key)`` <= ``longest``, the truncation does not change the condition of ``key``.
     """
 
     order: int

@@ -98,10 +98,11 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return the condition of the word that consists of the tree with two vertices, followed by
         ``order`` - 2 trees with one vertex.
 
-        For ``order`` = R + 3, this condition contradicts the other conditions of orders 1, ..., R + 3. The
-        module docstring defines R.
-
         If dexpinv is not truncated or ``order`` < 3, return None.
+
+        Let r be ``self.cutoff``. Let R = r + 1 for even r >= 2, and R = r for all other r. If ``order``
+        is R + 3, this condition contradicts the other conditions of orders 1, ..., R + 3. Therefore no method
+        of ``rkmk(r)`` has an order above R + 2. If ``order`` <= R + 2, there is no contradiction.
         """
         if self.cutoff is None or order < 3:
             return None
@@ -111,10 +112,12 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return independent conditions of the given order. If all conditions of lower order hold, the
         returned conditions imply all other conditions of the given order.
 
-        Without truncation of dexpinv, there is one independent condition for each rooted tree. With
-        truncation, order R + 3 has one additional condition (:meth:`first_unmet`). The additional condition
-        contradicts the other conditions of orders 1, ..., R + 3. Therefore no method has order R + 3. The
-        module docstring defines R.
+        Without truncation of dexpinv, there is one independent condition for each rooted tree.
+
+        With truncation, let r be ``self.cutoff``. Let R = r + 1 for even r >= 2, and R = r for all other r.
+        Up to order R + 2, there is again one independent condition for each rooted tree. Order R + 3 has one
+        additional condition (:meth:`first_unmet`). The additional condition contradicts the other conditions
+        of orders 1, ..., R + 3. Therefore no method has order R + 3.
 
         The computation requires NumPy. If ``order`` is above :data:`RANKED`, return all :meth:`conditions`.
 
@@ -135,8 +138,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
             f" Above order {RANKED} the conditions of all Lyndon words are listed." if order > RANKED else ""
         )
         return (
-            f"For the orders 1, 2, ..., Lyndon words over ordered trees give {counts} conditions. These "
-            f"conditions are sufficient for every method on a group. For {self.label()} methods, the "
+            f"Each Lyndon word over ordered trees gives one condition. Starting with order 1, the numbers of "
+            f"these conditions are {counts}. The conditions of all Lyndon words are sufficient for every "
+            f"method on a group. For {self.label()} methods, the "
             f"conditions in the list above imply the conditions of all Lyndon words.{beyond}"
         )
 

@@ -2,10 +2,10 @@
 
 Let x and y be functions of q alone. Then [x,y] = 0. Because T is quadratic in p, [x,[T,y]] is also a function
 of q alone. For example, [V,[V,T]] is a function of q alone, so [V,[V,[V,T]]] = 0. The free algebra over T and
-V has no such relations. In this algebra, let B be the smallest set that contains V and contains [x,[T,y]] for
-all x and y in B. The brackets [x,y] of all x and y in B generate an ideal of the free algebra. For the
-functions T and V, all these brackets are zero. Therefore the part of the local error that lies in the ideal
-is zero, and this part gives no order conditions.
+V has no such relations. Two rules define a set B in this algebra: V is in B, and if x and y are in B, then
+[x,[T,y]] is also in B. The first two elements of B are V and [V,[T,V]]. The brackets [x,y] of all x and y in
+B generate an ideal of the free algebra. For the functions T and V, all these brackets are zero. Therefore the
+part of the local error that lies in the ideal is zero, and this part gives no order conditions.
 
 A functional maps each element of the free algebra to a linear combination of the element's coefficients. The
 functionals that are zero on the ideal form a vector space. Each element of a basis of this vector space gives
@@ -132,7 +132,8 @@ class NystroemFamily(Family):
         return ((self.label(), order), ("splitting", min(order, 4)))
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None, because the cost of a flow depends on the problem."""
+        """Return None. A step is a product of flows of T and V, and the cost of these flows depends on the
+        problem."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
@@ -194,11 +195,12 @@ def _scale(functional: Functional) -> int:
 
 @lru_cache(maxsize=32)
 def functionals(order: int) -> tuple[Functional, ...]:
-    """Return a basis of the vector space of functionals that are zero on the ideal.
+    """Return one functional for each condition of order ``order`` of Runge-Kutta-Nystroem splittings.
 
-    The module docstring defines the ideal. A functional is a linear combination of words over T and V. All
-    words have length ``order``. Each returned functional gives one order condition of Runge-Kutta-Nystroem
-    splittings.
+    A functional is a linear combination of words over T and V. The bracket [V,[V,[T,V]]] is zero, because V
+    and [V,[T,V]] are functions of q alone. All brackets of functions of q alone generate an ideal of the free
+    algebra over T and V (see the module docstring). The returned functionals are a basis of the vector space
+    of all functionals on words of length ``order`` that are zero on this ideal.
 
     >>> [len(functionals(n)) for n in (1, 2, 3, 4)]
     [2, 4, 8, 15]
@@ -290,7 +292,8 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return all products of total order ``order``. The order of each factor is at most ``heaviest``."""
+    """Return all products of functionals from :func:`independent`, as tuples of the factors. The orders of
+    the factors are at most ``heaviest`` and have the sum ``order``."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:

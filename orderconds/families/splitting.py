@@ -190,9 +190,8 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # First, the part with index ``one`` acts in stage i. Then the part with index ``two`` acts in
-            # stage j. In each stage the parts act in alphabetical order, so i = j is possible only if
-            # ``one`` < ``two``.
+            # In each stage the letters act in alphabetical order. Therefore two consecutive blocks with the
+            # letters ``one`` and ``two`` can be in the same stage only if ``one`` < ``two``.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)

@@ -107,8 +107,8 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None if ``tableau`` is neither a Runge-Kutta tableau nor a composition, or if a weight is
-        not proved to be non-zero. Otherwise return this family."""
+        """Return this family for a Runge-Kutta tableau or a composition if all weights b_i are proved to be
+        non-zero. Otherwise return None."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

@@ -94,7 +94,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return dict(_polynomial(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as an index sum over the step sizes."""
+        """Return the left-hand side of the condition of a word as a sum over indices. The terms of the sum
+        are products of step sizes gamma_i, gamma_j, ...."""
         return composition_formula(word, _step)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:

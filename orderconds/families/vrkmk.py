@@ -60,17 +60,18 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return MuntheKaasActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word in the formula for the coefficient of the action tree
-        ``key``. The letters of a word are smaller trees."""
+        """The coefficient of the action tree ``key`` is computed from coefficients of words, whose letters
+        are smaller trees. Return the length of the longest of these words."""
         assert isinstance(key, Velocity)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return one condition of the given order. Return None if dexpinv is not truncated. Return None if
-        ``order`` is less than 3.
+        """Return the condition of the action tree o(o|L(o ... o)) with ``order`` vertices. If dexpinv is not
+        truncated or ``order`` < 3, return None.
 
-        For ``order`` = R + 3, this condition contradicts the other conditions of orders 1, ..., R + 3. The
-        module docstring defines R.
+        Let r be ``self.cutoff``. Let R = r + 1 for even r >= 2, and R = r for all other r. If ``order``
+        is R + 3, this condition contradicts the other conditions of orders 1, ..., R + 3. Therefore no method
+        of ``vrkmk(r)`` has an order above R + 2. If ``order`` <= R + 2, there is no contradiction.
         """
         if self.cutoff is None or order < 3:
             return None

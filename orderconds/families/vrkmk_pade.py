@@ -2,8 +2,8 @@
 invert the result.
 
 Let xi_i be the velocity of stage i, and let h be the step size. Let dexp^(r) be the series of dexp up to the
-power r of ad. The exponent of stage i is X_i = h sum_j a_ij v_j. The equation dexp^(r)(X_j) v_j = xi_j
-defines v_j (section 3.4.1 of Marthinsen's thesis).
+power r of ad. Two equations define the exponent X_i of stage i and an auxiliary vector v_i:
+X_i = h sum_j a_ij v_j and dexp^(r)(X_i) v_i = xi_i (section 3.4.1 of Marthinsen's thesis).
 """
 
 from __future__ import annotations

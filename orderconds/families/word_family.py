@@ -58,8 +58,8 @@ class WordFamily(Family):
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return a method whose coefficients are random elements of ``ring``. The number of coefficients is
-        sufficient to distinguish the conditions up to ``order``.
+        """Return a method whose coefficients are random elements of ``ring``. The number of coefficients
+        grows with ``order``. With too few coefficients, independent conditions could seem dependent.
 
         An element of ``ring`` is a vector of n residues, so the result represents n methods.
         """

@@ -51,7 +51,8 @@ def _index(name: str) -> sympy.Expr:
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
     limits, remaining = [], list(indices)
     while remaining:
-        # In sympy.Sum, the bounds of an index may depend only on the indices of later triples.
+        # The arguments of sympy.Sum are triples (index, lower bound, upper bound). The bounds in a triple
+        # may depend only on the indices of later triples.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

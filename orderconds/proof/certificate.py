@@ -59,8 +59,8 @@ class Certificate:
     lower_facts: tuple[Fact, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the proved statement as a dictionary for JSON. The entry ``pins`` lists the decimals that
-        the proof treats as exact numbers."""
+        """Return the proved statement as a dictionary for JSON. The value of the key "pins" is a list: the
+        names of the decimals that the proof treats as exact numbers."""
         proof = self.tableau.proof
         assert proof is not None
         return {
@@ -150,8 +150,8 @@ def _certify(key: _Key, least: int) -> Certificate:
 
 def _mismatch(conditions: int, unknowns: int) -> str:
     advice = (
-        f'add {unknowns - conditions} of the unknowns, by name, to the list "pins" in [proof]; '
-        "the decimal values of these unknowns count as exact numbers"
+        f'add {unknowns - conditions} of the unknowns to "pins", a list of names in [proof]; '
+        "the proof then treats the decimals of these unknowns as exact numbers"
         if unknowns > conditions
         else "name a reduction: a theorem by which some of the equations follow from the others"
     )

@@ -31,8 +31,10 @@ FIRST = 40
 """The initial number of random methods."""
 
 SPARE = 24
-"""A polynomial with n unknown coefficients is computed from at least n + ``SPARE`` random methods. With fewer
-random methods, independent conditions could seem dependent by accident."""
+"""The left-hand side of a dependent condition is a polynomial in left-hand sides of independent conditions.
+Each random method gives one linear equation for the n coefficients of this polynomial. At least n + ``SPARE``
+random methods are used. With fewer random methods, independent conditions could seem dependent by accident.
+"""
 
 PRIME_BITS = 61
 """Conditions are evaluated modulo primes of this size in bits. A residue modulo such a prime fits in a
@@ -186,8 +188,8 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """A product of order conditions modulo a prime. The left-hand sides and the right-hand sides are
-    multiplied separately.
+    """The product of the left-hand sides of some order conditions, and the product of their right-hand sides.
+    Both products are computed modulo a prime.
 
     - ``factors``: the conditions.
     - ``members``: the product of the left-hand sides, evaluated for each of several random methods.

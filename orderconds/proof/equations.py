@@ -50,8 +50,9 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations for the unknowns of ``tableau``. The unknowns are the exact values of the rounded
-    decimals in the file. The decimals in ``proof.pinned`` count as exact numbers and not as unknowns.
+    """The equations for the unknowns of ``tableau``. The tableau file contains rounded decimals. The unknowns
+    are the exact numbers that these decimals approximate. The decimals in ``proof.pinned`` count as exact
+    numbers and not as unknowns.
 
     ``facts`` contains the orders that the equations imply, as pairs (family, order).
     """
@@ -205,8 +206,11 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return conditions that imply all conditions up to the order in ``proof``. The implication holds if the
-    coefficients satisfy the formulas in the tableau file."""
+    """Return conditions that imply all conditions up to the order in ``proof``.
+
+    The tableau file defines some coefficients by formulas, such as ``b2 = "1 - b1"``. The implication holds
+    for methods whose coefficients satisfy these formulas. It may fail for other methods.
+    """
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)

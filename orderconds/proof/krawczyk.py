@@ -46,8 +46,8 @@ def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
         for i, (inner, outer) in enumerate(zip(image, box, strict=True)):
             if not outer.contains_interior(inner):
                 raise NotProved(
-                    f"Krawczyk's operator does not map the box into itself: the interval of unknown "
-                    f"{i + 1} is {outer.str(12)} in the box and {inner.str(12)} in the image"
+                    f"Krawczyk's operator does not map the box into itself: for unknown number {i + 1}, the "
+                    f"box has the interval {outer.str(12)} and the image has the interval {inner.str(12)}"
                 )
         for _ in range(MAX_SWEEPS):
             sharper = [x.intersection(y) for x, y in zip(image, _image(system, image), strict=True)]

@@ -215,7 +215,8 @@ def _supported_places(radius: fmpq) -> int:
 
 
 class Ball:
-    """A real number enclosed by the flint ball ``value``. Arithmetic uses ``bits`` bits of precision."""
+    """A real number enclosed by the flint ball ``value``. Arithmetic has a precision of ``bits`` binary
+    digits."""
 
     __slots__ = ("bits", "value")
 

@@ -66,8 +66,8 @@ def _figures(n: int) -> str:
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Return the decimal number with the digits ``figures`` as text. The place value of the first digit is
-    10^exponent."""
+    """Return a decimal number as text. The digits of the number are ``figures``. The place value of the first
+    digit is 10^exponent."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures
     if 0 <= exponent < 25:

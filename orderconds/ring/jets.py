@@ -54,13 +54,14 @@ class Jets:
     def root(self, x: Jet, index: int) -> Jet:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError if the ball ``x.value`` contains zero, or a negative number for an even ``index``.
+        Raises ValueError if the ball ``x.value`` contains zero. For an even ``index``, also raises ValueError
+        if the ball contains a negative number.
         """
         negative = x.value < 0
         if not (x.value > 0 or (negative and index % 2)):
             raise ValueError(
-                "cannot compute an n-th root of a number in an interval: for even n, the interval must be "
-                "positive; for odd n, the interval must not contain zero"
+                "cannot compute the n-th root of an interval: for even n, the interval must contain only "
+                "positive numbers; for odd n, the interval must not contain zero"
             )
         value = -((-x.value).root(index)) if negative else x.value.root(index)
         return Jet(value, x.width, _scaled(x.slopes, value / (x.value * index)))

@@ -39,11 +39,11 @@ Matrix = Sequence[Sequence[Element]]
 class NodalAlgebra:
     """The algebra Q[z]/M of a method, where M is the monic polynomial whose roots are the nodes c_i.
 
-    A polynomial p represents the vector with the entries p(c_i).
+    A polynomial p represents the vector v with the entries p(c_i). Let P be the antiderivative of p with
+    P(0) = 0. Let A be the matrix (a_ij), and let b be the vector of the weights.
 
-    For a collocation method, multiplication by the matrix (a_ij) gives the integral of p from 0 to z, modulo
-    M. The scalar product with the weights is the integral of p from 0 to 1. For other methods, two attributes
-    store corrections to the integrals:
+    For a collocation method, P modulo M represents the vector A v, and the scalar product of b and v is P(1).
+    For other methods, two attributes store corrections of P and of P(1):
 
     - ``corrections[kind]``: a list of pairs (k, d) for the matrix with index ``kind``. Multiplication by the
       matrix maps z^k to the polynomial z^(k+1)/(k+1) + d, modulo M.
@@ -125,8 +125,8 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
     - ``ring`` is not a :class:`NumberField`, or its degree is 1.
     - Two nodes are equal.
     - The polynomial M with the roots c_i has an irrational coefficient.
-    - For some k and some A in ``matrices``, no polynomial over Q has the values A (c_1^k, ..., c_s^k) at the
-      nodes c_1, ..., c_s.
+    - Let c^k be the vector with the entries c_1^k, ..., c_s^k. For some k and some A in ``matrices``, the
+      polynomial that interpolates the entries of A c^k at the nodes has an irrational coefficient.
     - For some k, the number sum_i b_i c_i^k is irrational.
 
     >>> from orderconds.tableau import Tableau, find
@@ -140,7 +140,8 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 
 class _Key:
-    """A cache key that compares the coefficients of methods by the identity of the Python objects."""
+    """The key of a method in the cache of :func:`_built`. Two keys are equal if their matrices and weights
+    consist of the same Python objects. Equal numbers in different objects give different keys."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b
@@ -227,8 +228,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return the polynomial with the coefficients ``guess(values)``. Return None if this polynomial does not
-    have the given ``values`` at the nodes."""
+    """Let p be the polynomial with the coefficients ``guess(values)``. If p(c_i) = ``values[i]`` for all
+    nodes c_i of the method, return p. Otherwise return None. ``powers[k]`` contains the powers c_i^k."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

@@ -54,7 +54,10 @@ def test_counts_of_independent_conditions(family: str, counts: list[int]) -> Non
 
 def test_the_generating_set_of_rkmk_is_named_beside_its_independent_conditions() -> None:
     last = run("rkmk", "--order", "4").stdout.splitlines()[-1]
-    assert last.startswith("For the orders 1, 2, ..., Lyndon words over ordered trees give 1, 1, 3, 8 ")
+    assert last.startswith(
+        "Each Lyndon word over ordered trees gives one condition. Starting with order 1, the numbers of "
+        "these conditions are 1, 1, 3, 8. "
+    )
 
 
 def test_all_prints_the_condition_of_every_tree() -> None:

@@ -78,7 +78,7 @@ def test_equations_that_hold_whatever_the_decimals_are_do_not_count() -> None:
 REFUSED: dict[str, tuple[str, str]] = {
     "too few equations": (
         kutta3(ZEROS),
-        "3 equations for 4 unknowns; add 1 of the unknowns, by name, to the list",
+        '3 equations for 4 unknowns; add 1 of the unknowns to "pins"',
     ),
     "too many equations": (
         kutta3(ZEROS, 'conditions = "rk"\norder = 4\npins = ["x"]'),
