@@ -42,7 +42,8 @@ class Samples:
         return Sample(self, nmod_poly([int(p) * pow(int(q), -1, self.prime)], self.prime))
 
     def element(self, values: Sequence[int]) -> Sample:
-        """Return the vector whose entries are the residues of ``values``."""
+        """Return the vector with the entries ``values[k]`` modulo ``self.prime``. The list ``values`` has
+        ``self.count`` entries."""
         total = nmod_poly([0], self.prime)
         for k, value in enumerate(values):
             other = self.modulus // nmod_poly([-k, 1], self.prime)

@@ -230,10 +230,15 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Let K be a number field with the generator a over Q, let k be the length of ``powers``, and let p be
-    x^k - powers[k-1] x^(k-1) - ... - powers[0]. Return the product of ``vector`` and x + m a in the algebra
-    K[x]/(p), where m is ``multiplier``. If m is None, return the product of ``vector`` and a x. An element
-    v_0 + v_1 x + v_2 x^2 + ... is the list [v_0, v_1, v_2, ...]."""
+    """Multiply two polynomials in x, and divide the product by a polynomial p. Return the remainder. The
+    coefficients of all polynomials are elements of one number field. Let a be the generator of this field
+    over Q, and let n be the length of ``powers``.
+
+    - The first polynomial is v_0 + v_1 x + ..., where ``vector`` is the list [v_0, v_1, ...]. The returned
+      list contains the coefficients of the remainder in the same way.
+    - The second polynomial is x + m a with m = ``multiplier``, or a x if ``multiplier`` is None.
+    - The polynomial p is x^n - powers[n-1] x^(n-1) - ... - powers[0].
+    """
     field = powers[0].field
     top = vector[-1]
     shifted = [x + top * p for x, p in zip([field.zero, *vector[:-1]], powers, strict=True)]

@@ -4,21 +4,21 @@ Let q0 be the initial position and mu1 the final momentum of a step. The velocit
 stage are expanded about (q0, mu1). The expansions are sums over trees
 (:mod:`orderconds.series.action_trees`). Let u, v and w be words of trees, and let M be a multiset of trees.
 The trees of the velocities have the form t = (w, M). The trees of the momenta have the forms H(u*v|M) and
-L(w). Let b_i be the weight of stage i, and let Phi_w(i) be the coefficient of the word w in the group element
-of stage i. Let tau_t(i) be the coefficient of the tree t in the velocity of stage i. Let psi_p(i) be the
-coefficient of the tree p in the momentum of stage i.
+L(w). Let b_i be the weight of stage i, and let xi_i be the velocity of stage i. Let Phi_w(i) be the
+coefficient of the word w in the group element of stage i. Let tau_t(i) be the coefficient of the tree t in
+the velocity of stage i. Let psi_p(i) be the coefficient of the tree p in the momentum of stage i.
 
-The update is the group element that takes q0 to the final position. The formulas for psi_p(i) use changed
-group elements. Replace the velocity xi_i of one stage i by xi_i + x, where x is an additional letter, and
-leave the velocities of all other stages unchanged. The coefficients of the trees in the expansions of stage i
-are
+The coefficient of a tree t = (w, M) is ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)``.
 
-- for the tree t = (w, M): ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)``,
-- for the tree p = H(u*v|M): ``psi_p(i) = (1/b_i) sum_j b_j z_j g_j``. Here z_j is the coefficient of the word
-  (u, x, v) in the group element of stage j with xi_i + x in place of xi_i, and g_j is the product of psi_m(j)
-  over all m in M.
-- for the tree p = L(w): ``psi_p(i) = d/b_i``. Here d is the coefficient of the word (x, reverse(w)) in the
-  changed update.
+The update is the group element that takes q0 to the final position. The coefficients psi_p(i) are computed
+from changed group elements of the stages and of the update. The change adds a new letter x to the velocity
+of stage i: xi_i + x replaces xi_i. The velocities of all other stages remain the same. The expansion of a
+changed group element therefore contains words with the letter x.
+
+- For a tree p = H(u*v|M), let z_j be the coefficient of the word (u, x, v) in the changed group element of
+  stage j. Then ``psi_p(i) = (1/b_i) sum_j b_j z_j prod_{q in M} psi_q(j)``.
+- For a tree p = L(w), let d be the coefficient of the word (x, reverse(w)) in the changed update. Then
+  ``psi_p(i) = d/b_i``.
 
 Let e_t be the coefficient of the tree t in the exact flow. The order condition of t is the equation
 ``sum_i b_i tau_t(i) = e_t``.
@@ -76,10 +76,10 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
-        ``row``. The class docstring defines this index. The group element is computed with xi + x in place of
-        the velocity xi of stage ``stage``. The letter x is not a tree, but ``before`` and ``after`` are words
-        of trees."""
+        """Add a letter x to the velocity of stage ``stage``. The letter x is not a tree. Return the
+        coefficient of the word (``before``, x, ``after``) in the resulting group element with the index
+        ``row``. The class docstring defines this index. The words ``before`` and ``after`` consist of
+        trees."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return the coefficient of ``word`` in the group element of each stage."""
@@ -223,8 +223,11 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word (``before``, x, ``after``) in the product of the exponentials
-        ``self.rows[row]``. The letter x is added to the exponent with index ``place``."""
+        """Let Z be the exponent ``self.rows[row][place]``. Replace Z by Z + x, where x is an additional
+        letter. Return the coefficient of the word (``before``, x, ``after``) in the product of the
+        exponentials of ``self.rows[row]``. Only the new exponent Z + x contains x. Therefore the letters of
+        ``before`` come from Z or from exponents with lower indices, and the letters of ``after`` come from Z
+        or from exponents with higher indices."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):

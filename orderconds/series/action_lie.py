@@ -93,11 +93,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return a list of maps (:data:`Varied`), one map for each group element. If ``update`` is 0, the
-        group elements are exp(X_i) for all stages i. If ``update`` is 1, the only group element is exp(Y),
-        the group element of the update. Entry j of a map is the coefficient of the word (``before``, x,
-        ``after``) in the group element, with xi_j + x in place of xi_j. The module docstring defines x, xi_j,
-        X_i and Y."""
+        """Return a list of maps (:data:`Varied`), one map for each group element. If ``update`` is 0, these
+        are the group elements of all stages. If ``update`` is 1, the only group element is that of the
+        update. Entry j of a map belongs to a change of the velocity of stage j: a new letter x is added to
+        this velocity. Entry j is the coefficient of the word (``before``, x, ``after``) in the group element
+        after this change."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -110,8 +110,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """If ``update`` is 0, return the coefficient of ``word`` in X_i^n for each stage i. If ``update`` is
-        1, return the coefficient in Y^n. The module docstring defines the exponents X_i and Y."""
+        """If ``update`` is 0, return a list with one entry for each stage i: the coefficient of ``word`` in
+        X_i^n, where exp(X_i) is the group element of stage i. If ``update`` is 1, return a list with one
+        entry: the coefficient of ``word`` in Y^n, where exp(Y) is the group element of the update."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -153,8 +154,9 @@ class MuntheKaasActionSeries(ActionSeries):
                 _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
-        """Return the coefficient of ``word`` in the series dexpinv_{(r),X_j} xi_j for each stage j. The
-        module docstring defines this series."""
+        """Return a list with one entry for each stage j: the coefficient of ``word`` in the series for
+        dexpinv_{X_j} xi_j. Here xi_j is the velocity of stage j, and exp(X_j) is the group element of stage
+        j. The method :meth:`_terms` defines the series."""
         values = self._summands.get(word)
         if values is None:
             values = [self.ring.zero] * self.stages
@@ -187,8 +189,10 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the coefficient of the word (``before``, xi_j, ``behind``) in dexpinv_{(r),X_j} xi_j for
-        each stage j. None denotes that no term of the series contains such a word."""
+        """Let exp(X_j) be the group element of stage j, and let z be a letter that does not occur in X_j.
+        Return a list with one entry for each stage j: the coefficient of the word (``before``, z, ``behind``)
+        in the series for dexpinv_{X_j} z. The method :meth:`_terms` defines the series. Return None if no
+        term of the series can contain this word."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -203,7 +207,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the coefficients of (``before``, x, ``after``, z, ``behind``) in dexpinv_{(r),X_j} z."""
+        """Return a list with one map (:data:`Varied`) for each stage j. Entry i of a map belongs to a change
+        of the velocity of stage i: a new letter x is added to this velocity. Let exp(X_j) be the group
+        element of stage j after this change, and let z be a second new letter. Entry i is the coefficient of
+        the word (``before``, x, ``after``, z, ``behind``) in the series for dexpinv_{X_j} z. The method
+        :meth:`_terms` defines the series."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -213,7 +221,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of (``first``, z, ``before``, x, ``after``) in dexpinv_{(r),X_j} z."""
+        """Return a list with one map (:data:`Varied`) for each stage j. Entry i of a map belongs to a change
+        of the velocity of stage i: a new letter x is added to this velocity. Let exp(X_j) be the group
+        element of stage j after this change, and let z be a second new letter. Entry i is the coefficient of
+        the word (``first``, z, ``before``, x, ``after``) in the series for dexpinv_{X_j} z. The method
+        :meth:`_terms` defines the series."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -270,8 +282,9 @@ def pade_terms(cutoff: int, most: int) -> Terms:
     dexp_{(r),X} is dexp_X truncated after the r-th power of X, where r is ``cutoff``. A triple (q, m, n)
     denotes the term q X^n xi X^m. In this term, X^m acts first, and X^n acts last.
 
-    Let S(z) be the sum of z^j/(j+1)! for j = 0, ..., r, and let q_k be the coefficient of z^k in the power
-    series of 1/S(z). Then q = (-1)^m comb(k, m) q_k for k = m + n. Terms with q = 0 are omitted.
+    Let S(z) be the sum of z^j/(j+1)! for j = 0, ..., r, and let c_k be the coefficient of z^k in the power
+    series of 1/S(z). The coefficient of the term X^n xi X^m is q = (-1)^m comb(m + n, m) c_{m+n}. Terms with
+    q = 0 are omitted.
 
     >>> [(str(q), m, n) for q, m, n in pade_terms(1, 2)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0), ('1/4', 0, 2), ('-1/2', 1, 1), ('1/4', 2, 0)]

@@ -6,10 +6,11 @@ polynomial are computed from random methods and from the exact flow.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
 commutator-free methods. Let psi_p be the coefficient of a g*-valued tree p in the momentum of a stage
-(:mod:`orderconds.series.action`). The module :mod:`orderconds.series.action_trees` defines the notation of
-trees. Let o be the g-valued tree with one vertex, and let t be the g-valued tree ``o(|L(o))`` with the empty
-word and the multiset {L(o)}. Each stage of a variational Crouch-Grossman method satisfies
-``psi_{L(t)} = 3 psi_{L(o o)} - psi_{L(o)}^2``. This equation implies the three relations.
+(:mod:`orderconds.series.action`). A g-valued tree ``o(w | M)`` consists of a root, a word w and a multiset M
+(:mod:`orderconds.series.action_trees`). Let o be the g-valued tree with one vertex. Let t be the g-valued
+tree ``o(|L(o))``, in which the word w is empty, and the multiset M contains only the tree L(o). Each stage of
+a variational Crouch-Grossman method satisfies ``psi_{L(t)} = 3 psi_{L(o o)} - psi_{L(o)}^2``. This equation
+implies the three relations.
 """
 
 from __future__ import annotations
@@ -34,19 +35,23 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial. The variables of the polynomial are the left-hand sides of order conditions.
-Each tree has one order condition. A term is a pair (coefficient, trees). The term is the coefficient
-multiplied by the left-hand sides of the order conditions of these trees."""
+"""A polynomial, stored as a tuple of terms. Each tree t denotes one variable of the polynomial: the left-hand
+side of the order condition of t. A term is a pair (coefficient, trees). The term is the coefficient
+multiplied by the variables that these trees denote."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a map from trees to formulas for the left-hand sides of their order conditions. Let n be the
-    length of ``independent``. The keys of the map are the trees that have n vertices and do not occur in
-    ``independent[-1]``. Each formula is a polynomial (:data:`Polynomial`) in the left-hand sides of the order
-    conditions of the trees in ``independent``. The formulas hold for each method of the family.
+    """Return formulas for the left-hand sides of dependent order conditions.
 
-    ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
-    ..., n. The polynomials are wrong with a probability of about 10^-8.
+    ``independent`` contains one tuple of trees for each of the orders 1, ..., n. These trees have independent
+    order conditions. The last tuple ``independent[-1]`` belongs to the order n. The function
+    :func:`orderconds.series.action_rank.independent_trees` returns such a sequence of tuples.
+
+    The result is a map. The keys are the trees with n vertices that are not in ``independent[-1]``. The value
+    of a key is a formula for the left-hand side of the order condition of this tree. The formula is a
+    polynomial (:data:`Polynomial`) in the left-hand sides of the order conditions of the trees in
+    ``independent``. The formulas hold for each method of the family. The polynomials are wrong with a
+    probability of about 10^-8.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -83,7 +88,8 @@ SEED = 61
 
 
 class _Drawn(Rationals):
-    """The ring Q with random elements whose numerators and denominators have at most 61 bits."""
+    """The ring Q of rational numbers, with a method that returns random elements. The numerators and
+    denominators of the random elements have at most 61 bits."""
 
     def random(self, generator: np.random.Generator) -> Element:
         """Return a random non-zero fraction."""

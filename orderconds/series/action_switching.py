@@ -9,10 +9,10 @@ multiset M. A tree ``H(u*v | N)`` consists of a vertex H, the words u and v, and
 - B: ``o(u o(w | M) v | N)``.
 
 The vertex H is a neighbour of the root of A. The tree B is the result of moving the root of A to the vertex
-H. In B, the tree ``o(w | M)``, which contains the old root, is inserted at the position of ``*``. The vertex
-H becomes the root of B, and is written ``o`` in B. The left-hand sides of the conditions of A and B are the
-same double sum over the stages of a method, in two different orders of summation. The right-hand sides of the
-two conditions are equal, too.
+H. To obtain B, remove the tree ``H(u*v | N)`` from A. The tree ``o(w | M)`` remains. In ``H(u*v | N)``,
+replace the symbol ``*`` by ``o(w | M)``, and write ``o`` instead of H. The left-hand sides of the conditions
+of A and B are the same double sum over the stages of a method, in two different orders of summation. The
+right-hand sides of the two conditions are equal, too.
 """
 
 from __future__ import annotations

@@ -12,8 +12,9 @@ right-invariant vector field on G. There are three kinds of trees:
   directions are the covectors that the trees in M denote.
 - A :class:`Force` is a g*-valued tree with two words u and v and a multiset M, written ``H(u * v | M)`` or
   ``f(u * v | M)``. The tree denotes a covector. The value of the covector at an element x of g is a mixed
-  derivative of H. The letters of u, the element x and the letters of v, in this order, give the derivatives
-  in q. The trees in M give the derivatives in mu. These derivatives are defined as for the :class:`Velocity`.
+  derivative of H. The derivatives in q and in mu are defined as for the :class:`Velocity`, but with a
+  different list t_1, ..., t_k. The list consists of the elements of g that the letters of u denote, then x,
+  and then the elements of g that the letters of v denote.
 - A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. The tree denotes the covector that
   maps an element x of g to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here
   ``<mu, y>`` is the pairing of mu with y.

@@ -133,8 +133,9 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """Triples (k, j, w). For n = 1, 2, ..., the n-th triple defines the partial sum s_n = s_k + w x_j,
-        where x is the vector, and s_0 is zero."""
+        """Triples (k, j, w). Let x be the vector that the matrix is multiplied by, and let s_0 be zero. The
+        first triple defines the partial sum s_1, the second triple defines s_2, and so on. Each partial sum
+        is s_k + w x_j, where s_k is an earlier partial sum."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

@@ -8,10 +8,13 @@ the letters q_1, ..., q_(i-1), because it is computed before k_i. Choose a numbe
 q_(i-1) are called new, and the letters q_1, ..., q_(m-1) are called old. Let N be the number of brackets with
 new letters in a program for u_1, ..., u_i.
 
+If all brackets are expanded by [x, y] = x y - y x, each argument becomes a sum of terms. A term is a product
+of letters, multiplied by a number.
+
 First bound: for each of the arguments u_1, ..., u_i, form the sum of the terms that have at least two letters
-and contain a new letter. Each argument is a linear combination of letters and brackets. Only the N brackets
-with new letters contribute to these sums. Therefore N is at least the dimension of the space that the sums
-span.
+and contain a new letter. Before the expansion, each argument is a linear combination of letters and brackets.
+Only the N brackets with new letters contribute to these sums. Therefore N is at least the dimension of the
+space that the sums span.
 
 Second bound: for each argument, form the sum of the terms that have at least two letters and exactly one new
 letter. This sum is called the linear part of the argument. Let ad_q be the operator with ad_q y = [q, y]. To
@@ -28,14 +31,17 @@ Improvement of the second bound: a Lie element in the old letters is a linear co
 of (nested) brackets of old letters. Let L be the space of all sums sum_n ad_(P_n) q_n with Lie elements P_n
 in the old letters. If d > 0, and if zero is the only common element of S and L, then N is at least d + 1.
 
-Proof: the first of the N brackets has the form [a + A, b + B]. Here a and b are linear combinations of new
-letters, and A and B are Lie elements in the old letters. The linear part of this bracket is [A, b] - [B, a],
-which is an element of L. Assume N = d. The linear parts of the N brackets span a space of dimension at most d
-that contains S. Hence this space is S, and the linear parts are a basis of S. Then the linear part of the
-first bracket is a nonzero element of S and of L, a contradiction.
+Proof: all brackets that are computed before the first of the N brackets contain only old letters. Therefore
+both factors of the first of the N brackets are sums of letters and of Lie elements in the old letters. This
+bracket has the form [a + A, b + B], where a and b are linear combinations of new letters, and A and B are Lie
+elements in the old letters. The linear part of this bracket is [A, b] - [B, a], which is an element of L.
+Assume N = d. The linear parts of the N brackets span a space of dimension at most d that contains S. Hence
+this space is S, and the linear parts are a basis of S. Then the linear part of the first bracket is a nonzero
+element of S and of L, a contradiction.
 
-The brackets that the arguments u_1, ..., u_m require contain no new letters. Therefore the lower bound for
-u_1, ..., u_m can be added to the lower bound for N.
+A program computes u_1, ..., u_m before the new letters are known, because the stage value k_m depends on u_m.
+Therefore the brackets that u_1, ..., u_m require are not among the N brackets. Hence a lower bound for the
+number of these brackets can be added to the lower bound for N.
 """
 
 from __future__ import annotations
@@ -47,11 +53,12 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Select the words of x that consist of one or more letters below ``first``, followed by one letter n
-    that is at least ``first``. Remove the last letter n of each selected word. Return a map from n to the
-    polynomial that consists of the shortened words.
+    """Return a map from letters to polynomials, computed from the polynomial x.
 
-    A word is a tuple of letters, and a letter is a number. If x is a sum of letters and brackets, the result
+    A word is a tuple of letters, and a letter is a number. The numbers below ``first`` are old letters, and
+    all other numbers are new letters. Select the words of x that have at least two letters, and in which only
+    the last letter is new. Remove the last letter n of each selected word. The value of the key n is the
+    polynomial that consists of these shortened words. If x is a sum of letters and brackets, the result
     contains the polynomials P_n in the module docstring.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}

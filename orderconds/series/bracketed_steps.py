@@ -44,7 +44,8 @@ class BracketedSeries:
         return result
 
     def _power(self, i: int, n: int, word: Forest) -> Element:
-        """Return the coefficient of a word in the n-th power of the argument u_i."""
+        """Return the coefficient of a word in u_i^n, where exp(u_i) is the exponential of stage i. If i is
+        the number of stages, exp(u_i) is the exponential of the step."""
         if n == 1:
             return self._combination(self._rows[i], word)
         if (i, n, word) not in self._powers:

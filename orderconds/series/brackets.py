@@ -121,9 +121,10 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return a pair (grade, [c_1, ..., c_j]) with c_j = 1 for each stage j. Let h be the step size, and let
-    k_1, ..., k_j be stage values. Then h (c_1 k_1 + ... + c_j k_j) is of order h^grade. The coefficients give
-    the largest possible grade up to ``order``."""
+    """Let h be the step size, and let k_1, k_2, ... be the stage values. For each stage j, consider the
+    combinations q = c_1 k_1 + ... + c_(j-1) k_(j-1) + k_j. The coefficient of k_j is 1. Choose the other
+    coefficients such that h q is of order h^g, where the grade g is as large as possible, but at most
+    ``order``. Return a pair (g, [c_1, ..., c_(j-1), 1]) for each stage j."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -202,13 +203,14 @@ class _Shape:
 
     @property
     def brackets(self) -> int:
-        """Return the total number of brackets in the shape."""
+        """Return the number of all brackets that this object describes."""
         return self.outer + self.inner + len(self.extra)
 
 
 def _shapes(pool: int) -> Iterator[_Shape]:
-    """Yield infinitely many shapes (:class:`_Shape`), sorted by the number of brackets. ``pool`` is the
-    length of the pool that :class:`_Shape` defines."""
+    """Yield infinitely many shapes (:class:`_Shape`), sorted by the number of brackets. A shape
+    describes brackets that are added to a program. ``pool`` is the number of elements of the Lie algebra that
+    the program computes before these brackets."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -265,8 +267,8 @@ class _Search:
         is a linear combination of stage values and brackets (:class:`BracketProgram`). ``shape`` describes
         the brackets that are added to the program.
 
-        The equations for the added brackets contain products of the unknowns x and y of :class:`_Shape`, and
-        are solved by iteration."""
+        If both factors of one added bracket are unknown, the equations contain products of two unknowns, and
+        are solved by iteration. Otherwise, the equations are linear."""
         if shape.leading and len(self.pool) < 3:
             return None
         for fixed_left in (False, True) if shape.leading else (False,):
@@ -293,8 +295,9 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices of the pool elements with the least grade. The first two pool elements are
-        ignored."""
+        """In the bracket [q_1 + x, y + C_1] (:class:`_Shape`), the unknown x in the left factor is a linear
+        combination of pool elements. This combination does not use the first two elements of the pool. Return
+        the indices of those elements of the combination that have the least grade."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -360,7 +363,8 @@ class _Search:
 
         - the row of the element (:class:`BracketProgram`)
         - the element as a polynomial
-        - the polynomial y of the outer bracket [q_1 + x, y + C_1] (:class:`_Shape` defines these symbols)
+        - the right factor of the outer bracket (:class:`_Shape`) as a polynomial, without the inner brackets;
+          zero if there is no outer bracket
         """
         one, size = self.ring.one, len(self.pool)
 

@@ -4,9 +4,10 @@ A cut removes parts, called components, from a tree or forest. The part that rem
 
 - For unordered trees, a cut is a set of edges, with at most one edge on each path from the root (Connes and
   Kreimer 1998; HLW III.1.4). One additional cut removes the whole tree.
-- For ordered forests, a left admissible cut removes some of the leftmost trees. The removed trees form one
-  component. At each remaining vertex, the cut may also remove some of the leftmost branches. The branches
-  removed at one vertex form one component (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+- For ordered forests, a left admissible cut removes the first k trees from the left, where k may be zero. The
+  removed trees form one component. At each remaining vertex, the cut removes the first n branches from the
+  left. The number n may be zero, and may be different for each vertex. The branches removed at one vertex
+  form one component (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 
 HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """

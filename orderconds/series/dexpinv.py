@@ -81,9 +81,9 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return a list of coefficients of ``word``. If ``step`` is 0, the list contains the coefficient in
-        u_i^n for each stage i, where u_i is the argument of stage i. If ``step`` is 1, the list contains only
-        the coefficient in u^n, where u is the argument of the step."""
+        """If ``step`` is 0, return a list with one entry for each stage i: the coefficient of ``word`` in the
+        power u_i^n, where u_i is the argument of stage i. If ``step`` is 1, return a list with one entry: the
+        coefficient of ``word`` in u^n, where u is the argument of the step."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -112,9 +112,11 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """For a letter x, return the coefficient of the word ``start`` x ``end`` in the series dexpinv_u x.
-        The result is a list with one coefficient for each stage argument u, or None if no term can
-        contain this word. ``before`` and ``behind`` are the numbers of letters in ``start`` and ``end``."""
+        """Return a list with one entry for each stage: the coefficient of one word in the truncated series
+        dexpinv_u x. Here u is the argument of the stage, and x is a letter. The word consists of the letters
+        of ``start``, the letter x, and the letters of ``end``, in this order. Return None if no term of the
+        series can contain this word. ``before`` and ``behind`` are the numbers of letters in ``start`` and
+        ``end``."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:
@@ -128,11 +130,16 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return terms of the truncated series dexpinv_u x, where u is a linear combination of words, and x
-        is a letter. A triple (q, m, n) in the result denotes the term q u^n x u^m with the coefficient q. The
-        values of ``before`` and ``behind`` determine which terms are in the result. If ``before`` is zero, m
-        is zero. If ``before`` is positive, m is one of the numbers 1, ..., ``before``. If ``behind`` is zero,
-        n is zero. If ``behind`` is positive, n is one of the numbers 1, ..., ``behind``."""
+        """Let x be a letter, and let u be a linear combination of non-empty words. Return the terms of the
+        truncated series dexpinv_u x that can contain words with ``before`` letters before x and ``behind``
+        letters behind x. A triple (q, m, n) denotes the term q u^n x u^m with the coefficient q.
+
+        - The factor u^m gives the letters before x, because the rightmost factor of a product acts first, and
+          the leftmost letter of a word acts first. If ``before`` is zero, m is zero. If ``before`` is
+          positive, m is one of the numbers 1, ..., ``before``.
+        - The factor u^n gives the letters behind x. If ``behind`` is zero, n is zero. If ``behind`` is
+          positive, n is one of the numbers 1, ..., ``behind``.
+        """
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
             longest = before + behind

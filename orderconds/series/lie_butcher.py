@@ -2,13 +2,13 @@
 
 A series has one coefficient for each ordered forest, which is a word of ordered trees. Let the exponents X_1,
 ..., X_m be linear combinations of trees, where x_J(t) is the coefficient of the tree t in X_J. In the product
-exp(X_m) ... exp(X_1), the coefficient of the forest t_1 ... t_n is the sum, over all indices J_1 <= ... <=
-J_n, of
+exp(X_m) ... exp(X_1), the coefficient of the forest t_1 ... t_n is a sum over all sequences of indices
+J_1 <= ... <= J_n. Let r_1, r_2, ... be the multiplicities of the distinct indices in a sequence. The summand
+of this sequence is
 
 x_{J_1}(t_1) ... x_{J_n}(t_n) / (r_1! r_2! ...).
 
-The factor exp(X_1) and the tree t_1 act first. A run is a maximal sequence of equal indices, and r_1, r_2,
-... are the lengths of the runs of J_1, ..., J_n (Owren and Marthinsen, BIT 39 (1999) 116; Hairer, Lubich and
+The factor exp(X_1) and the tree t_1 act first (Owren and Marthinsen, BIT 39 (1999) 116; Hairer, Lubich and
 Wanner, *Geometric Numerical Integration*, IV.8).
 """
 
@@ -25,7 +25,8 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 from orderconds.trees.ordered import ordered_forests
 
 SparseRow = Sequence[tuple[int, Element]]
-"""The exponent of one exponential, as pairs (index of a stage, non-zero coefficient of its stage value)."""
+"""The exponent of one exponential: a linear combination of stage values. The exponent is stored as pairs
+(j, c), where c is the non-zero coefficient of the stage value with index j."""
 
 
 class ForestSeries(Protocol):
@@ -55,8 +56,10 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """Triples (p, q, r) of indices, one for each non-empty partial product of exponentials. Product p is
-        product q, followed by the exponential of ``_rows[r]``. Product 0 is empty."""
+        """A partial product consists of the first exponentials of a stage or of the update. The partial
+        products are numbered. Product 0 has no factors. For every other product there is one triple
+        (p, q, r). The triple states that product p is product q, followed by the exponential of
+        ``_rows[r]``."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -120,12 +123,14 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return a list of coefficients of a non-empty word. Entry p is the coefficient in partial product p,
-        or zero if no triple in ``places`` begins with p."""
+        """Return a list of coefficients of a non-empty word, with one entry for each partial product of
+        exponentials. The list ``places`` contains triples (p, q, r). A triple states that partial product p
+        is partial product q, followed by the exponential of ``self._rows[r]``. For each triple in ``places``,
+        entry p is the coefficient of the word in partial product p. All other entries are zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # The list ``heads[r - 1]`` contains the coefficients of the word that remains if the last r trees of
-        # ``word`` are omitted.
+        # Let v be ``word`` without the last r trees. Then ``heads[r - 1][p]`` is the coefficient of v in
+        # partial product p.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
@@ -184,9 +189,9 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     For matrices, the step is y1 = g1 y0. The matrix g1 is the sum of h^|w| a(w) F(t_k) ... F(t_1) over all
     forests w = t_1 ... t_k. Here |w| is the number of vertices of w. The differential equation is
     y' = f(y) y, where f(y) is a matrix. The matrix F(t) of a tree t is defined recursively. If t has only one
-    vertex, F(t) is f(y0). Let t_1, ..., t_k be the subtrees at the root of a larger tree t. Let M_l be the
-    constant matrix F(t_l). Let X_l be the derivative along the vector field M_l y. The matrix of the tree t
-    is F(t) = (X_1 ... X_k f)(y0).
+    vertex, F(t) is f(y0). Otherwise, let s_1, ..., s_n be the subtrees at the root of t. Let M_l be the
+    constant matrix F(s_l), and let X_l be the derivative along the vector field M_l y. Then
+    F(t) = (X_1 ... X_n f)(y0).
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

@@ -25,8 +25,9 @@ RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
 coefficient of the series is a vector of residues modulo one prime, with one residue for each sample."""
 
 SPARE_SAMPLES = 20
-"""The number of samples minus the largest possible rank of the matrix of left-hand sides. The additional
-samples make accidental linear dependences improbable."""
+"""The left-hand sides of the order conditions form a matrix with one row for each random method (sample). The
+number of rows is ``SPARE_SAMPLES`` plus the largest possible rank of the matrix. The additional rows make
+accidental linear dependences improbable."""
 
 
 def independent_forests(
