@@ -1,11 +1,11 @@
 """Backward error analysis: modified vector fields and modified Hamiltonians of numerical methods.
 
 One step of size h of a method equals the flow of a modified vector field f~ = f + h f_2 + ... over time h. A
-tree t has the coefficient a(t) in the step and the coefficient b(t) in f~. If an edge of t is removed, two
-parts remain: a subtree u, and a part r that contains the root. For a function c of trees, (L c)(t) is the sum
-of b(u) c(r) over all edges of t. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (Hairer, Lubich and Wanner (HLW),
-*Geometric Numerical Integration*, IX.9.1). For series over ordered forests, see Lundervold and Munthe-Kaas,
-Contemp. Math. 539 (2011) 295."""
+tree t has the coefficient a(t) in the step and the coefficient b(t) in f~. The removal of an edge e divides t
+into two parts: the part r_e with the root of t, and the remaining subtree u_e. For a function c of trees, let
+(L c)(t) be the sum of b(u_e) c(r_e) over all edges e of t. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (Hairer,
+Lubich and Wanner (HLW), *Geometric Numerical Integration*, IX.9.1). For series over ordered forests, see
+Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295."""
 
 from __future__ import annotations
 
@@ -63,9 +63,9 @@ class VectorField:
         return Character(self.ring, self.algebra, lambda forest: self(forest) + self.beyond_first(forest))
 
     def beyond_first(self, forest: bytes) -> Element:
-        """Return the difference of two coefficients of a tree or forest: the coefficient in the flow minus
-        the coefficient in the vector field. The computation of the difference uses only coefficients of
-        smaller trees or forests."""
+        """Let t be the tree or forest ``forest``, and let b(t) be its coefficient in the vector field. The
+        coefficient of t in the flow is b(t) + d(t), where d(t) is a polynomial in the coefficients b(u) of
+        smaller trees or forests u. Return d(t)."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))

@@ -29,17 +29,17 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives along vector fields. Each entry of the tuple denotes the vector field of one
-factor. The first entry belongs to the leftmost factor of the product. Let y' = f(y) y be a differential
-equation, and let k be a constant element of the Lie algebra.
+"""A product of derivatives along vector fields. Each entry of the tuple denotes one factor, and the first
+entry denotes the leftmost factor. Let y' = f(y) y be a differential equation, and let k be a constant element
+of the Lie algebra.
 
-- The entry None denotes the vector field of the equation y' = k y.
-- Every other entry is again such a tuple. Let Q be the product of derivatives that this tuple denotes. The
-  product Q can be applied to the function f, and the result is a function Q f. The entry denotes the vector
-  field of the equation y' = (Q f) y.
-
-For example, the entry () denotes the vector field of the equation y' = f(y) y, because a product without
-factors does not change f."""
+- The entry None denotes the derivative along the vector field of the equation y' = k y.
+- The entry () denotes the derivative along the vector field of the equation y' = f(y) y.
+- The entry (None,) denotes the derivative along the vector field of the equation y' = g(y) y. Here g is the
+  derivative of f along the vector field of the equation y' = k y.
+- In general, an entry that is a tuple denotes the derivative along the vector field of an equation
+  y' = g(y) y. This tuple is again a product of derivatives, and the product maps f to g.
+"""
 
 Combination = dict[Operator, int]
 
@@ -203,7 +203,9 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the operator K (kick) to a product of derivatives by the product rule."""
+    """Apply the operator K (kick) to ``product``, a product of derivatives along vector fields
+    (:data:`Operator`). K is the derivative along the vector field k' = f(y). By the product rule, the result
+    is a sum. In each term of this sum, one k in ``product`` is replaced by f(y)."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:

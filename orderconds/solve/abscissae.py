@@ -135,18 +135,17 @@ def symmetric_transport(
     """Return formulas for coefficients of a symmetric method with s stages and the abscissae m_i.
 
     Stage i in the first half begins with the first ``leave[i - 1]`` exponentials of ``update``. The later
-    exponentials of stage i are called own exponentials. Let x_ij be the total coefficient of the stage value
-    k_j in the own exponentials of stage i.
+    exponentials of stage i are called own exponentials. Let k_j be the vector field at stage j. Let a_ij be
+    the sum of the coefficients of k_j in all exponentials of stage i. If only the own exponentials of stage i
+    are counted, the sum of the coefficients of k_j is called x_ij.
 
     - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
-    Let b_i be the weights, and let a_ij be the sum of the coefficients of stage j in all exponentials of
-    stage i. With the formulas, sum_j a_ij = m_i for each stage i, and sum_i b_i a_ij = b_j (1 - m_j) for each
-    stage j. Let r be the number of rows of ``own``. The result contains formulas for three groups of numbers.
-    The first group is x_1s, ..., x_rs, the last column of ``own``. The second group is x_r1, ..., x_rr, the
-    first r entries of the last row of ``own``. The third group consists of auxiliary numbers C1, ..., Cr.
-    In the formulas, y1, y2, ... are the sums of the rows of ``update``.
+    With the formulas, sum_j a_ij = m_i for each i, and sum_i b_i a_ij = b_j (1 - m_j) for each j, where b_i
+    are the weights. Let ``own`` have r rows. The formulas determine the last column of ``own``, the first r
+    entries of the last row of ``own``, and auxiliary numbers C1, ..., Cr. The formulas contain the abscissae
+    m1, m2, ..., the weights b1, b2, ..., and the sums y1, y2, ... of the rows of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

@@ -1,5 +1,9 @@
-"""Elimination of coefficients of an ansatz by linear constraints. After the elimination, a tableau file
-contains a number, a name or a formula for each coefficient."""
+"""Elimination of coefficients by linear constraints, and the texts of the coefficients in a tableau file.
+
+After the elimination, each coefficient is a constant, free, or a function of the free coefficients. In the
+tableau file, constants are numbers, and all other coefficients are names. If a coefficient is a function of
+the free coefficients, the file also contains the formula of this function.
+"""
 
 from __future__ import annotations
 

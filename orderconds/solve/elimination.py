@@ -74,7 +74,7 @@ class Infeasible:
             return f"{self.consequence} = 0 is false"
         if self.weight:
             return (
-                f"{self.weight} = 0 is the only real root of {self.consequence} = 0 (Sturm), but "
+                f"{self.consequence} = 0 has no real root except zero (Sturm), but "
                 f"{self.weight} must not be zero: the formulas of the family divide by {self.weight}"
             )
         return f"{self.consequence} = 0 has no real root (Sturm)"
@@ -105,12 +105,12 @@ def infeasible(problem: Problem) -> Infeasible | None:
     if len(names) > MAX_UNKNOWNS:
         return None
     # The formulas of symplectic methods divide by the weights. Hence the proof considers only methods with
-    # nonzero weights. These methods are sufficient, because each method with a zero weight can be changed
-    # into a method with nonzero weights. Let stage i have the weight zero. Because the method is symplectic,
-    # no stage with a nonzero weight uses stage i. Hence stage i has no effect on the step, and stage i can be
-    # replaced by a copy of a stage j whose weight b_j is not zero. The weight b_j is divided: stage j and the
-    # copy both get the weight b_j/2. The changed method computes the same step as the method before the
-    # change.
+    # nonzero weights. If no such method exists, no method with a zero weight exists either: that method could
+    # be changed into a method with nonzero weights that computes the same step. The change is as follows. Let
+    # stage i have the weight zero. Because the method is symplectic, no stage with a nonzero weight uses
+    # stage i. Hence stage i has no effect on the step, and stage i can be replaced by a copy of a stage j
+    # whose weight b_j is not zero. Stage j and the copy both get one half of the weight b_j and one half of
+    # each coefficient a_kj.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -175,11 +175,18 @@ def _subsystems(
 def _consequence(
     nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
-    """Return a polynomial in the ideal of ``members``, and a name. The polynomial has at most one variable.
-    ``nonzero`` contains the names of weights that must not be zero. If the returned name is empty, the
-    polynomial has no real root. Otherwise, the polynomial has only the real root zero, and its variable is
-    the weight with the returned name. In both cases, the polynomials in ``members`` have no common real zero
-    at which all weights in ``nonzero`` are different from zero."""
+    """Return a pair (polynomial, name of a weight). Return None if no such pair is found.
+
+    The polynomial lies in the ideal of ``members`` and has at most one variable. ``nonzero`` contains the
+    names of weights that must not be zero. There are two kinds of pairs:
+
+    - The polynomial has no real root, and the name is empty.
+    - The only real root of the polynomial is zero. The variable of the polynomial is a weight in ``nonzero``,
+      and the name is the name of this weight.
+
+    In both cases, the polynomials in ``members`` have no common real zero at which all weights in ``nonzero``
+    are different from zero.
+    """
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]

@@ -1,4 +1,7 @@
-"""The ansatz of a search: constraints, names of coefficients, and the text of the tableau file."""
+"""The ansatz of a search for methods: a tableau file in which some coefficients are unknown.
+
+Constraints on the method, for example that it is explicit, reduce the number of unknown coefficients.
+"""
 
 from __future__ import annotations
 
@@ -185,7 +188,14 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for stage coefficients (:func:`orderconds.solve.abscissae.transport`)."""
+    """Return formulas with which the three abscissae of each stage are equal. The abscissae are defined in
+    the module :mod:`orderconds.solve.abscissae`.
+
+    Let a_ij be the sum of the coefficients of stage j in all exponentials of stage i. The last exponential of
+    stage i is computed from the sums a_ij and from the other exponentials of stage i. The result maps names
+    to formulas for the coefficients of the last exponentials, for the sums a_ij, and for the numbers in
+    :func:`commutator_free_times`. If a sum a_ij is not determined, its name is mapped to itself.
+    """
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -411,7 +421,8 @@ LAYOUTS = {
     "composition": Layout(composition, one_structure),
     "splitting": Layout(splitting, one_structure),
 }
-"""Maps the name of a tableau format to the parametrisations of the format."""
+"""Maps the name of a tableau format to a pair of functions (:class:`Layout`). The first function returns an
+ansatz. The second function returns the names of the parametrisations that a search tries."""
 
 TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
 """The parametrisation of low-storage schemes (:mod:`orderconds.solve.low_storage`)."""

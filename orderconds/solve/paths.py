@@ -1,14 +1,19 @@
 """Parametrisations of all commutator-free methods, and of the symmetric commutator-free methods.
 
 Let Q_1, ..., Q_s be the values of the stages, and let y0 be the initial value. The update is
-exp(Y_m) ... exp(Y_1) y0. Each exponent X is a linear combination of the vector fields at Q_1, ..., Q_s. Let
-bar X be the exponent X with its s coefficients in reverse order. A method is symmetric if it satisfies the
-following two conditions:
+exp(Y_m) ... exp(Y_1) y0. Each exponent is a linear combination of the vector fields at Q_1, ..., Q_s. If X is
+an exponent, let bar X be the exponent with the s coefficients of X in reverse order. A method is symmetric if
+it satisfies the following two conditions:
 
 - Y_(m+1-J) = bar Y_J for J = 1, ..., m.
-- For each stage i, there exist a number k from 0 to m and exponents X_1, ..., X_r such that
+- Let stage i begin with the first k exponentials of the update, where k may be zero. Let X_1, ..., X_r be the
+  exponents of the later exponentials of stage i:
 
-      Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
+      Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0.
+
+  Then stage s + 1 - i begins with the first m - k exponentials of the update, and the exponents of its later
+  exponentials are -bar X_1, ..., -bar X_r:
+
       Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0.
 
 A step of length -h of a symmetric method is the inverse of a step of length h.

@@ -158,8 +158,9 @@ class Problem:
         return beyond, sloped * (beyond > 0)[..., None]
 
     def system(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the residuals of the conditions, followed by the violations of the bounds (:meth:`bounds`),
-        with one row for each point. Also return the derivatives with respect to the free coefficients."""
+        """Return a matrix with one row for each point. Each row contains the residuals of the conditions at
+        one point, followed by the violations of the bounds at this point (:meth:`bounds`). Also return the
+        derivatives of the entries of the matrix with respect to the free coefficients."""
         values, slopes = self.tape.jacobians(points)
         beyond, sloped = self.bounds(points)
         return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)

@@ -27,7 +27,8 @@ _TOKEN = re.compile(r"\s*(?:([0-9]{1,3})|([A-Za-z_]\w*)|([\[\],*]))", re.ASCII)
 
 
 class Bracket(Struct, frozen=True):
-    """The commutator of two terms.
+    """The commutator of two terms. In ``left`` and ``right``, nodes are counted from 0. In the text of a
+    term, nodes are counted from 1.
 
     >>> spell(Bracket(1, "a"))
     '[2,a]'

@@ -94,8 +94,8 @@ is a list of numbers, and a stage or an update is a list of exponentials
 
 
 def _starts(starts: object, stages: int) -> list[tuple[int, int]]:
-    """Return the pairs (stage, stage) of the dictionary ``starts``. Raises TableauError if a key or value is
-    not the number of a stage."""
+    """Return a pair (i, j) for each key i and value j of the dictionary ``starts``. The exponentials of stage
+    i act on the value of stage j. Raises TableauError if i or j is not the number of a stage."""
     if starts is None:
         return []
     if not isinstance(starts, Mapping):

@@ -28,7 +28,8 @@ SHORT = 26
 """A double counts as an exact number only if it has at most this number of significant bits."""
 
 PRINTED = 16
-"""A decimal is interpreted as a double only if it has at least this number of significant digits."""
+"""If a decimal has fewer significant digits than this number, it does not count as printed from a double
+(:func:`is_printed`). The decimal is then an exact number or a rounded decimal."""
 
 LARGE = 64
 """A double counts as an exact number only if its numerator and its denominator each have at most this number

@@ -84,7 +84,8 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            # Unused numbers are evaluated later, because they must not enlarge the field of the coefficients.
+            # Numbers that no coefficient uses must not enlarge the field of the coefficients. Hence these
+            # numbers are evaluated only after the construction of the field.
             evaluation.check_unused()
             return ring, _shared(values, lift)
         except DegreeError:

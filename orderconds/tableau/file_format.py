@@ -88,7 +88,7 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     distinctive_key: ClassVar[str] = ""
     """If stored arrays include an array with this name, the tableau has this format."""
     as_products: ClassVar[bool] = False
-    """True if a tableau of this format consists of products of exponentials."""
+    """True if this is a format for methods whose stages and update are products of exponentials."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:

@@ -217,9 +217,13 @@ class StageEntry(Struct, forbid_unknown_fields=True):
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """The embedded update, for an error estimate. ``from`` is the number of the stage from which the embedded
-    update starts. The number s + 1, where s is the number of stages, denotes the result of the main
-    update."""
+    """The embedded update, for an error estimate. The embedded update is a product of exponentials. Let s be
+    the number of stages.
+
+    - If ``from`` is an integer i from 1 to s, the product acts on the value of stage i.
+    - If ``from`` is s + 1, the product acts on the result of the main update.
+    - If ``from`` is missing, the product acts on the initial value y0.
+    """
 
     order: Annotated[int, Meta(ge=1)]
 

@@ -1,9 +1,9 @@
 """Symmetry of commutator-free methods: their exponentials form a palindrome.
 
 A step of length h maps y0 to y1. The method is symmetric if a step of length -h maps y1 back to y0. An
-exponent has s coefficients, one for each stage. In the conjugate of an exponential, the s coefficients of the
-exponent are in reverse order. For each stage, a sequence of exponentials leads from y0 to the value of the
-stage. The method is symmetric if two conditions hold:
+exponent has s coefficients, one for each stage. We define the conjugate of an exponential: it is the
+exponential with the same s coefficients in reverse order. For each stage, a sequence of exponentials leads
+from y0 to the value of the stage. The method is symmetric if two conditions hold:
 
 - The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
   original sequence.
@@ -25,7 +25,8 @@ def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
     """Return True if a method is symmetric. Return None if the coefficients are balls (intervals) that are
     too wide to decide.
 
-    Only stages i and s + 1 - i are compared, where s is the number of stages.
+    The test compares stage i with stage s + 1 - i, where s is the number of stages. If a method is symmetric
+    only after a renumbering of its stages, the result is not True.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]

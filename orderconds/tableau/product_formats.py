@@ -121,7 +121,8 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"rkn = {self.rkn!r} with parts {known}",
                 where=f"{where}: rkn",
-                expected="exactly two parts, and the name of a part as the value of rkn",
+                expected="two names in the key parts, and one of these names as the value of rkn, such as "
+                'parts = ["T", "V"] and rkn = "V"',
             )
 
     def coefficients(self) -> Places:
@@ -197,7 +198,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 raise TableauError(
                     f"the name {leaf!r} in {key!r}",
                     where=where,
-                    expected=f"the name of an element that may occur here ({names})",
+                    expected=f"a name from the table [elements] (names that are allowed here: {names})",
                 )
         if self.map == "exp" and has_product(term):
             raise TableauError(
@@ -207,7 +208,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             )
 
     def coefficients(self) -> Places:
-        """Yield the position in the file and the entry of every coefficient."""
+        """Yield a pair such as ``("c[1]", "1/2")`` for every coefficient: the position of the coefficient in
+        the file, and the coefficient."""
         yield from row_places(self.c, "c")
         for place, table in self._tables():
             for key, coefficient in table.items():
@@ -237,8 +239,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 mirrored = series.get(word[::-1], ring.zero)
                 if ring.is_zero(value - mirrored if len(word) % 2 else value + mirrored) is False:
                     raise TableauError(
-                        f"for at least one quadratic group, exponent {k + 1} is not an element of the Lie "
-                        f"algebra",
+                        f"there is a quadratic group whose Lie algebra does not contain exponent {k + 1}",
                         where=f"{self.name}: exponents[{k + 1}]",
                         expected="mirrored pairs of products: A*B - B*A for an even number of factors, "
                         "A*B*C + C*B*A for an odd number of factors",

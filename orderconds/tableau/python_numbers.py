@@ -22,8 +22,8 @@ EXPECTED = (
 
 
 SMALL = 1024
-"""The largest denominator of an exact NumPy float of 16 or 32 bits. Such a float with a larger denominator
-counts as a rounded decimal."""
+"""A NumPy float of 16 or 32 bits becomes a rounded decimal if its denominator in lowest terms is larger than
+this number. Otherwise, the float is converted like a double."""
 
 
 class _Listed(Protocol):

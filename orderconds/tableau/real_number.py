@@ -52,8 +52,9 @@ class RealNumber:
 
 
 Value = Fraction | float | RealNumber
-"""A coefficient in the Python interface: a Fraction for an exact rational number. All other numbers are
-floats if the tableau contains doubles, and RealNumbers otherwise."""
+"""A coefficient in the Python interface. An exact rational number is a Fraction. Every coefficient that is
+not an exact rational number is a float if the tableau contains doubles, and a RealNumber if the tableau
+contains no doubles."""
 
 
 def value_of(x: Element, ring: Ring, doubles: bool = False) -> Value:

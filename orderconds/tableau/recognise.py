@@ -13,8 +13,8 @@ def as_composition(tableau: Tableau) -> Tableau | None:
     None if the method is not such a composition.
 
     The conditions are a_ij = b_j for j < i, a_ii = b_i/2 and a_ij = 0 for j > i (Bogfjellmo and Marthinsen,
-    Lemma 3.5.4). If coefficients are rounded decimals, the first two equations must hold within the
-    uncertainty of the decimals.
+    Lemma 3.5.4). The third condition, a_ij = 0 for j > i, must hold exactly. If coefficients are rounded
+    decimals, the other two conditions need to hold only within the uncertainty of the decimals.
 
     >>> from orderconds.tableau import find
     >>> jump = Tableau.load(find("triple_jump"))

@@ -45,13 +45,14 @@ def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
 
 
 def sign(method: Magnus, ring: Ring) -> int | None:
-    """Return -1 if all terms of the first exponent of the method are odd, and 1 if all are even. Otherwise,
-    return None.
+    """Test whether the first exponent of a Magnus method is odd or even under the reversal of time.
 
-    Let A_i = h A(c_i h) for the nodes c_1, ..., c_s. The linear combination of A_1, ..., A_s in
-    the exponent counts as a single term. Each other summand of the exponent is a term. Replace every A_i in a
-    term by -A_{s+1-i}. The term is called odd if this replacement changes the sign of the term. The term is
-    called even if this replacement does not change the term.
+    Let A_i = h A(c_i h) for the nodes c_1, ..., c_s. The reversal of time replaces every A_i by -A_{s+1-i}. A
+    term is called odd if this replacement changes the sign of the term. A term is called even if this
+    replacement does not change the term. The terms of the exponent are its summands. However, the linear
+    combination of A_1, ..., A_s in the exponent counts as a single term.
+
+    Return -1 if all terms of the exponent are odd, and 1 if all terms are even. Otherwise, return None.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

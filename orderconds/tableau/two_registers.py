@@ -10,8 +10,9 @@ leads from the last stage to the result of the step. In a 2N scheme, increment i
 sum_{j < i} A_{j+1} ... A_i F_j. The recognition computes B_i and A_i from the increments of a tableau:
 
 - B_i is the coefficient of F_i in increment i.
-- A_i is the quotient of the coefficients of F_{i-1} and F_i in one increment. The first increment in which
-  F_i has a non-zero coefficient is used.
+- Let x be the coefficient of F_{i-1} and y the coefficient of F_i in an increment m >= i. In a 2N scheme, the
+  formula for K_m gives x = A_i y. Hence A_i = x/y for the first increment m >= i in which y is not zero. If y
+  is zero in all these increments, x must be zero, too, and A_i = 0 is chosen.
 
 The tableau is a 2N scheme if all its increments are equal to the increments B_i K_i.
 """
@@ -142,8 +143,8 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
             return rows[m][i - 1] / denominator
         if ring.is_zero(rows[m][i - 1]) is False and not above:
             above = (
-                f"A_{i + 1} requires a division by zero: in the increment of stage {m + 1}, the coefficient "
-                f"{ring.text(rows[m][i - 1])} of k_{i} is divided by the coefficient 0 of k_{i + 1}"
+                f"in the increment of stage {m + 1}, k_{i} has the coefficient {ring.text(rows[m][i - 1])}, "
+                f"but a 2N scheme requires the coefficient 0, because k_{i + 1} has the coefficient 0"
             )
     return Rewriting(False, reason=above) if above else ring.zero
 

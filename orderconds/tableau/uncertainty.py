@@ -12,8 +12,10 @@ from orderconds.tableau.doubles import radius
 from orderconds.tableau.record import Tableau
 
 WIDER = fmpq(17, 8)
-"""A double counts as accurate if the width of its ball (interval) is at most ``WIDER`` times the default
-radius (:func:`~orderconds.tableau.doubles.radius`)."""
+"""In a tableau with doubles, a coefficient is a ball: an interval from x - e to x + e. Let r be the default
+radius for a double x (:func:`~orderconds.tableau.doubles.radius`). The coefficient counts as accurate if the
+width 2 e is at most ``WIDER`` times r. ``WIDER`` is slightly larger than 2, because rounding can make e
+slightly larger than r."""
 
 
 def uncertainty(tableau: Tableau, bits: int) -> str:

@@ -89,8 +89,9 @@ class Proof:
 
 
 class SymbolicCoefficients(Struct, frozen=True):
-    """The parsed coefficients of a file. They can be evaluated in a given ring, with other numbers in place
-    of the rounded decimals."""
+    """The coefficients of a tableau file as parsed expressions. The function :meth:`method` evaluates the
+    expressions in a given ring. The caller provides an element of the ring for each rounded decimal, for
+    example an interval that contains the exact coefficient."""
 
     expressions: Mapping[str, Expression]
     numbers: Mapping[str, Definition]
@@ -145,5 +146,6 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        # Without a method ``size``, the number of bits is not limited.
+        # The evaluation of an expression fails if the size of a number exceeds a limit. If the ring does not
+        # define sizes, the result 0 prevents this failure.
         return 0 if size is None else int(size(x))

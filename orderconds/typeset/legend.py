@@ -34,9 +34,12 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
 
 
 def _range(indices: set[str]) -> str:
-    """Return a sentence about the range of the sums, or an empty text if there are no sums. ``indices``
-    contains the first character of each index in the conditions: a letter, or a digit if the index is
-    constant."""
+    """Return a sentence about the range of the sums, or an empty text if there are no sums.
+
+    ``indices`` contains one character for each index in the conditions. The character is a lower-case letter
+    if the index runs over stages, and an upper-case letter if the index runs over exponentials. For a
+    constant index, the character is a digit.
+    """
     if any(index.isupper() for index in indices):
         return " Lower-case indices run over all stages, upper-case indices over all exponentials."
     return " Sums run over all stages." if any(index.isalpha() for index in indices) else ""

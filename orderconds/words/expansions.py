@@ -47,8 +47,8 @@ def magnus(word: Word) -> Fraction:
     """Return the coefficient of a word in the Magnus expansion Omega at t = 1.
 
     Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... Omega is the Lie element
-    with Y = exp(Omega). A word denotes the product of its letters in reverse order: (2, 1) denotes
-    X_1 X_2.
+    with Y = exp(Omega). The word (k_1, ..., k_n) denotes the product X_{k_n} ... X_{k_1}. For example, (2, 1)
+    denotes X_1 X_2.
 
     >>> str(magnus((1, 2))), str(magnus((2, 1)))
     ('1/12', '-1/12')
@@ -60,10 +60,10 @@ def magnus(word: Word) -> Fraction:
 def cayley(word: Word) -> Fraction:
     """Return the coefficient of a word in the Cayley expansion Omega at t = 1.
 
-    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... A word denotes the
-    product of its letters in reverse order: (2, 1) denotes X_1 X_2. Omega is defined by Y = cay(Omega) with
-    the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2). Omega satisfies the equation
-    Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
+    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... Omega is defined by
+    Y = cay(Omega) with the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2). Omega satisfies the equation
+    Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129). The word
+    (k_1, ..., k_n) denotes the product X_{k_n} ... X_{k_1}. For example, (2, 1) denotes X_1 X_2.
 
     >>> str(cayley((1, 1))), str(cayley((1, 1, 1)))
     ('0', '-1/12')
@@ -78,7 +78,8 @@ def fer(n: int, word: Word) -> Fraction:
     Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The Fer expansion is
     Y = exp(F_1) exp(F_2) ..., an infinite product of exponentials. The series F_n is the integral of a series
     A_n from 0 to t. Here A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where
-    ad_F X = F X - X F. A word denotes the product of its letters in reverse order: (2, 1) denotes X_1 X_2.
+    ad_F X = F X - X F. The word (k_1, ..., k_n) denotes the product X_{k_n} ... X_{k_1}. For example, (2, 1)
+    denotes X_1 X_2.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')

@@ -95,13 +95,13 @@ def test_products_from_the_start_value_are_recognised() -> None:
     [
         (
             'family = "rk"\nA = [[], ["1/2"], ["1/4", "0"]]\nb = ["0", "0", "1"]\n',
-            "A_2 requires a division by zero: in the increment of stage 2, the coefficient -1/4 of k_1 is "
-            "divided by the coefficient 0 of k_2",
+            "in the increment of stage 2, k_1 has the coefficient -1/4, but a 2N scheme requires the "
+            "coefficient 0, because k_2 has the coefficient 0",
         ),
         (
             'family = "rk"\nA = [[], ["1/2"]]\nb = ["1/3", "0"]\n',
-            "A_2 requires a division by zero: in the increment of stage 2, the coefficient -1/6 of k_1 is "
-            "divided by the coefficient 0 of k_2",
+            "in the increment of stage 2, k_1 has the coefficient -1/6, but a 2N scheme requires the "
+            "coefficient 0, because k_2 has the coefficient 0",
         ),
         ('family = "rk"\nA = [["1/2"]]\nb = ["1"]\n', "the first stage is not the start value"),
         (
