@@ -188,9 +188,9 @@ class ClosedFormSeries(Coadjoint):
         Here f is a number, and W is a product of factors as in :meth:`series`. If ``dual`` is true, ad*_x
         replaces ad_x.
 
-        Some classes add the vectors f v of several triples before they apply ad_x. If ``total`` is given,
-        these classes call ``total(indices)`` for the sum of f v over the triples ``terms[i]`` with i in
-        ``indices``. If ``total`` is None, these classes compute the sum of f v themselves.
+        The caller may pass a function ``total`` that adds vectors f v faster. For a tuple of indices i,
+        ``total`` must return the sum of f v over the triples ``terms[i]``. The method chooses the indices,
+        and need not call ``total``. If ``total`` is None, the method itself adds the vectors f v.
         """
 
 

@@ -449,8 +449,8 @@ class Semidirect(
         return self._covered().covering(d, g) + a
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return (s, a) for q = (r, a). Here r is projected onto the covering group of the linear factor, and
-        s is the image of the projected element under the covering map.
+        """Return the image of q = (r, a) under the covering map. The coordinates r may contain small errors,
+        so r is first projected onto the covering group of the linear factor.
         """
         g, a = self._over(q)
         return self._covered().projected_covering(d, g) + a

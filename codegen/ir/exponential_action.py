@@ -41,8 +41,9 @@ def degrees(bits: int) -> tuple[int, ...]:
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
-    # An integer needs no rounding if its largest odd divisor is below 2^bits. All integers m!/j! divide m!,
-    # so the loop tests only m!.
+    # The Taylor polynomial times m! has the coefficients m!/j!, which are divisors of m!. An integer needs no
+    # rounding if its largest odd divisor is below 2^bits. If m! satisfies this condition, each divisor of m!
+    # satisfies it, too.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1

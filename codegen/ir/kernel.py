@@ -161,8 +161,9 @@ class Loop:
     @property
     def close(self) -> float:
         """The factor ``close`` in the second case of the stopping rule (see :class:`Loop`)."""
-        # If the code after the loop reads only the unknowns, a larger factor is sufficient, because the error
-        # of the unknowns is smaller than their last change.
+        # The last sweep computes the values in ``body`` before it changes the unknowns. The error of these
+        # values is therefore about as large as the last change of the unknowns. If the code after the loop
+        # does not read these values, a larger last change is allowed.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         # ``first_order`` is true if Newton's matrix is expanded to first order in h.
@@ -306,9 +307,9 @@ class Expansion:
     of the kernel ``coefficients``. The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
-    ``sums`` is the number of inner sums, one for each product. In pass n, the loop first computes the inner
-    sum in coefficient n of each product. Then the loop executes the kernel ``following``, which has these
-    outputs, in this order:
+    Each product has one inner sum for each n, and ``sums`` is the number of products. Pass n of the loop
+    first computes the inner sums of all products. Then the loop executes the kernel ``following``, which has
+    these outputs, in this order:
     - a_n for each product,
     - b_n for each product,
     - the Taylor coefficients of order n + 1.

@@ -66,8 +66,8 @@ class BilinearFunction(VectorFunction):
         space = args[0].space
         # The derivative is f(E, b) or f(a, E), where one entry of the matrix E is 1 and the others are 0.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
-        # The entry ``args[argument]`` belongs to a or to b. E replaces this matrix, and ``half`` is the slice
-        # of ``args`` with the entries of this matrix.
+        # If ``args[argument]`` is an entry of a, ``half`` selects the entries of a from ``args``. Otherwise
+        # ``half`` selects the entries of b.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
@@ -76,9 +76,10 @@ class BilinearFunction(VectorFunction):
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return zeros, the entries of f(a, b), if the matrix a or the matrix b is zero, otherwise None.
+        """Return a tuple of zeros if the matrix a or the matrix b is zero. Otherwise return None.
 
-        ``args`` are the entries of a and b. If the result is None, emitted code must call the function f.
+        ``args`` are the entries of a and b. The zeros are the entries of f(a, b), where f is this function.
+        If the result is None, emitted code must call f.
         """
         # A bilinear function is zero if one of its arguments is zero.
         if all(x.is_zero for x in args[: self.size]) or all(x.is_zero for x in args[self.size :]):

@@ -280,15 +280,13 @@ class _Builder:
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
         """Append statements that compute a matrix S with B S B^T = W X^T - X W^T, and return S.
 
-        - B is the matrix ``self.basis``. Its first k = ``self.k`` columns are the state X_0 at the beginning
-          of the step.
+        - B consists of the first n columns of the matrix ``self.basis``, where n = ``first`` + k and
+          k = ``self.k``. The first k columns of B are the state X_0 at the beginning of the step.
+        - W consists of the last k columns of B.
         - X is the point X_0 + B D. ``displacement`` is the matrix D, or None if D is zero. If D has
-          fewer rows than B has columns, the missing rows are zero.
-        - W consists of k consecutive columns of B. The first of these columns has the index ``first``.
+          fewer than n rows, the missing rows are zero.
 
-        Let C be the matrix D after the k x k unit matrix is added to the first k rows. Then X is B C.
-        Therefore the last k rows of S are C^T, and the last k columns of S are -C. All other entries of S are
-        zero.
+        The matrix S has n rows and n columns.
         """
         k = self.k
         # ``self.sum`` without terms sets all entries of the matrix ``core`` to zero.

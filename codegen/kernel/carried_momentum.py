@@ -99,8 +99,9 @@ class Frames:
 
         If the two kernels are not needed, the result is None.
         """
-        # If ``_alike`` is true, the program and the emitted code use the same frame, so nothing is converted.
-        # Otherwise, each of the other two conditions means that each step converts the momentum.
+        # The kernels are needed only if the program uses the body frame, the emitted code uses the space
+        # frame, and ``whole`` is false. In all other cases, the steps convert the momentum, or no conversion
+        # is needed.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

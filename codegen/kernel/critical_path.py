@@ -201,7 +201,7 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # ``node`` is not expanded. In the notation s k v c of :data:`Sum`, c is the node and s = k = v = 1.
+        # ``node`` is not expanded. The sum has one term: ``node`` with the sign 1 and the factors 1 and 1.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
@@ -241,9 +241,9 @@ class _Chains:
         for a, b in (node.args, node.args[::-1]):
             if self.fixed[a.id] and b.op == "mul":
                 for c, d in (b.args, b.args[::-1]):
-                    # The factor a is constant in a run. The order of the multiplications is changed if c is
-                    # constant in a run and d varies. If c and d are both constant, then c d is constant, too,
-                    # and a (c d) needs no change.
+                    # The node is a (c d), and a is constant in a run. If c is also constant and d varies, the
+                    # node is replaced by (a c) d. If a, c and d are all constant, another order of the
+                    # multiplications saves nothing, so the node is not changed.
                     if self.fixed[c.id] and not self.fixed[d.id]:
                         return self._product(a * c, d)
         return node

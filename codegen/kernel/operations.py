@@ -156,8 +156,9 @@ def costs(kernel: Kernel) -> list[str]:
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
         # The end of a run needs two more additions for each component of the momentum.
         added = {"add": 2 * len(turned[1].outputs)}
-        # The counted operations convert the momentum. A run executes ``inward`` and ``outward`` at its
-        # beginning, and ``outward`` again at its end.
+        # At the start, a run converts the space momentum to the body momentum and back. At the end, the run
+        # converts the new body momentum to the space momentum. The difference of the two computed space
+        # momenta is added to the caller's momentum.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the start of a run, {last} at the end of a run")

@@ -181,10 +181,10 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # If ``count`` exceeds ``k``, some trees are not joined and need their own function.
+        # If ``count`` exceeds ``k``, a tree with the same key is in no pair and still needs its own function.
+        # The lines of this function then occur twice, because the function for a joined pair contains them.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # If two trees are joined, one function call replaces two calls. This saves about three lines for each
-        # of the ``k`` pairs. ``copies`` counts the lines of the functions for trees that are not joined.
+        # Each of the ``k`` pairs needs one function call in place of two. This saves about three lines.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:

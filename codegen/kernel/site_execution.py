@@ -187,8 +187,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # ``self.ghosts`` maps each symbol to one value. If the dictionary already contains another value for
-        # one of these symbols, new symbols are needed.
+        # Each name must have a single value in ``self.ghosts``. If a name in ``loaded`` already has a value
+        # that differs from its value in ``ghosts``, all names in ``loaded`` are replaced by new names.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}

@@ -133,8 +133,9 @@ class Planner:
         # (:class:`codegen.ir.site_step.SiteNewton`). The border begins at row ``border``, and the matrix
         # begins at row ``matrix``.
         border = count + most
-        # Only a periodic chain has a border, because its first and its last site are neighbours. The border
-        # occupies ``most * most`` rows.
+        # An open chain has no border. In a periodic chain, the border contains the columns of Newton's matrix
+        # for the last site. Each pair of an unknown of a site and an unknown of the last site needs one row,
+        # and a site has at most ``most`` unknowns.
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):
