@@ -126,12 +126,16 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return ``terms``, with 0 in place of None if a coefficient outside the lattice may be nonzero.
+        """Return the Taylor coefficients ``terms`` of one site, with each None replaced by the expression 0.
 
-        ``terms`` contains the Taylor coefficients of the given ``degree`` at one site. None represents a
-        coefficient that is zero at all sites. In the result, None represents a coefficient that is zero at
-        all sites and also outside the lattice. Exception: for the largest degree, ``terms`` is returned
-        unchanged, because no neighbour reads these coefficients.
+        None represents a coefficient that is zero at all sites. In three cases, ``terms`` is returned
+        unchanged:
+
+        - The lattice has no open boundary.
+        - At the open boundary, each coordinate of a missing neighbour is a constant or is equal to the same
+          coordinate of the site. Then a coefficient that is zero at all sites is also zero outside the
+          lattice.
+        - ``degree`` is the largest degree. No neighbour reads these coefficients.
         """
         if degree == self.degree:
             return terms

@@ -404,7 +404,8 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
     """Return a copy of the kernel in which the attributes ``inputs`` and ``samples`` are set.
 
-    A sample contains all run-time inputs at one time.
+    ``inputs`` are the names of the functions of time that the caller of the emitted code supplies. A sample
+    consists of a time t and the symbols for the values of these functions at t.
     """
     # Earlier compiler passes may have removed all uses of a sample.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}

@@ -24,8 +24,9 @@ LONG = 0.2
 LEAST_STEPS, RESOLVED = 200, 1e-4
 """Limits for the extension of short runs to several time spans (:func:`spans`).
 
-The number of time spans is doubled until the run takes at least RESOLVED seconds, or until the next doubling
-would give more than LEAST_STEPS steps. RESOLVED is about a hundred times the overhead of a call.
+A run is too short if it takes less than RESOLVED seconds and has at most LEAST_STEPS/2 steps. The number of
+time spans is doubled as long as the run is too short. RESOLVED is about a hundred times the overhead of a
+call.
 """
 
 CONFIRMED, MOST = 0.03, 21

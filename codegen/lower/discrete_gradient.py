@@ -70,8 +70,8 @@ class DiscreteGradient(FieldLowering):
         where the field is not zero. The error is also raised if the force at an open boundary is not
         conservative.
         """
-        # For a lattice, the test uses a few sites in place of one, because only the total energy of all sites
-        # is conserved.
+        # On a lattice, the energy of a single site is not conserved. Therefore ``_agrees`` tests a whole
+        # lattice. A small lattice is enough, because the equations are the same at all sites.
         if not _agrees(problem if problem.sites is None else small(problem)):
             if problem.sites is not None and problem.sites.outside:
                 raise MethodError(
@@ -141,7 +141,7 @@ def _agrees(scene: Problem) -> bool:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # If gamma is zero, ``image`` is zero, too. For this reason, ``image`` can differ from f.
+        # If ``gamma`` is zero at a point where f is not zero, ``image`` is zero, so the result is False.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

@@ -111,6 +111,6 @@ class LieElements:
         for outer in reversed(factors[:middle]):
             x = self._value(outer)
             var = self.build.add(Sandwich(), "product", x.var, result.var)
-            # The new product is x r x with the previous product r, so the power of h of x counts twice.
+            # The outer factor h^a x and the previous product h^b r give the new product h^(2a + b) x r x.
             result = Scaled(var, 2 * x.power + result.power)
         return result

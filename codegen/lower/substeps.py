@@ -102,8 +102,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
         ]
         # ``scaled`` contains the tableau of each group of stages.
         first = scaled[0]
-        # A step is divided only into implicit substeps. If explicit substeps contain the same expression, the
-        # undivided step computes this expression only once.
+        # A step with explicit substeps is not divided, because the undivided step computes an expression only
+        # once, even if the expression occurs in several substeps.
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]
             return RungeKutta(tuple(elements[:-1]), elements[-1]), tuple(sums)

@@ -113,7 +113,7 @@ class _Step(ExpandedStep):
         # contains the moved terms with the changed signs.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # ``factor`` = -h b_j a_ji/b_i is the coefficient of dexp*_{X_j} n_j and of R*_(r)(X_j, v_j) M_j.
+            # ``factor`` is -h b_j a_ji/b_i, the coefficient of two terms in the equation for momentum M_i.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))

@@ -88,9 +88,8 @@ class Exhausted:
         )
         if math.isfinite(self.nearest):
             counts += (
-                "; to test the predictions, some recipes with too long predicted times were also measured: "
-                f"they took at least {self.nearest:.1f} times as long as the fastest recipe measured before "
-                "them"
+                "; to test the predictions, some recipes with too long predicted times were measured last, "
+                f"and each took at least {self.nearest:.1f} times as long as the fastest earlier recipe"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
 

@@ -154,11 +154,13 @@ class Jobs(Sequence[Job]):
     def _behind(self, queue: Queue) -> float:
         """Return the slowness of a queue. All recipes in a queue have the same kind (:data:`Kind`).
 
-        For each goal of the first recipe in the queue, let T1 be the least predicted CPU time of the recipes
-        of this kind, and let T2 be the least predicted CPU time of all recipes. The slowness is the minimum
-        of log2(T1/T2) over these goals. Goals are ignored if T1 is unknown, or if T2 is infinite.
+        A goal consists of a required error and requirements on the method. For one goal, let T1 be the least
+        predicted CPU time of the recipes of this kind, and let T2 be the least predicted CPU time of all
+        recipes. The slowness is the minimum of log2(T1/T2) over the goals of the first recipe in the queue.
+        Only this recipe counts, because the first recipe is taken from the queue next.
 
-        If no goal remains, the slowness is 0. If T1 is infinite for all remaining goals, it is FAILED.
+        A goal is ignored if T1 is not known yet, or if T2 is infinite. If all goals are ignored, the slowness
+        is 0. If T1 is infinite for all goals that are not ignored, the slowness is FAILED.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]

@@ -90,7 +90,7 @@ class Numeric(Operation):
 
     @property
     def name(self) -> str:
-        """The name of the operation that was replaced by the Python function."""
+        """The name of the operation that this operation replaces in the program of a step."""
         return self.label
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:

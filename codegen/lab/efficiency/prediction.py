@@ -163,10 +163,11 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, x, e) for :meth:`too_high`. The entry x is True for explicit methods, and
-      False for implicit methods. The number e is the least of several predicted errors. One error is
-      predicted for each method of the family with this x, for a run that takes the CPU time ``seconds``.
-      Only methods of two higher orders are used (:data:`FAR`). The family '' represents all families.
+    - ``least``: triples (family, x, e) for :meth:`too_high`. If x is True, the triple describes explicit
+      methods of the family. If x is False, the triple describes implicit methods. Let p be the order of the
+      recipe. Only methods of the orders p + 1 and p + 2 are considered. The number e is the least predicted
+      error of these methods in a run that takes the CPU time ``seconds``. The family '' represents all
+      families.
     - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
       this run.
     - ``explicit``: True if only explicit methods are accepted.

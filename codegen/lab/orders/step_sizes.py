@@ -4,10 +4,11 @@ A slope is the logarithm of the ratio of the errors of two consecutive runs, div
 ratio of their step sizes. A run is excluded if it fails or if its error is too small to be measured. Slopes
 are computed only for the longest sequence of consecutive runs that are not excluded.
 
-Let p and q be two consecutive slopes, and let r > 1 be the ratio of consecutive step sizes. For a smooth
-problem, |q - p|/(r - 1) is an estimate of the difference between q and the order, because this difference is
-approximately proportional to the step size. The slopes have *settled* if the last two of these estimates are
-at most :data:`SETTLED`.
+Let k be the order of the method, and let r > 1 be the ratio of consecutive step sizes. Let p and q be two
+consecutive slopes, where p belongs to the larger step sizes. For a smooth problem, the difference between a
+slope and k is approximately proportional to the step size. Hence p - k is approximately r (q - k), and p - q
+is approximately (r - 1) (q - k). Therefore |p - q|/(r - 1) is an estimate of |q - k|. The slopes have
+*settled* if the last two of these estimates are at most :data:`SETTLED`.
 
 The last slope and the stated order may differ by at most :data:`TOLERANCE`.
 """

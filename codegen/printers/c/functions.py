@@ -43,7 +43,7 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
-ONE_TEST = "If the sum of the values x is not finite, x - x is tested: 0 if x is finite, otherwise NaN."
+ONE_TEST = "The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite."
 
 
 class FunctionPrinter:
