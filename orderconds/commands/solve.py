@@ -266,7 +266,12 @@ def _stages(order: Order) -> str:
 
 
 def _print_proof(order: Order, proof: Infeasible) -> None:
-    click.echo(f"no {order.family} method with {_stages(order)} has order {order.order}:")
+    options = order.restrictions()
+    restricted = f" and the options {options}" if options else ""
+    assumed = f", if {' and '.join(proof.assumptions)}" if proof.assumptions else ""
+    click.echo(
+        f"no {order.family} method with {_stages(order)}{restricted} has order {order.order}{assumed}:"
+    )
     for condition, equation, multiplier in zip(
         proof.conditions, proof.equations, proof.multipliers, strict=True
     ):

@@ -34,6 +34,8 @@ class Ansatz:
       method is a Runge-Kutta method
     - ``measured``: the label of the family in which the principal error is computed; None means ``family``
     - ``centre``: values of the free coefficients; random starts are chosen near these values
+    - ``assumptions``: properties of all methods of this form, in addition to the options of the search; each
+      property is a clause such as ``all weights b_i are nonzero``
     """
 
     family: str
@@ -48,6 +50,7 @@ class Ansatz:
     abelian: bool = False
     measured: str | None = None
     centre: Mapping[str, float] | None = None
+    assumptions: tuple[str, ...] = ()
 
     def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
         """Return the text of a tableau file in which the free coefficients have the given ``values``. The

@@ -13,7 +13,7 @@ side r is 1 or the polynomial in one coefficient. This identity is verified exac
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import TYPE_CHECKING, cast
 
@@ -55,6 +55,9 @@ class Infeasible:
     - If ``weight`` is the name of a weight, this weight is zero in each real solution of the equation. This
       is impossible: the formulas of the family divide by the weight.
 
+    The proof is valid for the methods that satisfy the options of the search and all ``assumptions``. Each
+    assumption is a clause.
+
     Entry k of ``equations`` is the numerator of the residual of condition k: left-hand side minus right-hand
     side.
     """
@@ -66,6 +69,7 @@ class Infeasible:
     consequence: str
     real: bool
     weight: str = ""
+    assumptions: tuple[str, ...] = ()
 
     @property
     def reason(self) -> str:
@@ -87,6 +91,7 @@ class Infeasible:
             "multipliers": list(self.multipliers),
             "consequence": self.consequence,
             "reason": self.reason,
+            "assumptions": list(self.assumptions),
         }
 
 
@@ -105,7 +110,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     if len(names) > MAX_UNKNOWNS:
         return None
     # The formulas of symplectic methods divide by the weights. Hence the proof considers only methods with
-    # nonzero weights. If no such method exists, no method with a zero weight exists either: that method could
+    # nonzero weights. Some options make this an assumption (``Ansatz.assumptions``). Without these options,
+    # if no such method exists, no method with a zero weight exists either: that method could
     # be changed into a method with nonzero weights that computes the same step. The change is as follows. Let
     # stage i have the weight zero. Because the method is symplectic, no stage with a nonzero weight uses
     # stage i. Hence stage i has no effect on the step, and stage i can be replaced by a copy of a stage j
@@ -130,7 +136,7 @@ def infeasible(problem: Problem) -> Infeasible | None:
         if contradiction is not None:
             certificate = _certificate(variables, members, *contradiction, plain)
             if certificate is not None:
-                return certificate
+                return replace(certificate, assumptions=problem.ansatz.assumptions)
     return None
 
 

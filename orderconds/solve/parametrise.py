@@ -23,6 +23,7 @@ from orderconds.solve.ansatz import Ansatz
 from orderconds.solve.coefficients import Cells, eliminated, row_text
 from orderconds.solve.linear import Constraint, Elimination, equal, named, spell, sum_to_one, zero
 from orderconds.solve.low_storage import low_storage
+from orderconds.solve.paths import Path, full_paths, symmetric_paths
 from orderconds.solve.spec import Spec, refuse
 
 
@@ -75,8 +76,28 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
         *_matrix(rows),
         f"b = {row_text(cells, b, full=True)}",
     )
-    label = family.solved_as(spec.rkn)
-    return Ansatz(label, name, structure, body, free, cells.numbers(names), cells.unknown(names))
+    return Ansatz(
+        family.solved_as(spec.rkn),
+        name,
+        structure,
+        body,
+        free,
+        cells.numbers(names),
+        cells.unknown(names),
+        assumptions=_assumptions(family, spec),
+    )
+
+
+def _assumptions(family: Family, spec: Spec) -> tuple[str, ...]:
+    """Return the assumptions of :func:`runge_kutta` that do not follow from the family and the options."""
+    assumptions = []
+    if spec.symmetric:
+        assumptions.append("a_ij + a_(s+1-i)(s+1-j) = b_j for all i and j")
+    # Without these options, a stage with the weight zero can be replaced by a stage with a nonzero weight
+    # (:func:`orderconds.solve.elimination.infeasible`).
+    if family.symplectic and not family.needs_nonzero_weights and (spec.dirk or spec.symmetric or spec.fix):
+        assumptions.append("all weights b_i are nonzero")
+    return tuple(assumptions)
 
 
 def _symplectic(
@@ -154,8 +175,6 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
     >>> commutator_free(get("cf"), Spec(stages=1, exponentials=1, inner=1), "full", "m").free
     ('b1_1', 'a1_1_1')
     """
-    from orderconds.solve.paths import full_paths, symmetric_paths
-
     refuse(family.label(), spec, ("rkn", "fsal"))
     make = symmetric_paths if structure.startswith("symmetric") else full_paths
     stages, update, names, constraints = make(spec)
@@ -181,8 +200,35 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
         tail += ["[[stage]]", *_exponentials(stage, cells)]
     tail += ["[update]", *_exponentials(update, cells)]
     body = (f'name = "{name}"', 'family = "cf"')
-    label = family.solved_as(spec.rkn)
-    return Ansatz(label, name, structure, body, free, numbers, cells.unknown(names), tuple(tail))
+    return Ansatz(
+        family.solved_as(spec.rkn),
+        name,
+        structure,
+        body,
+        free,
+        numbers,
+        cells.unknown(names),
+        tuple(tail),
+        assumptions=(_numbers_of_exponentials(stages, update),),
+    )
+
+
+def _numbers_of_exponentials(stages: Sequence[Path], update: Path) -> str:
+    """Return a clause about the exponentials of each stage (:mod:`orderconds.solve.paths`).
+
+    >>> _numbers_of_exponentials(*full_paths(Spec(stages=2, explicit=True))[:2])
+    'the numbers of exponentials are at most 2 in the update and n_i in stage i, with n = 0, 2'
+    """
+    counts = ", ".join(str(len(path)) for path in stages)
+    shared = [sum(x == y for x, y in zip(path, update, strict=False)) for path in stages]
+    numbers = (
+        f"the numbers of exponentials are at most {len(update)} in the update and n_i in stage i, "
+        f"with n = {counts}"
+    )
+    if not any(shared):
+        return numbers
+    begins = ", ".join(map(str, shared))
+    return f"{numbers}; stage i begins with k_i exponentials of the update, with k = {begins}"
 
 
 def _abscissae(
@@ -317,8 +363,16 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
         'base = "symmetric-2"',
         f"gamma = {row_text(cells, gamma, full=True)}",
     )
-    label = family.solved_as(spec.rkn)
-    return Ansatz(label, name, structure, body, elimination.free, cells.numbers(order), cells.unknown(names))
+    return Ansatz(
+        family.solved_as(spec.rkn),
+        name,
+        structure,
+        body,
+        elimination.free,
+        cells.numbers(order),
+        cells.unknown(names),
+        assumptions=("the step sizes form a palindrome",),
+    )
 
 
 def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:

@@ -59,9 +59,25 @@ class Order:
         >>> Order("cg", 3, Spec(stages=3, explicit=True)).command()
         'orderconds solve cg --stages 3 --order 3 --explicit'
         """
+        stages, order = str(self.spec.stages), str(self.order)
+        words = ["orderconds", "solve", self.family, "--stages", stages, "--order", order]
+        words += self._restrictions()
+        words += ["--minimise", "error"] if self.minimised else []
+        words += ["--starts", str(self.starts)] if self.starts is not None else []
+        words += ["--seed", str(self.seed)] if self.seed else []
+        return shlex.join(words)
+
+    def restrictions(self) -> str:
+        """Return the options that restrict the methods of the search, except the number of stages.
+
+        >>> Order("rk", 4, Spec(stages=3, dirk=True, fix=("a21=1/2",))).restrictions()
+        '--dirk --fix a21=1/2'
+        """
+        return shlex.join(self._restrictions())
+
+    def _restrictions(self) -> list[str]:
         w = self.spec
-        words = ["orderconds", "solve", self.family, "--stages", str(w.stages), "--order", str(self.order)]
-        words += ["--low-storage"] if w.low_storage else []
+        words = ["--low-storage"] if w.low_storage else []
         words += [f"--{key}" for key in ("explicit", "dirk", "symmetric", "fsal", "rkn") if getattr(w, key)]
         for option, values in (("--fix", w.fix), ("--positive", w.positive)):
             for value in values:
@@ -71,10 +87,7 @@ class Order:
         for option, number, usual in (("--exponentials", w.exponentials, 2), ("--inner", w.inner, 2)):
             if number != usual:
                 words += [option, str(number)]
-        words += ["--minimise", "error"] if self.minimised else []
-        words += ["--starts", str(self.starts)] if self.starts is not None else []
-        words += ["--seed", str(self.seed)] if self.seed else []
-        return shlex.join(words)
+        return words
 
 
 def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:

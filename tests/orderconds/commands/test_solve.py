@@ -95,6 +95,15 @@ def test_two_stages_of_order_three_are_refuted() -> None:
     assert "no vcg method with 2 stages has order 3" in result.stdout
 
 
+def test_a_refutation_names_the_options_and_the_assumptions() -> None:
+    result = run("symplectic_rk", "--stages", "2", "--order", "3", "--dirk")
+    assert result.exit_code == 1
+    first = (
+        "no symplectic_rk method with 2 stages and the options --dirk has order 3, if all weights b_i are "
+    )
+    assert result.stdout.startswith(first + "nonzero:\n")
+
+
 def test_found_symplectic_tableaux_are_symplectic(tmp_path: Path) -> None:
     for options in ("--stages 2", "--stages 3 --symmetric", "--stages 4 --dirk --size 1"):
         found = record("symplectic_rk", "--order", "2", *options.split(), "-o", str(tmp_path / "found.toml"))

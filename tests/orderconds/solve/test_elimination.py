@@ -5,10 +5,12 @@ from __future__ import annotations
 import pytest
 import sympy
 
+from orderconds.checking.verdict import check
 from orderconds.ring.polynomials import Polynomials
 from orderconds.solve.elimination import _certificate, _consequence, _nonzero, infeasible
 from orderconds.solve.problem import find_problem
 from orderconds.solve.spec import Spec
+from orderconds.tableau import Tableau
 
 CASES = [
     ("vcg", 3, Spec(2)),
@@ -55,6 +57,63 @@ def test_the_equations_are_the_conditions() -> None:
 )
 def test_what_exists_is_not_refuted(family: str, order: int, spec: Spec) -> None:
     assert infeasible(find_problem(family, order, spec, "full")) is None
+
+
+PADDED = """
+name = "padded"
+family = "rk"
+A = [["7"], ["0", "w/2"], ["0", "w", "1/2 - w"], ["0", "w", "1 - 2*w", "w/2"]]
+b = ["0", "w", "1 - 2*w", "w"]
+[numbers]
+w = "1/(2 - 2^(1/3))"
+[claims]
+symplectic_rk = 4
+symplectic = true
+"""
+
+
+def test_a_proof_for_symplectic_methods_with_options_assumes_nonzero_weights() -> None:
+    """The method PADDED satisfies the options, but its first weight is zero, so the symplecticity of the
+    method does not imply 2 a_11 = b_1."""
+    assert check(Tableau.loads(PADDED, "padded")).verdict == "holds"
+    spec = Spec(4, dirk=True, fix=("a11=7", "a22=a44"))
+    proof = infeasible(find_problem("symplectic_rk", 4, spec, "full"))
+    assert proof is not None
+    assert proof.assumptions == ("all weights b_i are nonzero",)
+    assert proof.as_json()["assumptions"] == list(proof.assumptions)
+
+
+@pytest.mark.parametrize(
+    ("family", "order", "spec", "structure", "assumption"),
+    [
+        ("vcg", 3, Spec(2), "full", ""),
+        ("rk", 4, Spec(3, explicit=True), "full", ""),
+        ("composition", 6, Spec(3), "full", "the step sizes form a palindrome"),
+        ("rk", 3, Spec(1, symmetric=True), "full", "a_ij + a_(s+1-i)(s+1-j) = b_j for all i and j"),
+        ("symplectic_rk", 3, Spec(2, dirk=True), "full", "all weights b_i are nonzero"),
+        (
+            "cf",
+            4,
+            Spec(2, explicit=True),
+            "full",
+            "the numbers of exponentials are at most 2 in the update and n_i in stage i, with n = 0, 2",
+        ),
+        (
+            "cf",
+            4,
+            Spec(2, symmetric=True, exponentials=1),
+            "symmetric",
+            "the numbers of exponentials are at most 1 in the update and n_i in stage i, with n = 2, 1; "
+            "stage i begins with k_i exponentials of the update, with k = 1, 0",
+        ),
+    ],
+)
+def test_a_proof_states_what_it_assumes(
+    family: str, order: int, spec: Spec, structure: str, assumption: str
+) -> None:
+    proof = infeasible(find_problem(family, order, spec, structure))
+    assert proof is not None
+    assert proof.assumptions == ((assumption,) if assumption else ())
 
 
 def test_a_weight_that_may_be_zero_in_the_equation_is_named_in_the_reason() -> None:
