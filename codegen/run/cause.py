@@ -19,10 +19,11 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # With a warm start, :mod:`codegen.run.continuation` finds the cause. With run-time inputs, an input may
-    # be NaN at a later time of the step, for example at t + h/2. A step of size zero reads the inputs only at
-    # the time t. Therefore the step of size zero would succeed, and the step size would wrongly be reported
-    # as the cause.
+    # The emitted function tries a step of size zero after a failed step. If a run-time input is NaN at
+    # t + h/2 but not at t, the step of size zero would succeed, because it reads the inputs only at t. Then
+    # the step size would wrongly be reported as the cause. Therefore code with run-time inputs does not
+    # contain the function. Code with a warm start does not need the function, because
+    # :mod:`codegen.run.continuation` finds the cause.
     return plan.start is None and not plan.kernel.inputs
 
 

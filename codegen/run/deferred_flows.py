@@ -219,9 +219,10 @@ class _Deferring:
         """Return the statements that make the steps of a run, but stop if a tested state is not finite."""
         state = self.plan.state()
         failed = (
-            # If ``careful`` is True, this attempt has tested the state after every step. Therefore DONE is
-            # the number of successful steps, and the next attempt makes only these steps. If ``careful`` is
-            # False, the next attempt makes all steps again and tests the state after every step.
+            # If ``careful`` is True, the state was tested after every step, so DONE is the number of
+            # successful steps. A run ends only after an attempt without a failure. Therefore the next attempt
+            # begins at the initial state and makes only the successful steps. If ``careful`` is False, the
+            # failed step is not known, and the next attempt tests the state after every step.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )

@@ -106,9 +106,9 @@ class _Constant:
             If(negated(numbers), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
-            # The memory contains data from earlier steps for the next step. The function ADVANCE gets the
-            # memory as an argument. If each step calls ``run`` instead (``own_step`` is False), no memory is
-            # declared here, because ``run`` declares its own memory.
+            # The memory stores results of earlier steps, for example solutions of the implicit equations.
+            # If ``own_step`` is True, each step calls ADVANCE with this memory as an argument. If
+            # ``own_step`` is False, each step calls ``run``, which declares its own memory.
             *(own_memory(plan) if self.own_step else []),
             Array(self.trial),
             Array(self.stop, zero=True),

@@ -122,7 +122,8 @@ class _Step:
             # An exponent without commutators is stored as one matrix. The function EXPONENTIAL has the matrix
             # as an argument, so EXPONENTIAL is enough for all exponents without commutators.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
-        # Commutators are not stored as matrices, so each exponent with commutators has its own function.
+        # Each ``e`` in ``self.exponents`` contains commutators. The matrix ``e`` is not stored, so it cannot
+        # be an argument of the function EXPONENTIAL. Therefore each ``e`` has a separate function.
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
         # If several functions have the same name, ``_unique`` keeps only the first one.

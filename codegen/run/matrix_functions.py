@@ -220,15 +220,15 @@ class _Exponential:
         what = f"exp(A) for the {self.n} x {self.n} matrix A in the array a"
         if self.level:
             single = (
-                ". After A, the array a contains a matrix E. After exp(A), the result contains the "
-                "derivative of exp at A in the direction E"
+                ". The array a contains A, followed by a matrix E. The array result contains exp(A), "
+                "followed by the derivative of exp at A in the direction E"
             )
-            several = f". The matrix A is a function of {self.level} variables. After A, the array a contains"
+            several = f". The matrix A is a function of {self.level} variables. The array a contains A,"
             what += (
                 single
                 if self.level == 1
-                else f"{several} the partial derivatives of A that are at most of first order in each "
-                "variable. After exp(A), the result contains the same derivatives of exp(A)"
+                else f"{several} followed by the partial derivatives of A that are at most of first order in "
+                "each variable. The array result contains exp(A), followed by the same derivatives of exp(A)"
             )
         return (
             f"result = {what}. The algorithm is scaling and squaring: a Taylor polynomial of exp(A/2^s) is "

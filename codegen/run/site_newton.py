@@ -264,8 +264,9 @@ class ChainSolver:
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # In a chain of two sites, site 0 is also the last but one. Then two blocks of site 0, LEFT and
-            # RIGHT, belong to the same entries of the border. Therefore each block is added to the entries.
+            # In a periodic chain of two sites, the last site is both neighbours of site 0, the left one and
+            # the right one. Then two coefficients belong to the same entry ``there``. They are added, because
+            # otherwise the second coefficient would overwrite the first one.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))

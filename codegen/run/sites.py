@@ -255,7 +255,8 @@ class Loop:
         return f"{of}_{self.index}"
 
     def sweep(self) -> Function:
-        """Return the loop over consecutive sites whose neighbours exist: ``sweep_K`` with K = ``index``."""
+        """Return the function ``sweep_K`` (K = ``index``) for consecutive sites. None of these sites is at an
+        open boundary of the lattice, so all neighbours of these sites exist."""
         before, inside, ends = split(self.own.kernel, self.shared)
         starts = [count(f"start_{k}") for k in self.neighbours]
         nears = {k: start + INDEX for k, start in zip(self.neighbours, starts, strict=True)}
@@ -420,8 +421,8 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
-        # One iteration for a block of equations executes all sweeps of the block. Therefore ``calls`` keeps
-        # the calls of these sweeps until the last sweep of the block.
+        # A block of equations is solved by repeating all its sweeps (loops over all sites). Therefore
+        # ``calls`` keeps the calls of these sweeps until ``iterated`` emits one loop with all of them.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls

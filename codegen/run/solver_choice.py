@@ -54,8 +54,10 @@ The second trial makes one step. The step size is the usual size, multiplied by 
 """
 
 SWEEPS = 50
-"""The second trial of a solver makes one step of LONGER times the usual size. A solver is robust only if it
-needs at most SWEEPS sweeps in this trial.
+"""A solver that needs more than SWEEPS sweeps in its second trial is not robust.
+
+The second trial makes one step. The size of this step is the step size of the problem's example, multiplied
+by LONGER.
 
 SWEEPS is half of ``Loop.limit``, the largest number of sweeps of an iteration.
 """
@@ -349,10 +351,10 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return an upper limit, in nanoseconds, for the step time of a solver that has not been tried.
+        """Return a threshold, in nanoseconds, for the step time of every solver other than ``solver``.
 
-        If a step with the untried solver takes at least this time, ``solver`` is the better choice.
-        ``candidate`` contains the results of the trials of ``solver``.
+        If a step with another solver takes at least as long as the threshold, ``solver`` is a better choice
+        than the other solver. ``candidate`` contains the results of the trials of ``solver``.
         """
         # A robust solver is preferred, even if it is slower by a factor of up to PRICE.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)

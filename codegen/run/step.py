@@ -119,7 +119,8 @@ def _aged(plan: Plan) -> list[Statement]:
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # After ``period`` steps the age is set to 0, because an older matrix would slow down the convergence.
+        # The age 0 means that the next step computes a new matrix. If the old matrix were used for more than
+        # ``period`` steps, the iteration would converge more slowly.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence

@@ -112,8 +112,8 @@ def of_step(kernel: Kernel, work: Work) -> Amounts:
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of work in one sweep."""
-    # Corrections are counted only for Newton's method for equations u = g(u), one in each sweep. If
-    # ``residuals`` is true, the equations are r(u) = 0.
+    # Each sweep of Newton's method makes one correction. If the equations are u = g(u), the correction is
+    # counted. If the equations are r(u) = 0 (``residuals`` is true), the correction is not counted.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 

@@ -215,9 +215,9 @@ class Stopping:
                 (Assign(rate, CHANGE / self.previous),),
                 (Assign(first, first + CHANGE),),
             ),
-            # Let q be the rate. If q is constant, the sum of all later changes is q/(1 - q) times ``change``.
-            # For q < 1/2 this sum is less than 2 q ``change``. Therefore the test below bounds only
-            # q ``change``.
+            # Let q be the rate. If q is constant, the sum of all later changes is q ``change`` divided by
+            # 1 - q. For q < 1/2, the first test below neglects this division, because the divisor 1 - q is
+            # between 1/2 and 1.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
                 flag("converged"),
