@@ -169,8 +169,8 @@ class BandedMatrix(StoredMatrix):
         """The length of the array for the matrix h A(t_i) at one time t_i."""
         return self.n * len(self.matrix.offsets)
 
-    # The nonzero entries of all matrices h A(t_i) are on the same diagonals, so the nonzero entries of a
-    # linear combination are on these diagonals, too. Therefore all arrays have the same length.
+    # The nonzero entries of all matrices h A(t_i) are on the same diagonals. Therefore a linear combination
+    # of these matrices needs an array of the same length as one matrix h A(t_i).
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
@@ -330,13 +330,14 @@ class FullMatrix(StoredMatrix):
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
-        """Return the statement that adds a number to ``_ENTRY`` if j = i + ``offset``.
+        """Return the statement that adds ``weight`` c M_ij to ``_ENTRY`` if j = i + ``offset``.
 
-        The entry in row i and column j is then on a diagonal of a constant matrix. The number is the product
-        of ``weight``, the coefficient with the index ``term``, and the entry on this diagonal.
+        Here M_ij is the entry in row i and column j of a constant matrix M, and the coefficient c of M is
+        ``self.coefficients[term]``. ``given`` contains the entries of M with j = i + ``offset``. For all
+        other i and j, the statement does nothing.
         """
-        # The emitted test adds |offset| to i or to j. It does not compute j - i, because the indices are
-        # unsigned, and a negative difference of unsigned numbers wraps around.
+        # The indices i and j are unsigned, so a negative difference j - i would wrap around. Therefore the
+        # emitted code tests j == i + offset if offset >= 0, and i == j + |offset| if offset < 0.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]

@@ -102,8 +102,8 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     number of products is ``width``. Product c uses column c of ``left``, column c of ``right``, and entry c
     of ``sums``. Row j - 1 of ``left`` contains a_j, and row j - 1 of ``right`` contains b_j.
     """
-    # Row j - 1 of ``left`` (a_j) is multiplied by row n - j - 1 of ``right`` (b_{n-j}). The two row indices
-    # add up to n - 2 = k - 1.
+    # In each column, the entry in row r of ``left`` is multiplied by the entry in row k - 1 - r of ``right``,
+    # for r = 0, ..., k - 1. Here k is the argument of this function.
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:

@@ -72,8 +72,8 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Return True if emitted Python may raise an exception where emitted C computes an infinity or a NaN."""
-    # In emitted Python, the function for one step catches these exceptions. An inlined kernel is not in this
-    # function, so a kernel that may raise an exception is not inlined.
+    # In emitted Python, the function for one step catches the exceptions of the kernel. A kernel that is
+    # inlined in the loop over the steps is outside this function, so an exception would not be caught.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 

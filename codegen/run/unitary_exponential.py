@@ -142,8 +142,8 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
     added.
     """
     last = real("last")
-    # The powers i^0, i^1, i^2, i^3 are 1, i, -1, -i. Therefore the number a of the pair ``added`` = (a, k) is
-    # subtracted from the coefficient of I if k is 2 or 3, and added if k is 0 or 1.
+    # The pair ``added`` = (a, k) denotes i^k a, which is a, i a, -a or -i a if k is 0, 1, 2 or 3. For odd k,
+    # only the imaginary part is used. Therefore ``constant`` is a if k is 0 or 1, and -a if k is 2 or 3.
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [
         # The old coefficient of H^2 is saved, because the last two statements still need it.

@@ -179,8 +179,10 @@ class WarmStart:
             ]
         about = (
             "Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let "
-            "u_first be the latest stored solution, and let u_(j+1) be the solution one step before u_j. "
-            "Compute sum = sign (d_first u_first + ... + d_order u_order)."
+            "u_0 be the latest stored solution, and let u_k be the solution k steps earlier. If first = 0 "
+            "and sign = 1, compute sum = d_0 u_0 + d_1 u_1 + ... + d_order u_order, the backward difference. "
+            "If first = 1 and sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the "
+            "extrapolated solution of the next step."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
@@ -269,8 +271,9 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # With the previous solution as the guess, the error of the guess would be ``moved``. If the error
-            # ``first`` of the extrapolated guess is not clearly smaller, the extrapolation was useless.
+            # ``first`` is the error of the extrapolated guess, and ``moved`` is the distance between the
+            # previous and the new solution. If ``first`` is not much smaller than ``moved``, the previous
+            # solution is about as good a guess, so the extrapolation is useless.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 

@@ -139,10 +139,12 @@ def check_action(orbit: Orbit) -> None:
 def check_equal(
     orbit: Orbit, stated: Sequence[Expr], what: str, derived: Sequence[Expr] | None = None
 ) -> None:
-    """Raise :class:`SceneError` if the formulas ``stated`` by the scene differ from the ``derived`` formulas.
+    """Raise :class:`SceneError` if two lists of formulas have different values at a sample point.
 
-    If ``derived`` is None, ``stated`` is compared with the velocity y' = f.y, where f is the field of the
-    scene. ``what`` is the name of the formulas ``stated`` in error messages, for example "velocity".
+    - ``stated``: the formulas that the user gives in the scene.
+    - ``what``: the name of these formulas in error messages, for example "velocity".
+    - ``derived``: the formulas that the program derives from the Hamiltonian. If ``derived`` is None,
+      ``stated`` is compared with the velocity y' = f.y, where f is the field of the scene.
     """
     source = "f.y" if derived is None else "the derivatives of H"
     for point in orbit.points:

@@ -167,8 +167,8 @@ def evolution(scene: Problem) -> Evolution:
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
     if scene.sites is not None:
-        # No coordinate of a site is omitted or replaced, because the formulas of the neighbours may contain
-        # this coordinate.
+        # The equations of the neighbouring sites may contain all coordinates of a site. Therefore all
+        # coordinates of the scene are kept.
         return forms[0]
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:

@@ -36,7 +36,7 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 
 
 LEFT = 10
-"""The condition in :func:`limit` bounds the rounding errors of a chain of rotations by 2^-LEFT.
+"""The function :func:`limit` bounds the rounding errors of a chain of rotations by 2^-LEFT.
 
 About LEFT correct bits are then left in the result of the last rotation.
 """
@@ -48,14 +48,14 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     For z above the returned limit, c_k(z) is NaN. For a rotation by the angle a, z is a^2.
 
     A chain is a sequence of ``chain`` rotations. The angle of each rotation except the first is computed from
-    the result of the preceding rotation (:func:`codegen.ir.angle_depth.chain`). Let m be the largest integer
-    for which the angle a = 2^m satisfies the condition
+    the result of the preceding rotation (:func:`codegen.ir.angle_depth.chain`). Rounding errors grow along
+    the chain. If all angles are at most a, the error of the last rotation is at most about
 
-        a^chain 8^(chain-1) 2^-bits <= 2^-LEFT,   with bits = ``precision.bits``.
+        a^chain 8^(chain-1) 2^-bits,   with bits = ``precision.bits``.
 
-    Two bounds are applied to m. The lower bound is bits/6, rounded down. The upper bound is (2/5)*bits,
-    rounded down. If m is below the lower bound, m is replaced by the lower bound. If m is above the upper
-    bound, m is replaced by the upper bound. The result is the square of the angle 2^m.
+    The result is a^2, where a = 2^m is the largest power of two for which this error is at most 2^-LEFT. Then
+    about :data:`LEFT` bits of the last rotation are correct. Independently of the error, m is at least bits/6
+    and at most (2/5)*bits, both rounded down.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

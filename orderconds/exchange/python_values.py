@@ -273,7 +273,7 @@ class Values:
         if (root := root_of(node.func)) in self.known:
             raise _NotLiteral(
                 node,
-                f"a call of {root} must be executed, because {root} is defined in the file or imported from "
+                f"a call of {root} is not evaluated, because {root} is defined in the file or imported from "
                 "an unsupported library",
             )
         if isinstance(node.func, ast.Name):

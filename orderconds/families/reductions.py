@@ -33,9 +33,12 @@ if TYPE_CHECKING:
 
 
 class Substitute(Struct, frozen=True):
-    """Let F be the family in which a method M is checked. The conditions of ``family`` are evaluated for
-    ``method``, in place of the conditions of F for M. ``method`` is M, converted to a tableau format that
-    ``family`` reads."""
+    """A family that replaces the original family when a method is checked.
+
+    The program evaluates the conditions of the replacement ``family``. For the checked method, these
+    conditions imply the conditions of the original family. ``method`` is the checked method, converted to a
+    tableau format that ``family`` reads.
+    """
 
     family: Family
     method: Method

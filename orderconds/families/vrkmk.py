@@ -69,9 +69,9 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         """Return the condition of the action tree o(o|L(o ... o)) with ``order`` vertices. If dexpinv is not
         truncated or ``order`` < 3, return None.
 
-        Let r be ``self.cutoff``. Let R = r + 1 for even r >= 2, and R = r for all other r. If ``order``
-        is R + 3, this condition contradicts the other conditions of orders 1, ..., R + 3. Therefore no method
-        of ``vrkmk(r)`` has an order above R + 2. If ``order`` <= R + 2, there is no contradiction.
+        Let r be ``self.cutoff``. The highest possible order p of a method of ``vrkmk(r)`` is r + 3 for even
+        r >= 2, and r + 2 for all other r. If ``order`` is p + 1, the returned condition contradicts the other
+        conditions of orders 1, ..., p + 1. If ``order`` <= p, there is no contradiction.
         """
         if self.cutoff is None or order < 3:
             return None

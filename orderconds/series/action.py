@@ -4,20 +4,21 @@ Let q0 be the initial position and mu1 the final momentum of a step. The velocit
 stage are expanded about (q0, mu1). The expansions are sums over trees
 (:mod:`orderconds.series.action_trees`). Let u, v and w be words of trees, and let M be a multiset of trees.
 The trees of the velocities have the form t = (w, M). The trees of the momenta have the forms H(u*v|M) and
-L(w). Let b_i be the weight of stage i, and let xi_i be the velocity of stage i. Let Phi_w(i) be the
-coefficient of the word w in the group element of stage i. Let tau_t(i) be the coefficient of the tree t in
-the velocity of stage i. Let psi_p(i) be the coefficient of the tree p in the momentum of stage i.
+L(w). The symbol * separates the words u and v. Let b_i be the weight of stage i, and let xi_i be the
+velocity of stage i. Let Phi_w(i) be the coefficient of the word w in the group element of stage i. Let
+tau_t(i) be the coefficient of the tree t in the velocity of stage i. Let psi_p(i) be the coefficient of the
+tree p in the momentum of stage i.
 
 The coefficient of a tree t = (w, M) is ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)``.
 
-The update is the group element that takes q0 to the final position. The coefficients psi_p(i) are computed
-from changed group elements of the stages and of the update. The change adds a new letter x to the velocity
-of stage i: xi_i + x replaces xi_i. The velocities of all other stages remain the same. The expansion of a
-changed group element therefore contains words with the letter x.
+The update is the group element that takes q0 to the final position. To compute psi_p(i), replace the
+velocity xi_i of stage i by xi_i + x, where x is an additional letter, and keep the velocities of all other
+stages. The group elements of the stages and of the update are now expanded with these velocities. Therefore
+the expansions contain words with the letter x.
 
-- For a tree p = H(u*v|M), let z_j be the coefficient of the word (u, x, v) in the changed group element of
-  stage j. Then ``psi_p(i) = (1/b_i) sum_j b_j z_j prod_{q in M} psi_q(j)``.
-- For a tree p = L(w), let d be the coefficient of the word (x, reverse(w)) in the changed update. Then
+- For a tree p = H(u*v|M), let z_j be the coefficient of the word (u, x, v) in the group element of stage
+  j. Then ``psi_p(i) = (1/b_i) sum_j b_j z_j prod_{q in M} psi_q(j)``.
+- For a tree p = L(w), let d be the coefficient of the word (x, reverse(w)) in the update. Then
   ``psi_p(i) = d/b_i``.
 
 Let e_t be the coefficient of the tree t in the exact flow. The order condition of t is the equation
@@ -76,10 +77,10 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Add a letter x to the velocity of stage ``stage``. The letter x is not a tree. Return the
-        coefficient of the word (``before``, x, ``after``) in the resulting group element with the index
-        ``row``. The class docstring defines this index. The words ``before`` and ``after`` consist of
-        trees."""
+        """Return the coefficient of the word (``before``, x, ``after``) in a group element. The group element
+        belongs to stage ``row``, or to the update if ``row`` is the number of stages. The group element
+        is computed with xi + x in place of the velocity xi of stage ``stage``. The additional letter x is not
+        a tree. The words ``before`` and ``after`` consist of trees."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return the coefficient of ``word`` in the group element of each stage."""
