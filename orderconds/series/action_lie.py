@@ -93,11 +93,14 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return a list of maps (:data:`Varied`), one map for each group element. If ``update`` is 0, these
-        are the group elements of all stages. If ``update`` is 1, the only group element is that of the
-        update. Entry j of a map belongs to a change of the velocity of stage j: a new letter x is added to
-        this velocity. Entry j is the coefficient of the word (``before``, x, ``after``) in the group element
-        after this change."""
+        """Return coefficients of the word (``before``, x, ``after``), where x is a new letter. The result is
+        a list of maps (:data:`Varied`).
+
+        - If ``update`` is 0, the list has one map for each stage. Entry ``[j][i]`` is the coefficient of the
+          word in the group element of stage j, after x has been added to the velocity of stage i.
+        - If ``update`` is 1, the list has one map. Entry ``[0][i]`` is the coefficient of the word in the
+          group element of the update, after x has been added to the velocity of stage i.
+        """
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -207,10 +210,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. Entry i of a map belongs to a change
-        of the velocity of stage i: a new letter x is added to this velocity. Let exp(X_j) be the group
-        element of stage j after this change, and let z be a second new letter. Entry i is the coefficient of
-        the word (``before``, x, ``after``, z, ``behind``) in the series for dexpinv_{X_j} z. The method
+        """Return coefficients of the word (``before``, x, ``after``, z, ``behind``), where x and z are new
+        letters. The result is a list with one map (:data:`Varied`) for each stage.
+
+        Let exp(X) be the group element of stage j, after x has been added to the velocity of stage i. Entry
+        ``[j][i]`` of the result is the coefficient of the word in the series for dexpinv_X z. The method
         :meth:`_terms` defines the series."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
@@ -221,10 +225,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. Entry i of a map belongs to a change
-        of the velocity of stage i: a new letter x is added to this velocity. Let exp(X_j) be the group
-        element of stage j after this change, and let z be a second new letter. Entry i is the coefficient of
-        the word (``first``, z, ``before``, x, ``after``) in the series for dexpinv_{X_j} z. The method
+        """Return coefficients of the word (``first``, z, ``before``, x, ``after``), where x and z are new
+        letters. The result is a list with one map (:data:`Varied`) for each stage.
+
+        Let exp(X) be the group element of stage j, after x has been added to the velocity of stage i. Entry
+        ``[j][i]`` of the result is the coefficient of the word in the series for dexpinv_X z. The method
         :meth:`_terms` defines the series."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):

@@ -295,9 +295,8 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """In the bracket [q_1 + x, y + C_1] (:class:`_Shape`), the unknown x in the left factor is a linear
-        combination of pool elements. This combination does not use the first two elements of the pool. Return
-        the indices of those elements of the combination that have the least grade."""
+        """Skip the first two elements of ``self.pool``. Return the indices of those later elements that have
+        the lowest order in the step size h."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -363,8 +362,8 @@ class _Search:
 
         - the row of the element (:class:`BracketProgram`)
         - the element as a polynomial
-        - the right factor of the outer bracket (:class:`_Shape`) as a polynomial, without the inner brackets;
-          zero if there is no outer bracket
+        - a polynomial y; if there is no outer bracket (:class:`_Shape`), y is zero; otherwise, the right
+          factor of the outer bracket is y + C, where C is zero or an inner bracket
         """
         one, size = self.ring.one, len(self.pool)
 

@@ -130,15 +130,15 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Let x be a letter, and let u be a linear combination of non-empty words. Return the terms of the
-        truncated series dexpinv_u x that can contain words with ``before`` letters before x and ``behind``
-        letters behind x. A triple (q, m, n) denotes the term q u^n x u^m with the coefficient q.
+        """Let x be a letter, and let u be a linear combination of non-empty words. Return those terms of the
+        truncated series dexpinv_u x that can contain a word (v, x, w), where v is a word of ``before``
+        letters, and w is a word of ``behind`` letters. A triple (q, m, n) denotes the term q u^n x u^m with
+        the coefficient q. In this term, u^m acts first, then x, then u^n.
 
-        - The factor u^m gives the letters before x, because the rightmost factor of a product acts first, and
-          the leftmost letter of a word acts first. If ``before`` is zero, m is zero. If ``before`` is
-          positive, m is one of the numbers 1, ..., ``before``.
-        - The factor u^n gives the letters behind x. If ``behind`` is zero, n is zero. If ``behind`` is
-          positive, n is one of the numbers 1, ..., ``behind``.
+        - The factor u^m gives the word v. If ``before`` is zero, m is zero. If ``before`` is positive, m is
+          one of the numbers 1, ..., ``before``.
+        - The factor u^n gives the word w. If ``behind`` is zero, n is zero. If ``behind`` is positive, n is
+          one of the numbers 1, ..., ``behind``.
         """
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:

@@ -57,8 +57,8 @@ class ExponentialsSeries:
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
         """A partial product consists of the first exponentials of a stage or of the update. The partial
-        products are numbered. Product 0 has no factors. For every other product there is one triple
-        (p, q, r). The triple states that product p is product q, followed by the exponential of
+        products are numbered P_0, P_1, .... The product P_0 has no factors. For every other product P_p there
+        is one triple (p, q, r). The triple states that P_p = exp(X_r) P_q, where X_r is the exponent
         ``_rows[r]``."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
@@ -123,10 +123,10 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return a list of coefficients of a non-empty word, with one entry for each partial product of
-        exponentials. The list ``places`` contains triples (p, q, r). A triple states that partial product p
-        is partial product q, followed by the exponential of ``self._rows[r]``. For each triple in ``places``,
-        entry p is the coefficient of the word in partial product p. All other entries are zero."""
+        """Return a list of coefficients of a non-empty word, with one entry for each partial product P_0,
+        P_1, ... of exponentials. The list ``places`` contains triples (p, q, r). A triple states that
+        P_p = exp(X_r) P_q, where X_r is the exponent ``self._rows[r]``. For each triple in ``places``, entry
+        p is the coefficient of the word in P_p. All other entries are zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # Let v be ``word`` without the last r trees. Then ``heads[r - 1][p]`` is the coefficient of v in

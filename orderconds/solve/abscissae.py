@@ -134,18 +134,19 @@ def symmetric_transport(
 ) -> dict[str, str]:
     """Return formulas for coefficients of a symmetric method with s stages and the abscissae m_i.
 
-    Stage i in the first half begins with the first ``leave[i - 1]`` exponentials of ``update``. The later
-    exponentials of stage i are called own exponentials. Let k_j be the vector field at stage j. Let a_ij be
-    the sum of the coefficients of k_j in all exponentials of stage i. If only the own exponentials of stage i
-    are counted, the sum of the coefficients of k_j is called x_ij.
+    Let k_j be the vector field at stage j. Row J of ``update`` contains the coefficients of k_1, ..., k_s in
+    the J-th exponential of the update. Let r be s/2, rounded down. If i <= r, stage i begins with the first
+    ``leave[i - 1]`` exponentials of the update. The later exponentials of stage i are called own
+    exponentials. Let a_ij be the sum of the coefficients of k_j in all exponentials of stage i. Let x_ij be
+    the sum of the coefficients of k_j in the own exponentials of stage i.
 
-    - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
+    - ``own`` contains the row (x_i1, ..., x_is) for i = 1, ..., r.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
     With the formulas, sum_j a_ij = m_i for each i, and sum_i b_i a_ij = b_j (1 - m_j) for each j, where b_i
-    are the weights. Let ``own`` have r rows. The formulas determine the last column of ``own``, the first r
-    entries of the last row of ``own``, and auxiliary numbers C1, ..., Cr. The formulas contain the abscissae
-    m1, m2, ..., the weights b1, b2, ..., and the sums y1, y2, ... of the rows of ``update``.
+    are the weights. There are formulas for x_1s, ..., x_rs, for x_r1, ..., x_rr, and for auxiliary numbers
+    C1, ..., Cr. The other entries of ``own`` remain free. The formulas contain the abscissae m1, m2, ..., the
+    weights b1, b2, ..., and the sums y1, y2, ... of the rows of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

@@ -109,14 +109,12 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # The formulas of symplectic methods divide by the weights. Hence the proof considers only methods with
-    # nonzero weights. Some options make this an assumption (``Ansatz.assumptions``). Without these options,
-    # if no such method exists, no method with a zero weight exists either: that method could
-    # be changed into a method with nonzero weights that computes the same step. The change is as follows. Let
-    # stage i have the weight zero. Because the method is symplectic, no stage with a nonzero weight uses
-    # stage i. Hence stage i has no effect on the step, and stage i can be replaced by a copy of a stage j
-    # whose weight b_j is not zero. Stage j and the copy both get one half of the weight b_j and one half of
-    # each coefficient a_kj.
+    # The formulas of symplectic methods divide by the weights, so the proof considers only methods with nonzero
+    # weights. Some options make this an assumption (``Ansatz.assumptions``). Without these options, a method
+    # with a zero weight computes the same step as a method with nonzero weights: if b_i = 0, symplecticity
+    # implies a_ji = 0 for each stage j with b_j != 0. Hence stage i has no effect on the step. Replace stage i
+    # by a copy of such a stage j, and divide b_j and all coefficients a_1j, ..., a_sj equally between stage j
+    # and the copy.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:

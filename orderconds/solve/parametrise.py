@@ -234,13 +234,17 @@ def _numbers_of_exponentials(stages: Sequence[Path], update: Path) -> str:
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas with which the three abscissae of each stage are equal. The abscissae are defined in
-    the module :mod:`orderconds.solve.abscissae`.
+    """Return a map from names to formulas. If the coefficients of a commutator-free method satisfy these
+    formulas, the three abscissae of each stage are equal. The module :mod:`orderconds.solve.abscissae`
+    defines the abscissae.
 
-    Let a_ij be the sum of the coefficients of stage j in all exponentials of stage i. The last exponential of
-    stage i is computed from the sums a_ij and from the other exponentials of stage i. The result maps names
-    to formulas for the coefficients of the last exponentials, for the sums a_ij, and for the numbers in
-    :func:`commutator_free_times`. If a sum a_ij is not determined, its name is mapped to itself.
+    Let a_ij be the sum of the coefficients of stage j in all exponentials of stage i. The map contains
+    formulas for
+
+    - the numbers in :func:`commutator_free_times`;
+    - the sums a_ij; if a sum can be chosen freely, its name is mapped to itself;
+    - the coefficients of the last exponential of each stage i: the coefficient of stage j is a_ij minus the
+      coefficients of stage j in the other exponentials of stage i.
     """
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):

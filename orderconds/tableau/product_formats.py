@@ -239,7 +239,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 mirrored = series.get(word[::-1], ring.zero)
                 if ring.is_zero(value - mirrored if len(word) % 2 else value + mirrored) is False:
                     raise TableauError(
-                        f"there is a quadratic group whose Lie algebra does not contain exponent {k + 1}",
+                        f"for some quadratic Lie groups, exponent number {k + 1} is not in the Lie algebra",
                         where=f"{self.name}: exponents[{k + 1}]",
                         expected="mirrored pairs of products: A*B - B*A for an even number of factors, "
                         "A*B*C + C*B*A for an odd number of factors",

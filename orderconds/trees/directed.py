@@ -7,7 +7,9 @@ An edge that points to the root has kind 1 and gives the factor ahat_ij.
 Symplectic methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j. In a free tree, let an edge join the vertices r
 and s. Let u be the tree with the root r, and let v be the same tree with the root s. Then the sum of the
 elementary weights of u and v is the product of the elementary weights of two smaller trees. These two trees
-remain if the edge is removed. Hence each free tree with directed edges gives one order condition.
+remain if the edge is removed. If the method satisfies the order conditions of the smaller trees, the
+conditions of u and v are equivalent. Therefore one condition suffices for all choices of the root: each free
+tree with directed edges gives one order condition.
 
 A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder. ``level`` is the level of the
 vertex, and ``kind`` is the kind of the edge to its parent. The branches of a vertex are sorted by their

@@ -212,7 +212,7 @@ MALFORMED = {
     "a product in an exponential": (MAGNUS + 'exponents = [{ "1*2" = 1 }]\n', "the product '1*2'", "cay"),
     "a product that leaves the algebra": (
         MAGNUS + 'map = "cay"\nexponents = [{ "1*2" = 1 }]\n',
-        "there is a quadratic group whose Lie algebra does not contain exponent 1",
+        "for some quadratic Lie groups, exponent number 1 is not in the Lie algebra",
         "mirrored pairs",
     ),
     "no exponents": (MAGNUS + "exponents = []\n", "0 exponents", "1 to 200"),
