@@ -277,7 +277,7 @@ class Trees:
         return nodes > 4 * NODES
 
     def results(self, tree: Tree) -> Values:
-        """Return the scalar results of a tree."""
+        """Return the components of all results of the operation at the root of ``tree``."""
         return tuple(x for value in self.executions[tree.root].results for x in value)
 
     def inputs(self, tree: Tree) -> list[Expr]:

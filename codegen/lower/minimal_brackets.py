@@ -46,7 +46,7 @@ def bracket_program(method: Method) -> BracketProgram:
             expected="an explicit tableau with exact coefficients, or a cut-off (the number of brackets)",
             hint=f"write rkmk(2):{name}",
         )
-    # On the group, the method must have the same order as the Runge-Kutta method on R^n.
+    # On the group, the method must have the order that its tableau has on R^n.
     order = family_order(method.tableau, families.get("rk")).order
     highest = method.kind.minimal_brackets
     if order > highest:

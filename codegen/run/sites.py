@@ -374,7 +374,7 @@ class Loop:
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER
-        # A chain has only one row, so the sites of this row are divided into chunks.
+        # A chain has only one row, so processors share the sites of this row.
         if chain:
             places, number = [place + FIRST for place in places], SIZE
         arguments = (places[0], number, *places[1:], SITES, *self.arrays, *self.scalars)

@@ -96,7 +96,7 @@ figures = [
     ),
     Deviation(
         name="energy_errors",
-        title="Energy errors: the maximum over each group of 500 steps",
+        title="Energy errors: the maximum over each block of 500 steps",
         caption="eps = 0.1, alpha = 0.123. All curves are for h = 0.3. "
         "The exact energy is replaced by the energy that Lie-Gauss gives with h = 0.02.",
         source="Fig. 4.3 of Marthinsen's thesis",

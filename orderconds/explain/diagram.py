@@ -1,6 +1,6 @@
 """Diagrams of trees. A diagram has vertices and edges, and the branches of a vertex are ordered.
 
-The signs of the vertices are:
+The symbols of the vertices are:
 
 - *dot*: a vertex of a tree with one colour. In an action tree, a dot is a derivative of the Hamiltonian.
 - *black* or *white*: a vertex of a tree with two colours.
@@ -9,13 +9,12 @@ The signs of the vertices are:
 - *bracket*: the Lie bracket of the two branches of the vertex.
 
 An edge is *plain*, *outward* or *inward*. Outward and inward edges occur in action trees and in the trees of
-:mod:`orderconds.trees.directed`. Here a_ij and ahat_ij are the coefficients of a partitioned method.
+:mod:`orderconds.trees.directed`. They represent the coefficients a_ij and ahat_ij of a partitioned method.
 
 - *outward*: the edge points from the parent to the child and represents a coefficient a_ij. The child is a
-  partial derivative of the Hamiltonian with respect to p or the momentum mu. Such a vertex is called a
-  velocity.
+  velocity: a derivative of the Hamiltonian with respect to the momentum. The momentum is called p or mu.
 - *inward*: the edge points from the child to the parent and represents a coefficient ahat_ij. The child is a
-  coadjoint action, or a derivative of the Hamiltonian in q. Such a derivative is called a force.
+  coadjoint action or a force. A force is a derivative of the Hamiltonian with respect to q.
 """
 
 from __future__ import annotations

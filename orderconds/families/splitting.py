@@ -219,7 +219,8 @@ def two_part_formula(word: Word) -> Formula:
         i = fresh()
         return product(*[index_sum((i,), (), coefficient("a", i))] * len(word))
     *gaps, tail = "".join("AB"[letter] for letter in word).split("B")
-    runs: list[tuple[int, int]] = []  # (gap, length): ``gap`` letters A, then ``length`` letters B
+    # Each pair contains a number of letters A, and the number of letters B that follow them.
+    runs: list[tuple[int, int]] = []
     for gap in map(len, gaps):
         if gap or not runs:
             runs.append((gap, 1))

@@ -123,7 +123,7 @@ class SymplecticPartitionedFamily(Family):
 
         For all other tableaux, let m be the largest integer such that 2m <= p and Butcher's simplifying
         assumptions C(m) and D(m) hold. The bound is min(p, 2m + 1). The tableau (ahat, bhat) for the momenta
-        also satisfies C(m) and D(m) (Jay 1996, for Lobatto pairs).
+        then also satisfies C(m) and D(m). Jay (1996) proves this for Lobatto pairs.
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

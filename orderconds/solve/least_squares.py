@@ -73,8 +73,10 @@ def _solved(normal: Floats, right: Floats) -> Floats:
 
 
 def rank(jacobian: Floats, tolerance: float = 1e-7) -> int:
-    """Return the numerical rank of a Jacobian: the number of singular values above ``tolerance``. First, the
-    rows are scaled to length one, because residuals may have different scales.
+    """Return the numerical rank of a Jacobian.
+
+    The rows are scaled to length one, because residuals may have different scales. The rank is the number of
+    singular values of the scaled matrix above ``tolerance``.
 
     >>> rank(np.array([[1.0, 0.0], [1e6, 0.0]]))
     1
