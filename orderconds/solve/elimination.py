@@ -109,12 +109,12 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # The formulas of symplectic methods divide by the weights, so the proof considers only methods with nonzero
-    # weights. Some options make this an assumption (``Ansatz.assumptions``). Without these options, a method
-    # with a zero weight computes the same step as a method with nonzero weights: if b_i = 0, symplecticity
-    # implies a_ji = 0 for each stage j with b_j != 0. Hence stage i has no effect on the step. Replace stage i
-    # by a copy of such a stage j, and divide b_j and all coefficients a_1j, ..., a_sj equally between stage j
-    # and the copy.
+    # The formulas of symplectic methods divide by the weights, so the proof considers only methods with
+    # nonzero weights. Some options make this an assumption (``Ansatz.assumptions``). Without these options, a
+    # method with a zero weight computes the same step as a method with nonzero weights: if b_i = 0,
+    # symplecticity implies a_ji = 0 for each stage j with b_j != 0. Hence stage i has no effect on the step.
+    # Replace stage i by a copy of such a stage j, and divide b_j and all coefficients a_1j, ..., a_sj equally
+    # between stage j and the copy.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:

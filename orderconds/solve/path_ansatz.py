@@ -1,0 +1,201 @@
+"""The ansatz of commutator-free methods: constraints, names of coefficients, and the text of the tableau
+file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from orderconds.errors import InputError
+from orderconds.families import Family
+from orderconds.solve.abscissae import WHERE, commutator_free_times, symmetric_transport, transport
+from orderconds.solve.ansatz import Ansatz
+from orderconds.solve.coefficients import Cells, eliminated, row_text
+from orderconds.solve.linear import Constraint, Elimination, equal, named, spell, sum_to_one
+from orderconds.solve.paths import Path, full_paths, symmetric_paths
+from orderconds.solve.spec import Spec, refuse
+from orderconds.solve.tableau_ansatz import tableau_structures
+
+
+def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
+    """Return the names of the parametrisations that a search for commutator-free methods tries, in order of
+    trial.
+
+    >>> from orderconds.families import get
+    >>> path_structures(get("vcf"), Spec(stages=3, symmetric=True))
+    ('symmetric gauss', 'symmetric abscissae', 'symmetric')
+    """
+    if not spec.symmetric:
+        return tableau_structures(family, spec)
+    first = ("symmetric gauss", "symmetric abscissae") if family.equal_abscissae else ()
+    return (*first, "symmetric")
+
+
+def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
+    """Return the ansatz of commutator-free methods. A step of such a method is a product of exponentials.
+
+    >>> from orderconds.families import get
+    >>> commutator_free(get("cf"), Spec(stages=1, exponentials=1, inner=1), "full", "m").free
+    ('b1_1', 'a1_1_1')
+    """
+    refuse(family.label(), spec, ("rkn", "fsal"))
+    make = symmetric_paths if structure.startswith("symmetric") else full_paths
+    stages, update, names, constraints = make(spec)
+    extra: dict[str, str] = {}
+    if structure.endswith("abscissae"):
+        constraints.append(sum_to_one([x for line in update for x in line]))
+    totals = _gauss(spec.stages) if structure.endswith("gauss") else {}
+    if totals:
+        constraints += _totals(stages, update)
+        names = [*totals, *names]
+    elimination = eliminated(names, spec, constraints)
+    extra |= {name: text for name, text in totals.items() if name in elimination.free}
+    if structure == "abscissae":
+        extra = _abscissae(stages, update, elimination)
+    elif structure.endswith("abscissae"):
+        extra = _symmetric_abscissae(stages, update, elimination)
+    cells = Cells(elimination, extra)
+    free = tuple(x for x in elimination.free if x not in extra)
+    free = (*free, *(x for x in extra if extra[x] == x))
+    numbers = {x: text for x, text in cells.numbers(names).items() if text != x}
+    tail = [""]
+    for stage in stages:
+        tail += ["[[stage]]", *_exponentials(stage, cells)]
+    tail += ["[update]", *_exponentials(update, cells)]
+    body = (f'name = "{name}"', 'family = "cf"')
+    return Ansatz(
+        family.solved_as(spec.rkn),
+        name,
+        structure,
+        body,
+        free,
+        numbers,
+        cells.unknown(names),
+        tuple(tail),
+        assumptions=(_numbers_of_exponentials(stages, update),),
+    )
+
+
+def _numbers_of_exponentials(stages: Sequence[Path], update: Path) -> str:
+    """Return a clause about the exponentials of each stage (:mod:`orderconds.solve.paths`).
+
+    >>> _numbers_of_exponentials(*full_paths(Spec(stages=2, explicit=True))[:2])
+    'the numbers of exponentials are at most 2 in the update and n_i in stage i, with n = 0, 2'
+    """
+    counts = ", ".join(str(len(path)) for path in stages)
+    shared = [sum(x == y for x, y in zip(path, update, strict=False)) for path in stages]
+    numbers = (
+        f"the numbers of exponentials are at most {len(update)} in the update and n_i in stage i, "
+        f"with n = {counts}"
+    )
+    if not any(shared):
+        return numbers
+    begins = ", ".join(map(str, shared))
+    return f"{numbers}; stage i begins with k_i exponentials of the update, with k = {begins}"
+
+
+def _abscissae(
+    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
+) -> dict[str, str]:
+    """Return a map from names to formulas. If the coefficients of a commutator-free method satisfy these
+    formulas, the three abscissae of each stage are equal. The module :mod:`orderconds.solve.abscissae`
+    defines the abscissae.
+
+    Let a_ij be the sum of the coefficients of stage j in all exponentials of stage i. The map contains
+    formulas for
+
+    - the numbers in :func:`commutator_free_times`;
+    - the sums a_ij; if a sum can be chosen freely, its name is mapped to itself;
+    - the coefficients of the last exponential of each stage i: the coefficient of stage j is a_ij minus the
+      coefficients of stage j in the other exponentials of stage i.
+    """
+    every = range(1, len(stages) + 1)
+    for name in (x for path in stages for line in path for x in line):
+        if name in elimination.solved:
+            raise InputError(
+                f"{name} = {spell(elimination.cell(name))}",
+                where=WHERE,
+                expected="stage coefficients without constraints",
+            )
+    A = [[named("a", i, j) for j in every] for i in every]
+    b = [named("b", i) for i in every]
+    written = [[Cells(elimination).written(x) for x in line] for line in update]
+    determined = transport(A, b, {})
+    extra = {**commutator_free_times(written, b)}
+    extra |= {x: determined.get(x, x) for line in A for x in line}
+    for i, path in enumerate(stages):
+        for j, last in enumerate(path[-1]):
+            extra[last] = " - ".join([A[i][j], *(line[j] for line in path[:-1])])
+    return extra
+
+
+def _gauss(s: int) -> dict[str, str]:
+    """Return the weights w1, w2, ... and the entries g11, g12, ... of A of the Gauss method with s stages, as
+    a map from names to formulas."""
+    from orderconds.tableau.collocation import construct
+
+    tableau = construct("gauss", s)
+    method, every, text = tableau.abelian(), range(s), tableau.ring.text
+    weights = {f"w{j + 1}": text(method.b[j]) for j in every}
+    return weights | {f"g{i + 1}{j + 1}": text(method.A[i][j]) for i in every for j in every}
+
+
+def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]]) -> list[Constraint]:
+    """Return two kinds of constraints. Here a_ij and b_j are the coefficients of the Gauss method with
+    ``len(stages)`` stages. Let k_j be the vector field at stage j.
+
+    - In the exponentials of stage i, the coefficients of k_j add up to a_ij.
+    - In the exponentials of the update, the coefficients of k_j add up to b_j.
+    """
+    why, every = "Gauss's tableau", range(len(stages))
+    constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
+    constraints += [
+        equal(why, (-1, f"g{i + 1}{j + 1}"), *((1, line[j]) for line in path))
+        for i, path in enumerate(stages)
+        for j in every
+    ]
+    return constraints
+
+
+def _symmetric_abscissae(
+    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
+) -> dict[str, str]:
+    s, half = len(stages), len(stages) // 2
+    if half == 0:
+        raise InputError("one stage", where=WHERE, expected="at least two stages")
+    cells = Cells(elimination)
+    b = [named("b", i) for i in range(1, s + 1)]
+    written = [[cells.written(x) for x in line] for line in update]
+    x = [[named("x", i, j) for j in range(1, s + 1)] for i in range(1, half + 1)]
+    leave = [sum(line in update for line in path) for path in stages[:half]]
+    own = [path[k:] for path, k in zip(stages[:half], leave, strict=True)]
+    for name in (name for path in own for line in path for name in line):
+        if name in elimination.solved:
+            raise InputError(
+                f"{name} = {spell(elimination.cell(name))}",
+                where=WHERE,
+                expected="stage coefficients without constraints",
+            )
+    middle: list[str] = []
+    extra = commutator_free_times(written, b)
+    if s % 2:
+        path = stages[half]
+        rows = path[len(update) // 2 + len(update) % 2 :]
+        middle = [f"z{j}" for j in range(1, s + 1)]
+        extra |= {
+            f"z{j + 1}": " + ".join(cells.written(line[j]) for line in rows).replace("+ -", "- ")
+            for j in range(half)
+        }
+    extra |= {name: name for line in x for name in line}
+    extra |= symmetric_transport(x, leave, written, middle)
+    for i, path in enumerate(own):
+        for j, last in enumerate(path[-1]):
+            extra[last] = " - ".join([x[i][j], *(line[j] for line in path[:-1])])
+    return extra
+
+
+def _exponentials(rows: Sequence[Sequence[str]], cells: Cells) -> list[str]:
+    lines = [line for names in rows if (line := row_text(cells, names)) != "[]"]
+    if not lines:
+        return []
+    text = f"exp = [{', '.join(lines)}]"
+    return [text] if len(text) <= 110 else ["exp = [", *(f"  {x}," for x in lines), "]"]
