@@ -31,7 +31,7 @@
  *             n4
  *             442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 for each sweep of the
  *             equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
- *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
+ *             12 add, 18 mul at the start of a run, 12 add, 9 mul at the end of a run
  * stack:      at most 13440 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
  *             margin of 2536 bytes; the stack of mathematical library functions is not included
  * command:    orderconds emit dipole --method vcf:cf4 --target c -o .
@@ -385,8 +385,11 @@ static void dipole_vcf_cf4_count_matrix(dipole_vcf_cf4_statistics *statistics)
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. The first 'first' terms are
- * omitted.
+ * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
+ * the latest stored solution, and let u_k be the solution k steps earlier. If first = 0 and sign = 1,
+ * compute sum = d_0 u_0 + d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
+ * sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the extrapolated solution
+ * of the next step.
  */
 static inline void dipole_vcf_cf4_difference(const struct dipole_vcf_cf4_memory *memory,
     size_t order, size_t first, double sign, double sum[static 12])
@@ -483,7 +486,7 @@ static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree; if the ring buffer is full, only in every 8th step */
+    /* adapt the degree in each step until the ring buffer is full, then every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcf_cf4_difference_size(memory, memory->degree);
         int grows = 0;
@@ -1319,7 +1322,7 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         + d_xi4_2 * w274;
     const double new_mu2 = w277 + d_xi3_0 * w278 + d_xi3_1 * w279 + d_xi4_0 * w280
         + d_xi4_1 * w281;
-    /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
+    /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -1456,8 +1459,9 @@ static void dipole_vcf_cf4_enter_body(const double state[static 12],
 }
 
 /*
- * Update the state at the end of a run. The increase of the momentum is computed in the space frame,
- * and is added to the momentum of the state.
+ * Update the state at the end of a run. The group element is copied from 'moving'. The momentum in
+ * 'moving' is converted to the space frame. The converted momentum minus 'before' is the increase of
+ * the momentum during the run. This increase is added to the momentum of the state.
  */
 static int dipole_vcf_cf4_leave_body(const double moving[static 12],
     const double before[static 3], double state[static 12])

@@ -13,7 +13,7 @@ enum {
     DIPOLE_VCF_CF4_NOT_CONVERGED = 1, /* an implicit block did not converge */
     DIPOLE_VCF_CF4_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     DIPOLE_VCF_CF4_BAD_STEP = 3, /* h is infinite or NaN */
-    DIPOLE_VCF_CF4_TOO_FAR = 5, /* the step is too long for a finite result; a shorter step has a finite result */
+    DIPOLE_VCF_CF4_TOO_FAR = 5, /* the step is too long: no finite new state was computed; a shorter step succeeds */
     DIPOLE_VCF_CF4_SINGULAR = 6 /* the matrix of an implicit block is singular */
 };
 

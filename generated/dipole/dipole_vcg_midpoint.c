@@ -27,7 +27,7 @@
  *             11 add, 34 mul, 1 div for each matrix of the equations of xi1, n1
  *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 for each sweep of the equations of xi1,
  *             n1
- *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
+ *             12 add, 18 mul at the start of a run, 12 add, 9 mul at the end of a run
  * stack:      at most 4736 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
  *             margin of 800 bytes; the stack of mathematical library functions is not included
  * command:    orderconds emit dipole --method vcg:midpoint --target c -o .
@@ -285,8 +285,11 @@ static void dipole_vcg_midpoint_count_matrix(dipole_vcg_midpoint_statistics *sta
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. The first 'first' terms are
- * omitted.
+ * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
+ * the latest stored solution, and let u_k be the solution k steps earlier. If first = 0 and sign = 1,
+ * compute sum = d_0 u_0 + d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
+ * sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the extrapolated solution
+ * of the next step.
  */
 static inline void dipole_vcg_midpoint_difference(const struct dipole_vcg_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -347,7 +350,7 @@ static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memor
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree; if the ring buffer is full, only in every 8th step */
+    /* adapt the degree in each step until the ring buffer is full, then every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcg_midpoint_difference_size(memory, memory->degree);
         int grows = 0;
@@ -552,7 +555,7 @@ static inline int dipole_vcg_midpoint_advance(double state[static 12], double h,
     const double new_mu0 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2;
     const double new_mu1 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0;
     const double new_mu2 = s_mu_2_seen + xi1_1 * w55 * d_xi1_0 + xi1_0 * w55 * d_xi1_1;
-    /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
+    /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -690,8 +693,9 @@ static void dipole_vcg_midpoint_enter_body(const double state[static 12],
 }
 
 /*
- * Update the state at the end of a run. The increase of the momentum is computed in the space frame,
- * and is added to the momentum of the state.
+ * Update the state at the end of a run. The group element is copied from 'moving'. The momentum in
+ * 'moving' is converted to the space frame. The converted momentum minus 'before' is the increase of
+ * the momentum during the run. This increase is added to the momentum of the state.
  */
 static int dipole_vcg_midpoint_leave_body(const double moving[static 12],
     const double before[static 3], double state[static 12])

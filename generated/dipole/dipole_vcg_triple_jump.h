@@ -13,7 +13,7 @@ enum {
     DIPOLE_VCG_TRIPLE_JUMP_NOT_CONVERGED = 1, /* an implicit block did not converge */
     DIPOLE_VCG_TRIPLE_JUMP_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     DIPOLE_VCG_TRIPLE_JUMP_BAD_STEP = 3, /* h is infinite or NaN */
-    DIPOLE_VCG_TRIPLE_JUMP_TOO_FAR = 5 /* the step is too long for a finite result; a shorter step has a finite result */
+    DIPOLE_VCG_TRIPLE_JUMP_TOO_FAR = 5 /* the step is too long: no finite new state was computed; a shorter step succeeds */
 };
 
 /* Statistics of the iterations (sweeps) since the caller set all fields to zero. */

@@ -33,7 +33,7 @@ operations: 114 add, 174 mul, 3 stumpff_12 a step
             11 add, 34 mul, 1 div for each matrix of the equations of xi1, n1
             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 for each sweep of the
             equations of xi1, n1
-            12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
+            12 add, 18 mul at the start of a run, 12 add, 9 mul at the end of a run
 command:    orderconds emit dipole --method vcg:triple_jump --target python -o .
 version:    orderconds 0.1.0
 
@@ -51,7 +51,7 @@ OK = 0  # success
 NOT_CONVERGED = 1  # an implicit block did not converge
 NOT_FINITE = 2  # the new state would contain an infinity or a NaN
 BAD_STEP = 3  # h is infinite or NaN
-TOO_FAR = 5  # the step is too long for a finite result; a shorter step has a finite result
+TOO_FAR = 5  # the step is too long: no finite new state was computed; a shorter step succeeds
 
 
 class StepFailed(ArithmeticError):
@@ -322,8 +322,12 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """Compute 'sign' times the backward difference of the given order. The first
-    'first' terms are omitted.
+    """Let d_0, ..., d_order be the coefficients of the backward difference of the
+    given order. Let u_0 be the latest stored solution, and let u_k be the
+    solution k steps earlier. If first = 0 and sign = 1, compute sum = d_0 u_0 +
+    d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
+    sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the
+    extrapolated solution of the next step.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -375,7 +379,8 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree; if the ring buffer is full, only in every 8th step
+    # adapt the degree in each step until the ring buffer is full, then every 8
+    # steps
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
         grows = False
@@ -673,8 +678,10 @@ def _enter_body(state, moving, before):
 
 
 def _leave_body(moving, before, state):
-    """Update the state at the end of a run. The increase of the momentum is computed
-    in the space frame, and is added to the momentum of the state.
+    """Update the state at the end of a run. The group element is copied from
+    'moving'. The momentum in 'moving' is converted to the space frame. The
+    converted momentum minus 'before' is the increase of the momentum during the
+    run. This increase is added to the momentum of the state.
     """
     momentum = [0.0] * 3
     _to_space(moving, momentum)
@@ -728,7 +735,7 @@ _REASONS = {
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step is too long for a finite result: take a shorter step",
+    TOO_FAR: "the step is too long: no finite new state was computed; take a shorter step",
 }
 
 

@@ -30,7 +30,7 @@
  *             48 add, 72 mul for each matrix of the equations of v1, v2, m1, m2
  *             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 for each sweep of the
  *             equations of v1, v2, m1, m2
- *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
+ *             12 add, 18 mul at the start of a run, 12 add, 9 mul at the end of a run
  * stack:      at most 7360 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
  *             margin of 1280 bytes; the stack of mathematical library functions is not included
  * command:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
@@ -378,8 +378,11 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. The first 'first' terms are
- * omitted.
+ * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
+ * the latest stored solution, and let u_k be the solution k steps earlier. If first = 0 and sign = 1,
+ * compute sum = d_0 u_0 + d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
+ * sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the extrapolated solution
+ * of the next step.
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -452,7 +455,7 @@ static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_mem
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree; if the ring buffer is full, only in every 8th step */
+    /* adapt the degree in each step until the ring buffer is full, then every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vrkmk2_gauss2_difference_size(memory, memory->degree);
         int grows = 0;
@@ -858,7 +861,7 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
     const double new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6;
     const double new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7;
     const double new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8;
-    /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
+    /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + w128) + (w130 + w132)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -995,8 +998,9 @@ static void dipole_vrkmk2_gauss2_enter_body(const double state[static 12],
 }
 
 /*
- * Update the state at the end of a run. The increase of the momentum is computed in the space frame,
- * and is added to the momentum of the state.
+ * Update the state at the end of a run. The group element is copied from 'moving'. The momentum in
+ * 'moving' is converted to the space frame. The converted momentum minus 'before' is the increase of
+ * the momentum during the run. This increase is added to the momentum of the state.
  */
 static int dipole_vrkmk2_gauss2_leave_body(const double moving[static 12],
     const double before[static 3], double state[static 12])

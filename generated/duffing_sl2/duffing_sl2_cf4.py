@@ -31,7 +31,7 @@ from math import cos, cosh, isfinite, sin, sinh, sqrt
 OK = 0  # success
 NOT_FINITE = 2  # the new state would contain an infinity or a NaN
 BAD_STEP = 3  # h is infinite or NaN
-TOO_FAR = 5  # the step is too long for a finite result; a shorter step has a finite result
+TOO_FAR = 5  # the step is too long: no finite new state was computed; a shorter step succeeds
 
 
 class StepFailed(ArithmeticError):
@@ -258,7 +258,7 @@ def _numbers(state):
 _REASONS = {
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step is too long for a finite result: take a shorter step",
+    TOO_FAR: "the step is too long: no finite new state was computed; take a shorter step",
 }
 
 

@@ -12,7 +12,7 @@ enum {
     FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_OK = 0, /* success */
     FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_BAD_STEP = 3, /* h is infinite or NaN */
-    FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_TOO_FAR = 5 /* the step is too long for a finite result; a shorter step has a finite result */
+    FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_TOO_FAR = 5 /* the step is too long: no finite new state was computed; a shorter step succeeds */
 };
 
 /* Make one step of size h. When the status is not FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_OK, the state is unchanged. */

@@ -229,7 +229,7 @@ static int free_rigid_body_cf4_loop(double state[static 3], double h, size_t ste
         const double new_m0 = w60 - (w68 * c1_5 + (w62 * w70 + w63 * w71) * c2_5);
         const double new_m1 = w71 * c1_5 - (w63 * w68 + w61 * w70) * c2_5 + w67;
         const double new_m2 = w70 * c1_5 + (w61 * w71 - w62 * w68) * c2_5 + w66;
-        /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
+        /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

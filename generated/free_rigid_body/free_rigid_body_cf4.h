@@ -12,7 +12,7 @@ enum {
     FREE_RIGID_BODY_CF4_OK = 0, /* success */
     FREE_RIGID_BODY_CF4_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     FREE_RIGID_BODY_CF4_BAD_STEP = 3, /* h is infinite or NaN */
-    FREE_RIGID_BODY_CF4_TOO_FAR = 5 /* the step is too long for a finite result; a shorter step has a finite result */
+    FREE_RIGID_BODY_CF4_TOO_FAR = 5 /* the step is too long: no finite new state was computed; a shorter step succeeds */
 };
 
 /* Make one step of size h. When the status is not FREE_RIGID_BODY_CF4_OK, the state is unchanged. */

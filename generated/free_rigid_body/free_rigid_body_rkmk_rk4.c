@@ -222,7 +222,7 @@ static int free_rigid_body_rkmk_rk4_loop(double state[static 3], double h, size_
         const double new_m0 = w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4 + m0;
         const double new_m1 = w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4 + m1;
         const double new_m2 = w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4 + m2;
-        /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
+        /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

@@ -13,7 +13,7 @@ enum {
     FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not converge */
     FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_BAD_STEP = 3, /* h is infinite or NaN */
-    FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_TOO_FAR = 5 /* the step is too long for a finite result; a shorter step has a finite result */
+    FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_TOO_FAR = 5 /* the step is too long: no finite new state was computed; a shorter step succeeds */
 };
 
 /* Statistics of the iterations (sweeps) since the caller set all fields to zero. */

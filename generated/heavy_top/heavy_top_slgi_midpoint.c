@@ -428,8 +428,11 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
 }
 
 /*
- * Compute 'sign' times the backward difference of the given order. The first 'first' terms are
- * omitted.
+ * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
+ * the latest stored solution, and let u_k be the solution k steps earlier. If first = 0 and sign = 1,
+ * compute sum = d_0 u_0 + d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
+ * sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the extrapolated solution
+ * of the next step.
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -502,7 +505,7 @@ static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoi
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree; if the ring buffer is full, only in every 8th step */
+    /* adapt the degree in each step until the ring buffer is full, then every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = heavy_top_slgi_midpoint_difference_size(memory, memory->degree);
         int grows = 0;
@@ -854,7 +857,7 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
+    /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

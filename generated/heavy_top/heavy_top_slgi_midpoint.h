@@ -13,7 +13,7 @@ enum {
     HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not converge */
     HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     HEAVY_TOP_SLGI_MIDPOINT_BAD_STEP = 3, /* h is infinite or NaN */
-    HEAVY_TOP_SLGI_MIDPOINT_TOO_FAR = 5, /* the step is too long for a finite result; a shorter step has a finite result */
+    HEAVY_TOP_SLGI_MIDPOINT_TOO_FAR = 5, /* the step is too long: no finite new state was computed; a shorter step succeeds */
     HEAVY_TOP_SLGI_MIDPOINT_SINGULAR = 6 /* the matrix of an implicit block is singular */
 };
 

@@ -35,7 +35,7 @@ OK = 0  # success
 NOT_CONVERGED = 1  # an implicit block did not converge
 NOT_FINITE = 2  # the new state would contain an infinity or a NaN
 BAD_STEP = 3  # h is infinite or NaN
-TOO_FAR = 5  # the step is too long for a finite result; a shorter step has a finite result
+TOO_FAR = 5  # the step is too long: no finite new state was computed; a shorter step succeeds
 SINGULAR = 6  # the matrix of an implicit block is singular
 
 
@@ -406,8 +406,12 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """Compute 'sign' times the backward difference of the given order. The first
-    'first' terms are omitted.
+    """Let d_0, ..., d_order be the coefficients of the backward difference of the
+    given order. Let u_0 be the latest stored solution, and let u_k be the
+    solution k steps earlier. If first = 0 and sign = 1, compute sum = d_0 u_0 +
+    d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
+    sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the
+    extrapolated solution of the next step.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -474,7 +478,8 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree; if the ring buffer is full, only in every 8th step
+    # adapt the degree in each step until the ring buffer is full, then every 8
+    # steps
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
         grows = False
@@ -912,7 +917,7 @@ _REASONS = {
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step is too long for a finite result: take a shorter step",
+    TOO_FAR: "the step is too long: no finite new state was computed; take a shorter step",
     SINGULAR: "the matrix of {block} is singular",
 }
 

@@ -12,7 +12,7 @@ enum {
     RIGID_OK = 0, /* success */
     RIGID_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     RIGID_BAD_STEP = 3, /* h is infinite or NaN */
-    RIGID_TOO_FAR = 5 /* the step is too long for a finite result; a shorter step has a finite result */
+    RIGID_TOO_FAR = 5 /* the step is too long: no finite new state was computed; a shorter step succeeds */
 };
 
 /* Make one step of size h. When the status is not RIGID_OK, the state is unchanged. */
