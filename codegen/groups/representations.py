@@ -199,8 +199,9 @@ class AlgebraVectors(Representation):
     ) -> Pair[S]:
         """Apply ``word``, a product of functions of ad*_x, to p.
 
-        The method evaluates the group's formula for ``word`` with dual numbers, where e^2 = 0. The vector
-        y + v e represents x = (y, v). In p the order is reversed: the vector q + m e represents p = (m, q).
+        The method evaluates the group's formula for ``word`` with dual numbers a + b e, where e^2 = 0. The
+        pair x = (y, v) becomes the vector y + v e, whose real part is y. The pair p = (m, q) becomes the
+        vector q + m e, whose real part is q.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))

@@ -24,8 +24,9 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
 
     If this does not reduce the number of operations, ``roots`` is returned unchanged.
 
-    The expressions in ``kept`` are also computed elsewhere. Each of them has the form c x with a number c.
-    The expression x remains unchanged, and c is combined with other constants.
+    ``kept`` contains expressions that are needed outside ``roots``, too. Each of these expressions has the
+    form c x with a number c, which may be 1. The expression x is not rewritten in ``roots``, so that x is
+    computed only once. The number c is combined with other constants in ``roots``.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -41,7 +42,8 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            # The node is not rewritten: its linear combination is 1 times the node.
+            # The next line stores the node as a sum with one term: the number 1 times the node. Because of
+            # this entry, ``work.whole`` does not rewrite the node.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
     # The expressions in ``bare`` are not rewritten, so their operations are not counted.
     still = set(work.sums)
@@ -82,7 +84,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
-            # The node is y, the power of y with the exponent 1.
+            # This node is 1/sqrt x. Its entry in ``ranks`` contains its own node number and the exponent 1.
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             # Exponents are added in a product, and multiplied in a power of a power.
@@ -90,7 +92,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
     # A power that is used only to compute other powers is ignored here.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # If y = 1/sqrt x itself or an even power of y occurs in ``read``, no power of y is rewritten.
+    # ``read`` contains a pair (node number of y, n) for each power y^n that is not ignored. If n is 1 or an
+    # even number in one of the pairs for y, no power of this y is rewritten as a quotient.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -98,8 +101,9 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
     """Return True if ``node`` is a product, a power or a negation and has the form c y^n.
 
-    Here c is a number, n is a positive integer, and y is 1/sqrt x for an expression x. ``inside`` contains a
-    pair (node number of y, n) for each argument of ``node`` that has this form.
+    Here c is a number, n is a positive integer, and y is 1/sqrt x for an expression x. The arguments of
+    ``node`` may also have this form. If an argument equals d z^m, where d is a number and z is 1/sqrt w for
+    an expression w, ``inside`` contains the pair (node number of z, m).
     """
     # The first argument may be a number.
     whole = len(inside) == len(node.args) or node.args[0].op == "const"

@@ -102,10 +102,9 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """If ``residuals`` is true, the number of steps after which ``matrix`` is inverted again.
+        """The number of steps after which ``matrix`` is inverted again, or 0 if ``residuals`` is false.
 
-        If ``residuals`` is false, the value is 0, because other rules decide when ``matrix`` is inverted
-        again (see :class:`Newton`).
+        If ``residuals`` is false, other rules decide when ``matrix`` is inverted again (see :class:`Newton`).
         """
         # The inversion of an n x n matrix costs O(n^3) operations. If one inversion serves n/2 steps of the
         # integrator, the cost of inversions is only O(n^2) operations in each step.
@@ -197,9 +196,9 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # If the last solution were used as first values of the unknowns, the error of these values would be the
-    # change of the unknowns in the step. An extrapolation is useful only if its error is at most half
-    # as large.
+    # The simplest first values of a step are the solution of the last step. The error of these first values
+    # is the change of the unknowns from one step to the next. An extrapolation from several solutions is
+    # useful only if its error is at most half of this change.
     ROUGH: ClassVar[float] = 0.5
     # Successful continuations need far fewer than 100 attempts.
     TRIES: ClassVar[int] = 100
@@ -228,10 +227,14 @@ class Deferred:
     A run has at most :data:`LONGEST` steps. The run calls ``begin``, then the kernel of the step once for
     each step, and then ``finish``.
 
-    The last flow of a step and the first flow of the next step may be joined into one flow. Then ``begin``
-    applies the first flow of the first step, and each step ends with a flow of duration :data:`LEAD`. For a
-    joined flow, LEAD is ``later`` * h. The final step of a run has no next step, so its LEAD is ``last`` * h.
-    If no flows are joined, ``begin`` is None.
+    The last flow of a step and the first flow of the next step may be joined into one flow. The joined flow
+    is applied at the end of the step, so the next step omits its first flow. The first step omits its first
+    flow, too, because ``begin`` applies this flow before the first step.
+
+    The kernel of the step reads the duration of its last flow from the symbol :data:`LEAD`. In the final step
+    of a run, the value of this symbol must be ``last`` * h, because no step follows. In all other steps, the
+    value must be ``later`` * h, which is the duration of the joined flow. If no flows are joined, ``begin``
+    is None, and the kernel does not read the symbol.
 
     The steps may omit flows that commute with all other flows. ``finish`` applies the omitted flows, for the
     total duration of the run. If no flows are omitted, ``finish`` is None.

@@ -130,7 +130,11 @@ def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Return the entries of the jet from which :func:`block_matrix` computes the block matrix ``rows``."""
+    """Return the entries of a jet (a matrix with its derivatives). ``rows`` are the rows of its block matrix.
+
+    The docstring of :func:`block_matrix` defines this block matrix. The first row of blocks contains all
+    matrices of the jet.
+    """
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2

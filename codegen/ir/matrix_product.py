@@ -76,10 +76,10 @@ class BilinearFunction(VectorFunction):
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return a tuple of zeros if the matrix a or the matrix b is zero. Otherwise return None.
+        """Return zeros, the entries of f(a, b), if the matrix a or b is zero. Otherwise return None.
 
-        ``args`` are the entries of a and b. The zeros are the entries of f(a, b), where f is this function.
-        If the result is None, emitted code must call f.
+        The object ``self`` represents the bilinear function f. ``args`` are the entries of a and b. If the
+        result is None, emitted code must call f.
         """
         # A bilinear function is zero if one of its arguments is zero.
         if all(x.is_zero for x in args[: self.size]) or all(x.is_zero for x in args[self.size :]):

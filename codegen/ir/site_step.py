@@ -69,9 +69,10 @@ class Sweep:
       neighbour that does not exist, ``outside`` computes the value of the load. Output k of ``outside``
       belongs to the load ``read_outside[k]``.
     - ``axis`` is :data:`OWN` if the sweep visits single sites. If the sweep visits pairs of neighbouring
-      sites, ``axis`` is the index of the lattice axis along which the two sites are neighbours. In this case
-      the value 0 of :attr:`Load.neighbour` denotes the second site of the pair, and the second half of
-      ``stores`` contains the rows for the second site.
+      sites, ``axis`` is the index of the lattice axis along which the two sites are neighbours. In a sweep
+      over pairs, a load reads a number of the first site if its ``neighbour`` is :data:`OWN`, and a number of
+      the second site if its ``neighbour`` is 0. The first half of ``stores`` contains the rows for the first
+      site. The second half contains the rows for the second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
       values g(u). In fixed-point iteration, the sweep stores g(u). In Newton's method, the sweep stores
       the difference g(u) - u.

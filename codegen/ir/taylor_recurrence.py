@@ -130,8 +130,8 @@ class _Builder:
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # The node is rewritten as ``result`` only if the exponent of ``result`` is 1, negative, or not an
-        # integer.
+        # The third entry of ``result`` is the exponent. If the exponent is 0 or an integer above 1, the
+        # node is not rewritten.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:

@@ -53,13 +53,10 @@ class TimeMomentum(Operation):
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
-        """Return the change of the momentum conjugate to the time, as a scalar of ``domain``.
+        """Return the number that a step adds to the momentum conjugate to the time.
 
-        Let u be the momentum conjugate to the time t. Let Q and P be the positions and the momenta after the
-        step. The momentum u is not a component of P. A dot denotes the scalar product of two vectors. The
-        step begins at the time t. A prime denotes the derivative with respect to t. In this derivative, the
-        step size h is fixed. The positions and the momenta before the step are fixed, too. The change of u
-        during the step is (Q.P' - P.Q')/2.
+        The step begins at the time ``t`` with the coordinates ``start``. The docstring of
+        :class:`TimeMomentum` contains the formula. The result is a scalar of ``domain``.
         """
         # The step is evaluated with symbols, because the result is differentiated symbolically.
         formal = ExprDomain()

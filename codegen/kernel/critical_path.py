@@ -156,7 +156,8 @@ class _Chains:
                 # For a square ``arg * arg``, ``others`` is empty.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # A product of two factors with the same level counts as nonlinear.
+                # A product counts as linear in ``arg`` only if ``arg`` depends on a longer chain of slow
+                # operations (:data:`ATOMS`) than the other factor.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )

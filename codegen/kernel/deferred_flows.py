@@ -27,15 +27,17 @@ class Parted:
     """Programs for the beginning, the steps and the end of a run, and the durations of joined flows.
 
     A joined flow replaces a flow at the end of a step and a flow at the beginning of the next step. A
-    deferred flow commutes with all other flows. One flow at the end of a run replaces equal deferred flows of
-    all steps.
+    deferred flow is a flow that commutes with all other flows. The steps omit the deferred flows. Instead,
+    each deferred flow is applied once after the last step, for the total duration of the run.
 
     - ``begin`` is executed before the first step. It is None if no flows are joined.
     - ``core`` is executed in each step. The duration of each joined flow is the variable :data:`LEAD`.
     - ``finish`` is executed after the last step. It contains the deferred flows, with the duration
       :data:`ELAPSED`, the sum of the durations of all steps. If no flow is deferred, ``finish`` is None.
-    - ``last`` and ``later`` are factors: LEAD is ``last`` * h in the last step of a run, and ``later`` * h in
-      all other steps.
+    - ``last`` is the quotient LEAD/h in the last step of a run. In the last step, LEAD is the duration of the
+      last flow alone, because no step follows.
+    - ``later`` is the quotient LEAD/h in all other steps. In these steps, LEAD is the duration of a joined
+      flow.
     """
 
     begin: Program | None

@@ -101,7 +101,7 @@ def function(
         else:
             own = assign.operation.evaluate(scene, domain, args)
             results += own
-            # ``texts[k]`` describes ``results[k]``, so each result of the operation gets the same text.
+            # ``texts`` needs one entry for each result. All results of one operation have the same text.
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]

@@ -50,11 +50,12 @@ If no point gives finite values, the verification tries ATTEMPTS further points 
 """
 
 Shape = tuple[Key, tuple[int, ...]]
-"""The shape of a tree (:class:`Tree`), a group of assignments that a function call can replace.
+"""A pair (key, indices) that describes a tree. All trees with the same pair become calls of one function.
 
-A shape is a pair. The first entry is the key of the tree: trees with equal keys can share one function. The
-last assignment of the tree computes the results of the tree. The second entry of the pair contains the
-indices of those results that are read outside the tree.
+A tree is a group of assignments (:class:`Tree`). The last assignment computes the results of the tree.
+
+- The key describes the operations of the tree.
+- The indices denote those results of the tree that are read outside the tree.
 """
 
 

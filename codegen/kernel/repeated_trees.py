@@ -181,8 +181,10 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # If ``count`` exceeds ``k``, a tree with the same key is in no pair and still needs its own function.
-        # The lines of this function then occur twice, because the function for a joined pair contains them.
+        # ``count[first]`` is the number of trees with the key ``first``. If this number exceeds ``k``, at
+        # least one of these trees is not joined and still needs its own function. The lines of this function
+        # are then emitted twice: in this function, and in the function for the joined trees. The same is true
+        # for ``second``.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # Each of the ``k`` pairs needs one function call in place of two. This saves about three lines.
         return k * 3 - copies
@@ -251,7 +253,8 @@ class Trees:
                     places.append(given.setdefault(v, len(given)))
             wires.append(tuple(places))
             for v in self.executions[i].assign.targets:
-                # Counting starts at 1, because 0 is the position of the first input variable.
+                # The result with the number k is represented by -k in ``places``. The first result has the
+                # number 1, because 0 in ``places`` represents the first input variable.
                 targets[v] = 1 + len(targets)
         return list(given), wires
 

@@ -14,11 +14,14 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.normal_form import NormalForms, Polynomial, TooLong
 
 LONGEST = 64
-"""If an argument of a Stumpff function has more than LONGEST nodes, the argument is not compared with
-arguments of earlier calls.
+"""A limit for the search for equal arguments of Stumpff functions.
 
-In the methods of the gallery, arguments that are equal to an earlier argument have 12 to 42 nodes. For nine
-methods of the gallery, the limits 64, 128 and 256 give the same kernels.
+An argument is an expression. Each operation, symbol or constant in the expression is a node. An argument with
+more than LONGEST nodes is not compared with arguments of earlier calls.
+
+The limit 64 is sufficient for the methods of the gallery, because the arguments that equal an earlier
+argument have only 12 to 42 nodes. For nine of these methods, the limits 64, 128 and 256 give the same
+kernels.
 """
 
 

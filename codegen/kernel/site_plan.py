@@ -134,8 +134,9 @@ class Planner:
         # begins at row ``matrix``.
         border = count + most
         # An open chain has no border. In a periodic chain, the border contains the columns of Newton's matrix
-        # for the last site. Each pair of an unknown of a site and an unknown of the last site needs one row,
-        # and a site has at most ``most`` unknowns.
+        # for the unknowns of the last site. Let n be the number of unknowns of a site. The border has n
+        # columns, and each column has n entries for each site. A row of the workspace has one entry for each
+        # site, so the border needs n * n rows. The largest n is ``most``.
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):

@@ -173,7 +173,7 @@ class _Translation:
     def begin(self) -> State:
         """Set the values of the program's inputs to symbols, and return the initial state."""
         space = self.domain.space
-        # ``self.program`` uses the space frame or the body frame. The momentum in ``start`` is in this frame.
+        # The momentum in ``start`` is in the frame that ``self.program`` uses: the space or the body frame.
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
@@ -206,7 +206,8 @@ class _Translation:
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # Until this line, ``run`` uses ``len(self.blocks)`` as the index of the new block.
+        # The new block must be added after the call of ``enter`` above. ``enter`` calls ``run``, and ``run``
+        # uses the length of ``blocks`` before the addition as the index of the new block.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:

@@ -142,11 +142,9 @@ class Jobs(Sequence[Job]):
         return recipe
 
     def _place(self, queue: Queue) -> float:
-        """Return the number (n + d)/EVEN + s. The next recipe comes from the queue with the smallest number.
+        """Return the rank of a queue. The next recipe comes from the queue with the smallest rank.
 
-        - n is the number of recipes that were taken from the queue.
-        - d is the distance between the order of these recipes and the nearest order in ``self.usual``.
-        - s is the slowness of the queue (:meth:`_behind`).
+        The rank is the number (n + d)/EVEN + s. The docstring of :data:`EVEN` defines n, d and s.
         """
         distance = min(abs(queue[1] - order) for order in self.usual)
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN

@@ -186,9 +186,11 @@ class Bar:
 
         - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
         - ``self.explicit`` is True, and the argument ``explicit`` is False.
-        - The predicted error e in the triple (``family``, ``explicit``, e) of ``self.least`` exceeds
-          :data:`FAR` times ``self.error``. If ``self.least`` contains no triple for ``family``, the triple
-          for all families is used. If both triples are missing, this case does not apply.
+        - Even methods of higher order are too inaccurate: the least predicted error of these methods exceeds
+          :data:`FAR` times ``self.error``. ``self.least`` contains the least predicted errors for each
+          family, separately for explicit and implicit methods. If there is no entry for ``family`` and
+          ``explicit``, the entry for all families and ``explicit`` is used. If that entry is missing, too,
+          this case does not apply.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -196,10 +198,12 @@ class Bar:
         return known.get((family, explicit), known.get(("", explicit), 0.0)) > FAR * self.error
 
     def most(self, step_seconds: float) -> float:
-        """Return the largest number of steps that the interpreter may make in a run.
+        """Return the largest number of steps for a test run of a method in the interpreter.
 
-        ``step_seconds`` is the time of a step in compiled code. The result is the time limit divided by
-        ``step_seconds``, but at most :data:`MANY_STEPS` and at least the attribute ``steps``.
+        ``step_seconds`` is the predicted CPU time of one step in compiled code. Let q be the quotient
+        ``self.seconds`` / ``step_seconds``. More than q steps would exceed the time limit in compiled code,
+        so test runs with more than q steps are useless. The result is q, but at most :data:`MANY_STEPS` and
+        at least ``self.steps``. If ``step_seconds`` is 0, the result is MANY_STEPS.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -210,12 +214,12 @@ class Bar:
 
 @dataclass
 class Predictor:
-    """Predicts the CPU times of recipes for one form of the equations of a scene.
+    """Predicts the CPU times of recipes for the equations of a scene.
 
+    - ``equations``: the equations of the scene in certain coordinates, for example with unit quaternions.
     - ``exact``: the reference solution.
-    - ``beginning``: None, or a function that returns a pair. Let the time span be divided into :data:`PARTS`
-      equal intervals. The first entry of the pair contains the equations on the first interval. The second
-      entry is the reference solution at the end of the first interval.
+    - ``beginning``: None, or a function that returns a pair for the first of :data:`PARTS` equal intervals of
+      the time span: the equations on this interval, and the reference solution at the end of this interval.
     - ``failures``: for each kind of method, a count of the methods that failed in runs with a constant step
       size. If a method of a kind succeeds, the count for this kind is set to zero.
     - ``uncontrolled``: for each kind of method, a count of the methods that reached no small error

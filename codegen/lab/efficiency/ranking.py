@@ -54,8 +54,9 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
     The runs are sorted from coarse to fine. Runs after the most accurate run are not used. The time is
     interpolated between two runs a and b: a is the last run whose error is above ``error``, and b is the run
-    after a. The interpolation is linear in the logarithms of time and error. The result is the least of the
-    interpolated time, the time of b, and the times of all runs after b.
+    after a. The interpolation is linear in the logarithms of time and error. Run b and the runs after b
+    reach ``error``, too. If the fastest of these runs takes less than the interpolated time, the result is
+    the time of this run. Otherwise the result is the interpolated time.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
