@@ -73,8 +73,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def one() -> list[Var]:
         """For a method with one stage, append the momentum M to the program, and return [M]."""
-        # M = L + h (b - a) F, where L = dexp*_{-b x} mu, F = dexp*_{-(b - a) x} n, a = a_11, b = b_1 and
-        # x = h xi. Here mu is the initial momentum, xi is the velocity, and n is the force of the stage.
+        # Let x = h xi, a = a_11 and b = b_1 (xi: velocity, n: force, mu: initial momentum). The momentum of
+        # the stage is M = L + h (b - a) F with L = dexp*_{-b x} mu and F = dexp*_{-(b - a) x} n.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])

@@ -83,7 +83,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # Objects of the class Number can be compared by ==, even if their values are intervals.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # ``cuts`` contains 0, the number of stages, and each k for which the first k stages form a substep.
+    # ``cuts`` begins with 0 and ends with the number of stages. Between these two numbers, ``cuts`` contains
+    # each k for which the step can be divided into two substeps after stage k.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # The loop begins with the smallest groups of stages. Smaller groups give more substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):

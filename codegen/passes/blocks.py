@@ -1,9 +1,10 @@
 """Split each block of implicit equations into the strongly connected components of its dependency graph.
 
 The split does not change the solution of the equations. The nodes of the graph are the assignments of the
-block. The image of an unknown is the right-hand side of its fixed-point equation. Edges lead from each
-assignment to the assignments that read its result. If the result is the image of an unknown, edges also lead
-to the assignments that read the unknown.
+block. An edge leads from the assignment P to the assignment Q in two cases:
+
+- Q reads a variable that P computes.
+- Q reads an unknown u, and P computes the right-hand side of the fixed-point equation for u.
 
 A component without a cycle is moved out of the block.
 """

@@ -88,10 +88,11 @@ def _worthwhile(program: Program) -> set[Share]:
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return a dictionary with at most one entry for each linear map L in the sum ``assign``.
+    """Group the terms of the sum ``assign`` by their linear maps.
 
-    Let a_k L(x_k) be the terms with the map L, and let c be the first of the coefficients a_k. The key is the
-    combination sum_k (a_k/c) L(x_k) in the form of :data:`Share`, and the value is c.
+    Let a_k L(x_k) be the terms with the linear map L, and let c be the first of the coefficients a_k. For
+    each map L, the result contains one entry. The key is the combination sum_k (a_k/c) L(x_k) in the form of
+    :data:`Share`, and the value is c. If two terms contain the same value L(x_k), there is no entry for L.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:

@@ -74,7 +74,9 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     """
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # ``state[k]`` is False while ``place(k)`` runs. In a cycle, a nested call of ``place(k)`` returns False.
+    # ``state[k]`` is False while ``place(k)`` runs, and True after ``body[k]`` is placed. If ``body[k]``
+    # depends on its own result, ``place(k)`` is called a second time while the first call runs. The second
+    # call then returns ``state[k]``, which is False.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:

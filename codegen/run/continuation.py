@@ -107,7 +107,8 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # Every failed attempt replaces the initial value of ``failure`` by the status of the attempt.
+            # This value is never read, because ``failure`` is read only after a failed attempt, and a failed
+            # attempt overwrites the value. Without an initial value, a C compiler may warn about ``failure``.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
@@ -131,9 +132,9 @@ class _Continuation:
 
     def cause(self) -> Term:
         """Return the status that is reported for the failed step."""
-        # An input may be NaN at a time that a shorter step does not reach. Therefore the success of a shorter
-        # step does not prove that the failed step was too long (TOO_FAR), and the status of the last failed
-        # attempt is returned.
+        # TOO_FAR means that the step size is the cause of the failure. With run-time inputs, the cause may
+        # also be an input that is NaN at a time near the end of the step. A shorter step may end before this
+        # time and succeed. Therefore the status of the last failed attempt is returned in place of TOO_FAR.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))

@@ -216,13 +216,16 @@ class _Deferring:
         return Function("run", "", run_parameters(plan), body, Kind.STATUS, public=True)
 
     def attempt(self) -> tuple[Statement, ...]:
-        """Return the statements that make the steps of a run, but stop if a tested state is not finite."""
+        """Return the statements of one attempt to make the steps of a run.
+
+        In the emitted code, the loop over the steps ends early if a tested state is not finite.
+        """
         state = self.plan.state()
         failed = (
-            # If ``careful`` is True, the state was tested after every step, so DONE is the number of
-            # successful steps. A run ends only after an attempt without a failure. Therefore the next attempt
-            # begins at the initial state and makes only the successful steps. If ``careful`` is False, the
-            # failed step is not known, and the next attempt tests the state after every step.
+            # Every attempt begins at the initial state. The first attempt tests only some states. If the
+            # first attempt fails, the failed step is unknown, and ``careful`` becomes True. The second
+            # attempt then tests the state after every step. If the second attempt fails, DONE is the number
+            # of steps before the failed step, and the third attempt makes only these steps.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )

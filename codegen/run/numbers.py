@@ -20,9 +20,10 @@ def numbers_held(unit: Unit) -> int:
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
-    # A compiler may inline all private functions into one function. Then the scalars of all private functions
-    # are on the stack at the same time, so their numbers are added. Of the functions in ``public``, only one
-    # runs at a time, so only the largest number in ``public`` is added.
+    # ``held`` contains the number of scalars of each function. ``public`` contains the numbers for public
+    # functions that no private function calls. A program calls only one of these public functions at a time,
+    # so only the largest number in ``public`` counts. A compiler may inline all other functions into this
+    # public function. Then the scalars of all other functions are on the stack, so all other numbers count.
     return sum(held.values()) - sum(public) + max(public)
 
 

@@ -171,8 +171,8 @@ class Observation:
         """Return the emitted functions. Each function comes after the functions that it calls."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
-        # The search for events calls INSIDE. Without a continuous extension, INSIDE also computes the states
-        # at output times.
+        # INSIDE is an emitted function that computes the state at a time inside a step. INSIDE is needed for
+        # the search for events, and for output times if there is no continuous extension (``dense`` is None).
         inside = (self.inside(),) if self.events or self.dense is None else ()
         return *inside, self.in_order(), *located, *dense, self.observed()
 
@@ -277,8 +277,8 @@ class Observation:
             ),
             # The rounding error of a time is at most ``width`` times the step size.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # The fractions ``low`` and ``high`` have rounding errors, too. Therefore ``width`` is set to at
-            # least CLOSE unit roundoffs.
+            # ``width`` must not be smaller than the rounding errors of the fractions ``low`` and ``high``.
+            # Therefore ``width`` is at least CLOSE unit roundoffs.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),

@@ -196,7 +196,8 @@ class _Part:
             # Adjacent indices allow compilers to load both sites of a pair with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # Each step ends with a flow of single sites, which tests for infinities and NaNs.
+        # Flows of pairs need no test for infinities and NaNs, because the last flow of a step is a flow of
+        # single sites, and tests the state of every site.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.

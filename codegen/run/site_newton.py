@@ -241,7 +241,8 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # The loop over the sites overwrites entries that ``border_columns`` reads.
+            # ``border_columns`` must come before the loop over the sites, because the loop overwrites entries
+            # that ``border_columns`` reads.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),

@@ -390,12 +390,11 @@ class _Selection:
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
-        """Return a candidate that combines several solvers.
+        """Choose between a combination of solvers and a single solver for all blocks.
 
-        In this combination, the solver ``best[k]`` solves block number k, for each k.
-
-        If the fastest candidate in ``robust`` is more reliable than the combination, the result is this
-        candidate.
+        In the combination, the solver ``best[k]`` solves block number k, for each k. The single solver is the
+        solver of the fastest candidate in ``robust``. The result is the candidate with the combination,
+        unless the single solver is more reliable.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:

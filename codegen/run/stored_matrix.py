@@ -140,10 +140,10 @@ class StoredMatrix(ABC):
         return total
 
     def before(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term) -> list[Statement]:
-        """Return the statements that assign the indices ``row`` and ``column`` to real variables.
+        """Return the statements that convert the integers ``row`` and ``column`` to floating-point numbers.
 
-        The formulas in ``entries`` contain these variables. An index that occurs in no formula is not
-        assigned.
+        The formulas in ``entries`` need these floating-point numbers. An index that occurs in no formula is
+        not converted.
         """
         indices: dict[str, Statement] = {}
         for _, given, table in entries:

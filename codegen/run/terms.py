@@ -335,7 +335,10 @@ def given(argument: Term) -> Term:
 
 
 def absent(parameter: Term) -> Term:
-    """Return the term for NULL (C) or None (Python), passed as the optional argument ``parameter``."""
+    """Return the term for an omitted optional argument: NULL in C, None in Python.
+
+    ``parameter`` is the parameter of the called function for which no argument is given.
+    """
     # The new term keeps the kind and the shape of ``parameter``, because kind and shape determine how it is
     # printed.
     return replace(parameter, op="none", args=())

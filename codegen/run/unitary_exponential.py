@@ -39,7 +39,8 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
     """Return the function that computes the exponential of a matrix in su(3)."""
     a, result, work = real("a", COORDINATES), real("result", 2 * SIZE), real("work", 2 * SIZE)
     y, scale, norm, squarings = real("y", COORDINATES), real("scale"), real("norm"), count("squarings")
-    # No Taylor polynomial is accurate for a matrix whose norm exceeds this number.
+    # The emitted Taylor polynomials have degrees up to 16. If the norm of a matrix exceeds ``least``, even
+    # the polynomial of degree 16 is not accurate enough.
     least = largest_norms(precision.bits)[-1]
     body: tuple[Statement, ...] = (
         Array(y),

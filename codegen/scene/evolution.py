@@ -88,7 +88,8 @@ class Evolution:
             return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
-        # The rounding errors of ``before`` and ``after`` nearly cancel in the difference b - a.
+        # The new momentum is ``mu`` + (``after`` - ``before``) and not ``after``, because the rounding errors
+        # of ``after`` and ``before`` nearly cancel in the difference.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:

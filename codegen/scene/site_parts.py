@@ -127,9 +127,9 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
                     f"generator {k} of the part {part.name} is not constant along the flow of the part",
                     where=scene.name,
                     expected="generators f(y) for which the exact flow over a time tau is exp(tau f(y)).y",
-                    hint="split the part, or use other generators that give the same velocity; for example, "
-                    "if J is a number and S and T are spins with S' = J T x S, use J (S + T) in place of "
-                    "J T, because S x S = 0",
+                    hint="split the part, or use constant generators that give the same velocity; for two "
+                    "spins with S' = J T x S and T' = J S x T, the generator J T is not constant, but the "
+                    "generator J (S + T) is constant and gives the same S'",
                 )
 
 
@@ -165,11 +165,12 @@ def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
             total = _summed(scene, orbit, sites, point, {o: x for o, x in states.items() if o not in absent})
             for x, y in zip(total, expected, strict=True):
                 if not orbit.sized(x - y, (x, y, 1)):
-                    where = f"for a site without the neighbours {sorted(absent)}, " if absent else ""
+                    where = f" at a site without neighbours at the offsets {sorted(absent)}" if absent else ""
                     raise SceneError(
-                        f"the parts do not add up to the velocity of f: {where}the sum is {orbit.text(x)}",
+                        f"the velocities of all parts do not add up to the velocity of the field f: the sum "
+                        f"is {orbit.text(x)}{where}",
                         where=scene.name,
-                        expected=f"{orbit.text(y)}, the velocity of f",
+                        expected=f"{orbit.text(y)}, the velocity of the field f",
                         hint='list all terms of f in the argument "parts"; each Pair must contain the '
                         "generators of both sites",
                     )

@@ -43,7 +43,7 @@ def check(
 ) -> Report:
     """Compute the order of ``tableau`` in each family in which its file claims an order.
 
-    - ``tableau``: a tableau, a file, or a name of the library.
+    - ``tableau``: a tableau, a file, or the name of a tableau in the library.
     - ``family``: the label of the only family to check, for example ``"rkmk(1)"``.
     - ``order``: the least acceptable order. If ``order`` is given, the claimed orders are ignored.
     - ``complete``: the file must claim an order in each family of ``claimable_families(tableau)``.
@@ -51,9 +51,9 @@ def check(
     - ``limits``: limits on work, time and memory. If a limit is reached, the computed order is a lower bound.
     - ``tolerance``: a number t. Each coefficient x that is a double has the uncertainty t 2^-53 max(1, |x|).
 
-    A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises
-    UnknownName for an unknown family, ZeroWeight if a formula divides by a weight b_i = 0, and TableauError
-    for a file that cannot be read. All three are subclasses of :class:`~orderconds.errors.InputError`.
+    If the file claims no order, the family in its key ``family`` is checked. The verdict is ``unclaimed``.
+    Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for an unknown family, ZeroWeight
+    if a formula divides by a weight b_i = 0, and TableauError for a file that cannot be read.
 
     >>> report = check("rk4", family="rk")
     >>> report.verdict, [(f.family, f.order, f.certificate) for f in report.orders]
@@ -235,9 +235,10 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return a :data:`Reading` for each claimable family that has the attribute ``bounds_others = True``.
+    """Return the families whose orders can bound the order of ``tableau`` in other families.
 
-    Omit families with a label in ``labels``.
+    Each entry of the result contains a form of the tableau that the family accepts, the family, and the order
+    claimed in the family. Families with a label in ``labels`` are omitted.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -427,9 +428,9 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each family in which the file should claim an order, but does not.
 
-    The message contains the order of ``enclosed``. If the equations in the table ``[proof]`` of the file are
-    proved to have a solution, the coefficients of ``enclosed`` are balls (intervals) that contain this
-    solution. Otherwise ``enclosed`` is the argument ``tableau``.
+    The order in the message is the order of ``enclosed``. If ``tableau`` has rounded coefficients, and exact
+    coefficients are proved to exist, the coefficients of ``enclosed`` are intervals that contain the exact
+    coefficients. Otherwise ``enclosed`` is ``tableau``.
     """
     from orderconds.checking.claimable import unclaimed
 

@@ -258,8 +258,8 @@ def test_the_energy_of_a_splitting_is_bounded_and_spins_keep_their_length():
 @pytest.mark.parametrize(
     ("parts", "message"),
     [
-        ({"single": S}, "the parts do not add up to the velocity of f"),
-        ({"single": S * S[0]}, "the parts do not add up"),
+        ({"single": S}, "the velocities of all parts do not add up to the velocity of the field f"),
+        ({"single": S * S[0]}, "the velocities of all parts do not add up"),
         ({"single": Matrix([S[1], 0, 0])}, "generator 0 of the part single is not constant along"),
         (
             {"bonds": Pair((1,), neighbour(S, (1,)), S)},

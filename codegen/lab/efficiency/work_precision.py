@@ -195,7 +195,7 @@ class Refused:
         raise InputError(self.reason)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True (no further run is needed), because the method cannot be emitted."""
+        """Always return True, because a method that cannot be emitted needs no run."""
         return True
 
 

@@ -198,9 +198,9 @@ def _kept(
 def _before_saturation(
     name: str, whole: Drift, trajectory: Trajectory, early: Callable[[int], Trajectory]
 ) -> Drift:
-    """Return the drift of a quantity, fitted to the samples before its deviation stops growing.
+    """Return the drift of the quantity ``name``, computed only from samples before the deviation saturates.
 
-    The time at which a deviation stops growing is defined at :data:`codegen.lab.long_runs.drift.LEVEL`.
+    The time at which a deviation saturates is defined at :data:`codegen.lab.long_runs.drift.LEVEL`.
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0

@@ -134,13 +134,14 @@ class Advice(Measurement[Recommendations]):
         """Return a sentence with the fastest methods for the largest and for the smallest error bound."""
         own = result.advice[0].best if result.advice else ()
         choices = [
-            f"{best.method.partition(' (')[0]} ({duration(best.seconds)}) for an error of {decade(k)}"
+            f"{best.method.partition(' (')[0]} ({duration(best.seconds)}) is fastest for an error "
+            f"of {decade(k)}"
             for k, best in zip(DECADES, own, strict=False)
             if best
         ]
         if not choices:
             return ""
-        return f"The fastest emitted method is {enumeration(choices[:: max(1, len(choices) - 1)])}."
+        return f"Among the emitted methods, {enumeration(choices[:: max(1, len(choices) - 1)])}."
 
     def section(self, result: Recommendations, subject: Subject) -> Section:
         """Return the section with two tables: the fastest methods, and the properties of methods."""

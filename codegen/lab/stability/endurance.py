@@ -36,10 +36,13 @@ class Endurance:
     - ``returned``: the distance of the final state from the initial state after a run forward and back.
     - ``failure``: the error message of the integrator if a step failed.
 
-    The property :attr:`held` tests whether the integrator returned a wrong result. A run that stops with an
-    error message passes the test, because the integrator returns no result. A complete run forward passes if
-    ``defect`` is None or at most 2^-47 times the number of steps (a bound for rounding errors). A complete
-    run forward and back passes if ``returned`` is finite. A large ``returned`` is permitted.
+    The property :attr:`held` is True in three cases:
+
+    - The run stopped with an error message. Then the integrator returned no state, so no returned state is
+      wrong.
+    - A run forward is complete, and ``defect`` is None or at most 2^-47 times the number of steps (a bound
+      for rounding errors).
+    - A run forward and back is complete, and ``returned`` is finite. A large ``returned`` is permitted.
     """
 
     name: str
@@ -50,7 +53,7 @@ class Endurance:
 
     @property
     def held(self) -> bool:
-        """True if the run passes the test that the docstring of the class describes."""
+        """True if the integrator returned no wrong state. The class docstring states the conditions."""
         explained = self.defect is None or self.defect <= 64 * self.steps * 2.0**-53
         return bool(self.failure) or (explained and math.isfinite(self.returned or 0.0))
 

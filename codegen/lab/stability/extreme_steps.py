@@ -291,14 +291,12 @@ class Rounding(BallDomain):
     """Arithmetic that simulates the rounding errors of double precision.
 
     Each operation is computed with many digits. After this, one rounding error of double precision is added
-    to the result. The errors are relative, and the signs of the errors are random. An iteration for the
-    equations of an implicit method evaluates each operation repeatedly. One random sign is used for all
-    evaluations of an operation. With a new random sign in each evaluation, the equations would change during
-    the iteration.
+    to the result. The errors are relative, and the signs of the errors are random. The sign for an operation
+    is drawn only once, because implicit equations must not change from iteration to iteration.
 
-    In a system of two or more implicit equations, each right-hand side gets two errors. The first error is
-    proportional to the right-hand side itself. The second error is proportional to another right-hand side.
-    Even a right-hand side that is zero can thus get an error.
+    Let g_1, ..., g_n be the right-hand sides of a system of implicit equations. Each g_i gets two errors: the
+    first error is proportional to g_i, and the second error is proportional to g_(i+1). For i = n, the second
+    error is proportional to g_1. Because of the second error, even a g_i that is zero can get an error.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
