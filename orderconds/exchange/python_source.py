@@ -40,9 +40,9 @@ COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha"
 HINT = "write the numbers themselves, or execute the file with 'orderconds check --execute'"
 SAFE_FUNCTIONS = ("print", "len", "sum", "abs", "min", "max", "range", "round", "repr", "str")
 SAFE_METHODS = ("sum", "mean", "copy", "tolist", "transpose", "all", "any", "allclose", "isclose")
-"""With at most two positional arguments, these functions and methods change none of their arguments.
-With more arguments, only ``print`` is safe, because a NumPy function may store its result in the third
-argument."""
+"""A call of a function in SAFE_FUNCTIONS or of a method in SAFE_METHODS changes no variable if the call has
+at most two positional arguments. A third positional argument may be changed: ``numpy.all(a, 0, out)`` stores
+its result in ``out``. A call of ``print`` changes no variable, even with many positional arguments."""
 SAFE_KEYWORDS = ("axis", "dtype", "sep", "end", "precision", "dps")
 UNSAFE_NAMES = {
     *("exec", "eval", "compile", "globals", "locals", "vars", "setattr", "delattr"),

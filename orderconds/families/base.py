@@ -121,9 +121,10 @@ class Family(ABC):
     symplectic: ClassVar[bool] = False
     """True if a search considers only symplectic tableaux: b_i a_ij + b_j a_ji = b_i b_j for all i and j."""
     equal_abscissae: ClassVar[bool] = False
-    """True if all methods of at least order three with positive weights have equal abscissae: in each stage
-    i, c_i = chat_i = m_i. The abscissa c_i belongs to the position, chat_i to the forces, and m_i to the
-    transport of the momentum (:mod:`orderconds.solve.abscissae`)."""
+    """In each stage i, the position has the abscissa c_i, the forces have the abscissa chat_i, and the
+    transport of the momentum has the abscissa m_i (:mod:`orderconds.solve.abscissae`). The attribute is True
+    if all methods of this family with positive weights and order three or higher satisfy
+    c_i = chat_i = m_i."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed, or None if there is no limit."""
 

@@ -60,10 +60,10 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because no tableau file should state the order of a method in the family ``fer``.
+        """Return None for every tableau.
 
-        A Fer method is also a method of the family ``magnus``. The tableau file should state up to which
-        order the method satisfies the conditions of the family ``magnus``.
+        A Fer method is also a method of the family ``magnus``. Therefore the tableau file of a Fer method
+        should state an order in the family ``magnus``, and no order in the family ``fer``.
         """
         return None
 

@@ -7,10 +7,11 @@ V has no such relations. Two rules define a set B in this algebra: V is in B, an
 B generate an ideal of the free algebra. For the functions T and V, all these brackets are zero. Therefore the
 part of the local error that lies in the ideal is zero, and this part gives no order conditions.
 
-A functional maps each element of the free algebra to a linear combination of the element's coefficients. The
-functionals that are zero on the ideal form a vector space. Each element of a basis of this vector space gives
-one condition. The numbers of independent conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ...
-(McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+A functional is a linear map from the free algebra to the rational numbers. The functionals that are zero on
+the ideal form a vector space. Each element of a basis of this vector space gives one condition. Many of these
+conditions follow from others. The numbers of independent conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5,
+10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019)
+345).
 """
 
 from __future__ import annotations
@@ -221,11 +222,10 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return the elements of B whose words have ``weight`` letters. The module docstring defines B and the
-    ideal.
+    """Return polynomials in T and V: the elements of degree ``weight`` in the set B.
 
-    For x and y in B, [x,[T,y]] and [y,[T,x]] are equal modulo the ideal. The result contains only one of
-    these two brackets.
+    The module docstring defines T, V, the set B and an ideal. If x and y are in B, the brackets [x,[T,y]] and
+    [y,[T,x]] are equal modulo the ideal. The result contains only one of these two brackets.
     """
     if weight == 1:
         return (expand(V),)

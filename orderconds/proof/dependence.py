@@ -92,11 +92,11 @@ def dependences(
 ) -> Iterator[Dependences]:
     """Yield the independent and the dependent conditions among ``candidates``.
 
-    The conditions are evaluated modulo primes, for random methods that satisfy the formulas ``symbolic``.
-
-    After each suitable prime, one object is yielded. The object contains the results for this prime and for
-    all earlier suitable primes. A prime is unsuitable if the formulas cannot be evaluated
-    modulo this prime, or if a condition is dependent modulo this prime but not modulo another prime.
+    The conditions are evaluated modulo one prime after another, for random methods that satisfy the formulas
+    ``symbolic``. Modulo some primes, fewer conditions are independent than modulo others. Each object
+    contains the results of those primes used so far that gave the largest set of independent conditions. No
+    object is yielded after a prime whose results are not used, for example because the formulas cannot be
+    evaluated modulo this prime.
 
     ``candidates`` contains the conditions of each order. ``surd`` is the only radical in the formulas, or
     None.

@@ -192,10 +192,13 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Let exp(X_j) be the group element of stage j, and let z be a letter that does not occur in X_j.
-        Return a list with one entry for each stage j: the coefficient of the word (``before``, z, ``behind``)
-        in the series for dexpinv_{X_j} z. The method :meth:`_terms` defines the series. Return None if no
-        term of the series can contain this word."""
+        """Return, for each stage j, the coefficient of one word in the series for dexpinv_{X_j} z. Here
+        exp(X_j) is the group element of stage j, and z is a letter that does not occur in X_j. The method
+        :meth:`_terms` defines the series.
+
+        Each word of the series contains the letter z exactly once. The selected word consists of the letters
+        ``before``, the letter z, and the letters ``behind``. Return None if no term of the series can contain
+        this word."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -210,12 +213,13 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return coefficients of the word (``before``, x, ``after``, z, ``behind``), where x and z are new
-        letters. The result is a list with one map (:data:`Varied`) for each stage.
+        """Return coefficients of a word with two new letters x and z. The result is a list with one map
+        (:data:`Varied`) for each stage.
 
-        Let exp(X) be the group element of stage j, after x has been added to the velocity of stage i. Entry
-        ``[j][i]`` of the result is the coefficient of the word in the series for dexpinv_X z. The method
-        :meth:`_terms` defines the series."""
+        Replace the velocity xi_i of one stage i by xi_i + x, and keep the velocities of all other stages.
+        Then compute the group element exp(X_j) of each stage j, and expand dexpinv_{X_j} z in words (the
+        method :meth:`_terms` defines this series). Entry ``[j][i]`` of the result is the coefficient of the
+        word (``before``, x, ``after``, z, ``behind``) in the expansion."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -225,12 +229,13 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return coefficients of the word (``first``, z, ``before``, x, ``after``), where x and z are new
-        letters. The result is a list with one map (:data:`Varied`) for each stage.
+        """Return coefficients of a word with two new letters x and z. The result is a list with one map
+        (:data:`Varied`) for each stage.
 
-        Let exp(X) be the group element of stage j, after x has been added to the velocity of stage i. Entry
-        ``[j][i]`` of the result is the coefficient of the word in the series for dexpinv_X z. The method
-        :meth:`_terms` defines the series."""
+        Replace the velocity xi_i of one stage i by xi_i + x, and keep the velocities of all other stages.
+        Then compute the group element exp(X_j) of each stage j, and expand dexpinv_{X_j} z in words (the
+        method :meth:`_terms` defines this series). Entry ``[j][i]`` of the result is the coefficient of the
+        word (``first``, z, ``before``, x, ``after``) in the expansion."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

@@ -35,9 +35,8 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""A polynomial, stored as a tuple of terms. Each tree t denotes one variable of the polynomial: the left-hand
-side of the order condition of t. A term is a pair (coefficient, trees). The term is the coefficient
-multiplied by the variables that these trees denote."""
+"""A polynomial in the left-hand sides of order conditions, as a tuple of terms. A term is a pair (q, trees):
+the number q, multiplied by the left-hand side of the order condition of each tree in ``trees``."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:

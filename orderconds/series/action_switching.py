@@ -1,18 +1,17 @@
 """Root switching: trees that differ only in the choice of the root have the same condition.
 
 The module :mod:`orderconds.series.action_trees` defines the notation of trees. Let u, v and w be words of
-trees, and let M and N be multisets of trees. A tree ``o(w | M)`` consists of a root, the word w, and the
-multiset M. A tree ``H(u*v | N)`` consists of a vertex H, the words u and v, and the multiset N. The symbol
-``*`` marks a position between u and v. The trees A and B are
+trees, and let M and N be multisets of trees. The trees A and B are
 
 - A: ``o(w | M, H(u*v | N))``,
 - B: ``o(u o(w | M) v | N)``.
 
-The vertex H is a neighbour of the root of A. The tree B is the result of moving the root of A to the vertex
-H. To obtain B, remove the tree ``H(u*v | N)`` from A. The tree ``o(w | M)`` remains. In ``H(u*v | N)``,
-replace the symbol ``*`` by ``o(w | M)``, and write ``o`` instead of H. The left-hand sides of the conditions
-of A and B are the same double sum over the stages of a method, in two different orders of summation. The
-right-hand sides of the two conditions are equal, too.
+To obtain B, move the root of A to the neighbouring vertex H. The rest ``o(w | M)`` of A becomes a branch of H
+in place of the symbol ``*``, between the words u and v. For example, ``o(|H(*))`` becomes ``o(o)``.
+
+The left-hand side of each condition contains one sum over the stages for the root of A, and one sum over the
+stages for H. In the conditions of A and B, only the order of these two sums is different. Therefore the
+left-hand sides are equal. The right-hand sides are equal, too.
 """
 
 from __future__ import annotations

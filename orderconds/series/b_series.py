@@ -133,9 +133,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """Triples (k, j, w). Let x be the vector that the matrix is multiplied by, and let s_0 be zero. The
-        first triple defines the partial sum s_1, the second triple defines s_2, and so on. Each partial sum
-        is s_k + w x_j, where s_k is an earlier partial sum."""
+        """Triples (k, j, w) for the product of the matrix ``rows`` and a vector x. The n-th triple, counted
+        from 1, defines the partial sum s_n = s_k + w x_j. Here k is less than n, and s_0 is zero."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

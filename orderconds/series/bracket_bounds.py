@@ -3,18 +3,19 @@
 The program (:class:`orderconds.series.brackets.BracketProgram`) computes the arguments u_1, ..., u_s of the
 exponentials of the stages and the argument u of the exponential of the step.
 
-The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i contains only
-the letters q_1, ..., q_(i-1), because it is computed before k_i. Choose a number m < i. The letters q_m, ...,
-q_(i-1) are called new, and the letters q_1, ..., q_(m-1) are called old. Let N be the number of brackets with
-new letters in a program for u_1, ..., u_i.
+Let q_j be the sum of the stage value k_j and fixed multiples of k_1, ..., k_(j-1). The symbols q_1, q_2, ...
+are called letters. The argument u_i contains only the letters q_1, ..., q_(i-1), because it is computed
+before k_i. Choose a number m < i. The letters q_m, ..., q_(i-1) are called new, and the letters q_1, ...,
+q_(m-1) are called old. Let N be the number of brackets with new letters in a program for u_1, ..., u_i.
 
 If all brackets are expanded by [x, y] = x y - y x, each argument becomes a sum of terms. A term is a product
 of letters, multiplied by a number.
 
 First bound: for each of the arguments u_1, ..., u_i, form the sum of the terms that have at least two letters
-and contain a new letter. Before the expansion, each argument is a linear combination of letters and brackets.
-Only the N brackets with new letters contribute to these sums. Therefore N is at least the dimension of the
-space that the sums span.
+and contain a new letter. Before the expansion, each argument is a linear combination of letters and of
+brackets of the program. Single letters and brackets of old letters contribute nothing to the sums. Therefore
+each of the sums is a linear combination of N vectors, one for each bracket with new letters. Hence N is at
+least the dimension of the space that the sums span.
 
 Second bound: for each argument, form the sum of the terms that have at least two letters and exactly one new
 letter. This sum is called the linear part of the argument. Let ad_q be the operator with ad_q y = [q, y]. To
@@ -39,9 +40,10 @@ Assume N = d. The linear parts of the N brackets span a space of dimension at mo
 this space is S, and the linear parts are a basis of S. Then the linear part of the first bracket is a nonzero
 element of S and of L, a contradiction.
 
-A program computes u_1, ..., u_m before the new letters are known, because the stage value k_m depends on u_m.
-Therefore the brackets that u_1, ..., u_m require are not among the N brackets. Hence a lower bound for the
-number of these brackets can be added to the lower bound for N.
+The new letters are computed after u_1, ..., u_m, because the stage value k_m depends on u_m. Therefore the
+brackets in u_1, ..., u_m contain only old letters, and are not among the N brackets. Add a lower bound for
+the number of brackets in a program for u_1, ..., u_m to the lower bound for N. The sum is a lower bound for
+the number of brackets in a program for u_1, ..., u_i.
 """
 
 from __future__ import annotations

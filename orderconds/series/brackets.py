@@ -362,8 +362,8 @@ class _Search:
 
         - the row of the element (:class:`BracketProgram`)
         - the element as a polynomial
-        - a polynomial y; if there is no outer bracket (:class:`_Shape`), y is zero; otherwise, the right
-          factor of the outer bracket is y + C, where C is zero or an inner bracket
+        - the element y of the outer bracket [q_1 + x, y + C_1] (:class:`_Shape`) as a polynomial, or zero if
+          there is no outer bracket
         """
         one, size = self.ring.one, len(self.pool)
 

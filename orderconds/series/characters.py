@@ -114,9 +114,9 @@ class Character:
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
         """Return a sum over the admissible cuts of a tree or forest (:mod:`orderconds.series.cuts`). Each cut
-        removes components and leaves a rest. The summand is ``other(rest)``, multiplied by
-        ``self(component)`` for all components. If ``whole`` is false, the cut that removes nothing is
-        omitted."""
+        removes components and leaves a rest. The summand of a cut is ``other(rest)``, multiplied by
+        ``self(component)`` for each component of the cut. If ``whole`` is false, the sum omits the cut whose
+        rest is the whole tree or forest."""
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):
             if components or whole:

@@ -37,8 +37,8 @@ of the Lie algebra.
 - The entry () denotes the derivative along the vector field of the equation y' = f(y) y.
 - The entry (None,) denotes the derivative along the vector field of the equation y' = g(y) y. Here g is the
   derivative of f along the vector field of the equation y' = k y.
-- In general, an entry that is a tuple denotes the derivative along the vector field of an equation
-  y' = g(y) y. This tuple is again a product of derivatives, and the product maps f to g.
+- In general, an entry that is a tuple denotes the derivative along the vector field of the equation
+  y' = g(y) y. To obtain g, read the tuple itself as a product of derivatives, and apply this product to f.
 """
 
 Combination = dict[Operator, int]

@@ -286,7 +286,8 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # Decimals with the same absolute value would become one unknown in the tableau file.
+            # In a tableau file, ``0.5~`` and ``-0.5~`` denote u and -u with one unknown u. Therefore the
+            # decimals of two unknowns must have different absolute values.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1

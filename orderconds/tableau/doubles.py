@@ -28,8 +28,8 @@ SHORT = 26
 """A double counts as an exact number only if it has at most this number of significant bits."""
 
 PRINTED = 16
-"""If a decimal has fewer significant digits than this number, it does not count as printed from a double
-(:func:`is_printed`). The decimal is then an exact number or a rounded decimal."""
+"""A decimal with at least this number of significant digits may be the printed value of a double
+(:func:`is_printed`). A decimal with fewer digits is treated as an exact number or as a rounded decimal."""
 
 LARGE = 64
 """A double counts as an exact number only if its numerator and its denominator each have at most this number

@@ -241,7 +241,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                     raise TableauError(
                         f"for some quadratic Lie groups, exponent number {k + 1} is not in the Lie algebra",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="mirrored pairs of products: A*B - B*A for an even number of factors, "
-                        "A*B*C + C*B*A for an odd number of factors",
+                        expected="products only in combinations that lie in the Lie algebra: A*B - B*A for "
+                        "an even number of factors, A*B*C + C*B*A for an odd number of factors",
                     )
         return method, None

@@ -45,14 +45,17 @@ def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
 
 
 def sign(method: Magnus, ring: Ring) -> int | None:
-    """Test whether the first exponent of a Magnus method is odd or even under the reversal of time.
+    """Return -1 if the test below finds that the first exponent of a Magnus method is odd, and 1 if the test
+    finds that the exponent is even. Otherwise, return None.
 
-    Let A_i = h A(c_i h) for the nodes c_1, ..., c_s. The reversal of time replaces every A_i by -A_{s+1-i}. A
-    term is called odd if this replacement changes the sign of the term. A term is called even if this
-    replacement does not change the term. The terms of the exponent are its summands. However, the linear
-    combination of A_1, ..., A_s in the exponent counts as a single term.
+    Let A_i = h A(c_i h) for the nodes c_1, ..., c_s. The reversal of time replaces every A_i by -A_{s+1-i}.
+    An expression is called odd if this replacement changes the sign of the expression. An expression is
+    called even if this replacement does not change the expression.
 
-    Return -1 if all terms of the exponent are odd, and 1 if all terms are even. Otherwise, return None.
+    The test writes the exponent as the sum of a linear combination of A_1, ..., A_s and other terms, such as
+    brackets. The exponent is odd if the linear combination and all other terms are odd. The exponent is even
+    if the linear combination and all other terms are even. The test cannot decide for a bracket or product
+    with a factor that is neither odd nor even.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

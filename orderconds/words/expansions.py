@@ -78,8 +78,8 @@ def fer(n: int, word: Word) -> Fraction:
     Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The Fer expansion is
     Y = exp(F_1) exp(F_2) ..., an infinite product of exponentials. The series F_n is the integral of a series
     A_n from 0 to t. Here A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where
-    ad_F X = F X - X F. The word (k_1, ..., k_n) denotes the product X_{k_n} ... X_{k_1}. For example, (2, 1)
-    denotes X_1 X_2.
+    ad_F X = F X - X F. In a word, the letter k denotes X_k, and the first letter denotes the rightmost
+    factor. For example, the word (2, 1) denotes the product X_1 X_2.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')

@@ -32,9 +32,9 @@ def lyndon_words(
     if any(w < 1 for w in weights):
         raise ValueError("every letter must have a positive weight")
     # The algorithm is that of K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of
-    # lengths. The list ``places`` contains the first letters of a word, as indices in ``letters``. In
-    # ``extend``, ``period`` is the length of the longest Lyndon word with which ``places`` begins, and
-    # places[i] = places[i - period] for i >= period.
+    # lengths. The list ``places`` contains the letters that have been chosen so far, as indices in
+    # ``letters``. The argument ``period`` of ``extend`` is the length of the longest Lyndon word with which
+    # these letters begin.
     places: list[int] = []
 
     def extend(period: int, left: int) -> Iterator[tuple[Letter, ...]]:

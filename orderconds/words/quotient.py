@@ -37,7 +37,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # With the Lyndon words last, many functionals begin with a Lyndon word.
+        # Each functional begins with the word of a column that is a linear combination of the columns to its
+        # left. The Lyndon words are last, so that many of these columns belong to Lyndon words.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)

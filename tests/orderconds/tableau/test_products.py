@@ -213,7 +213,7 @@ MALFORMED = {
     "a product that leaves the algebra": (
         MAGNUS + 'map = "cay"\nexponents = [{ "1*2" = 1 }]\n',
         "for some quadratic Lie groups, exponent number 1 is not in the Lie algebra",
-        "mirrored pairs",
+        "A*B - B*A",
     ),
     "no exponents": (MAGNUS + "exponents = []\n", "0 exponents", "1 to 200"),
     "another map": (MAGNUS + 'map = "log"\nexponents = [{ "1" = 1 }]\n', "map", ""),
