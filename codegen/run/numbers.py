@@ -16,15 +16,20 @@ def numbers_held(unit: Unit) -> int:
     """Return an upper bound of the number of scalars on the stack during a call of a public function."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
+    calls = {f.name: {s.function for s in statements(f.body) if isinstance(s, Call)} for f in unit.functions}
     # ``called`` contains the names of all functions that private functions call.
-    private = [f for f in unit.functions if not f.public]
-    called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
-    public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
-    # ``held`` contains the number of scalars of each function. ``public`` contains the numbers for public
-    # functions that no private function calls. A program calls only one of these public functions at a time,
-    # so only the largest number in ``public`` counts. A compiler may inline all other functions into this
-    # public function. Then the scalars of all other functions are on the stack, so all other numbers count.
-    return sum(held.values()) - sum(public) + max(public)
+    called = {name for f in unit.functions if not f.public for name in calls[f.name]}
+    public = {f.name for f in unit.functions if f.public and f.name not in called}
+
+    def together(name: str) -> int:
+        # A public function may call another public function, for example ``step`` calls ``run``.
+        return held[name] + max(map(together, sorted(calls[name] & public)), default=0)
+
+    # ``held`` contains the number of scalars of each function. ``public`` contains the public functions that
+    # no private function calls. A program calls only one of these public functions at a time, so only the
+    # largest number of scalars counts. A compiler may inline all other functions into this public function.
+    # Then the scalars of all other functions are on the stack, so all other numbers count.
+    return sum(held.values()) - sum(held[name] for name in public) + max(map(together, public))
 
 
 def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:

@@ -15,7 +15,7 @@
  *             the time is not needed: no formula depends on the time
  *             a solver for implicit equations: all stages are explicit
  * operations: 84 add, 161 mul, 6 stumpff_12 a step
- * stack:      at most 1088 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
+ * stack:      at most 1152 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
  *             mathematical library functions is not included
  * command:    orderconds emit free_rigid_body --method cg:cg3 --target c -o .
  * version:    orderconds 0.1.0

@@ -5,7 +5,7 @@
  * order:      1
  * state:      [0..2] m: angular momentum in the body
  * operations: 14 add, 26 mul, 1 stumpff_12 a step
- * stack:      at most 640 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
+ * stack:      at most 704 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
  *             mathematical library functions is not included
  * command:    none
  * version:    orderconds test
