@@ -46,7 +46,8 @@ if TYPE_CHECKING:
     "--symmetric",
     is_flag=True,
     help="Search only for symmetric methods. A method is symmetric if a step of length -h undoes a step of "
-    "length h.",
+    "length h. If the method has a Butcher tableau, only the Runge-Kutta method of this tableau must be "
+    "symmetric.",
 )
 @click.option(
     "--fsal",

@@ -23,6 +23,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from orderconds.errors import InputError
+from orderconds.solve.linear import divisor
 
 WHERE = "structure abscissae"
 
@@ -56,7 +57,7 @@ def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> 
             for J, row in enumerate(update)
             if row[i] != "0"
         ]
-        times[f"m{i + 1}"] = f"1 - ({' + '.join(later)})/{weight}"
+        times[f"m{i + 1}"] = f"1 - ({' + '.join(later)})/{divisor(weight)}"
     return times
 
 
@@ -92,7 +93,7 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
         else:
             others = [f"{b[k]}*{texts[k, j]}" for k in range(s) if k != i and texts[k, j] != "0"]
             total = " - ".join([f"{b[j]}*(1 - m{j + 1})", *others])
-            cells[A[i][j]] = f"({total})/{b[i]}"
+            cells[A[i][j]] = f"({total})/{divisor(b[i])}"
     return cells
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from orderconds.errors import InputError
 from orderconds.solve.linear import Constraint, Elimination, equality, spell
@@ -25,7 +26,8 @@ def eliminated(
     """Eliminate coefficients by the linear ``constraints`` and the constraints of the option ``--fix``.
 
     A constraint of ``--fix`` may contain names of nodes (for example c2). Raises InputError if a constraint
-    of ``--fix`` contains an unknown name, or if constraints contradict each other.
+    of ``--fix`` contains an unknown name, if constraints contradict each other, or if a constant exceeds the
+    bound of the option ``--size``.
 
     >>> from orderconds.solve.linear import Constraint, equality
     >>> from orderconds.solve.spec import Spec
@@ -44,6 +46,15 @@ def eliminated(
                     expected=f"one of {', '.join([*names, *(nodes or {})])}",
                 )
     elimination.impose([*constraints, *fixed])
+    for name in names:
+        form = elimination.cell(name)
+        # The search bounds only the coefficients that are not constants.
+        if spec.size is not None and set(form) <= {""} and abs(form.get("", Fraction(0))) > spec.size:
+            raise InputError(
+                f"the constraints imply {name} = {spell(form)}",
+                where="--size",
+                expected=f"an absolute value of at most {spec.size}",
+            )
     return elimination
 
 

@@ -23,6 +23,8 @@ from orderconds.conditions import OrderCondition
 from orderconds.ring.laurent import Laurent, LaurentPolynomials
 from orderconds.ring.polynomials import Polynomials
 from orderconds.solve.problem import Problem
+from orderconds.tableau import RungeKutta
+from orderconds.tableau.method_properties import symplectic
 
 if TYPE_CHECKING:
     import sympy
@@ -120,6 +122,9 @@ def infeasible(problem: Problem) -> Infeasible | None:
     try:
         values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
         nonzero = _nonzero(problem, ring)
+        # Otherwise, the ansatz would contain methods that are not symplectic, and could leave out others.
+        if problem.family.symplectic and not _is_symplectic(problem, ring):
+            return None
     except (
         AttributeError,
         ArithmeticError,
@@ -136,6 +141,11 @@ def infeasible(problem: Problem) -> Infeasible | None:
             if certificate is not None:
                 return replace(certificate, assumptions=problem.ansatz.assumptions)
     return None
+
+
+def _is_symplectic(problem: Problem, ring: LaurentPolynomials | Polynomials) -> bool:
+    method = problem.ansatz.method(ring.generators, cast("RootedRing", ring))
+    return isinstance(method, RungeKutta) and symplectic(method, ring) is True
 
 
 def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:

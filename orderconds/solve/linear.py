@@ -187,6 +187,15 @@ def spell(form: Affine) -> str:
     return text or "0"
 
 
+def divisor(text: str) -> str:
+    """Return ``text`` in a form that can follow ``/``. A name and an integer need no parentheses.
+
+    >>> divisor("b1"), divisor("2"), divisor("2/3"), divisor("-2")
+    ('b1', '2', '(2/3)', '(-2)')
+    """
+    return text if text.isidentifier() or text.isdecimal() else f"({text})"
+
+
 def named(letter: str, *indices: int) -> str:
     """Return the name of a coefficient: the letter and the indices, as in a21. If there are more than two
     indices, or if an index is above 9, the indices are separated by ``_``, as in a10_1.

@@ -71,26 +71,31 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
         numbers,
         cells.unknown(names),
         tuple(tail),
-        assumptions=(_numbers_of_exponentials(stages, update),),
+        assumptions=(_numbers_of_exponentials(stages, update, spec.symmetric),),
     )
 
 
-def _numbers_of_exponentials(stages: Sequence[Path], update: Path) -> str:
-    """Return a clause about the exponentials of each stage (:mod:`orderconds.solve.paths`).
+def _numbers_of_exponentials(stages: Sequence[Path], update: Path, symmetric: bool) -> str:
+    """Return a clause about the form of the method. The form of symmetric methods is defined in
+    :mod:`orderconds.solve.paths`.
 
-    >>> _numbers_of_exponentials(*full_paths(Spec(stages=2, explicit=True))[:2])
-    'the numbers of exponentials are at most 2 in the update and n_i in stage i, with n = 0, 2'
+    >>> _numbers_of_exponentials(*full_paths(Spec(stages=2, explicit=True))[:2], symmetric=False)
+    'the update is y0 multiplied by at most 2 exponentials, and stage i is y0 multiplied by at most n_i \
+exponentials, with n = 0, 2'
     """
     counts = ", ".join(str(len(path)) for path in stages)
     shared = [sum(x == y for x, y in zip(path, update, strict=False)) for path in stages]
     numbers = (
-        f"the numbers of exponentials are at most {len(update)} in the update and n_i in stage i, "
-        f"with n = {counts}"
+        f"the update is y0 multiplied by at most {len(update)} exponentials, and stage i is y0 multiplied by "
+        f"at most n_i exponentials, with n = {counts}"
     )
-    if not any(shared):
+    if not symmetric:
         return numbers
     begins = ", ".join(map(str, shared))
-    return f"{numbers}; stage i begins with k_i exponentials of the update, with k = {begins}"
+    return (
+        f"{numbers}; stage i begins with k_i exponentials of the update, with k = {begins}, and "
+        "the stages i and s+1-i are symmetric to each other"
+    )
 
 
 def _abscissae(

@@ -56,8 +56,8 @@ def full_paths(spec: Spec) -> Paths:
     for i, path in enumerate(stages, start=1):
         for line in path:
             if spec.explicit or spec.dirk:
-                last = i if spec.dirk else i - 1
-                constraints += [zero(x, "--dirk" if spec.dirk else "--explicit") for x in line[last:]]
+                last = i - 1 if spec.explicit else i
+                constraints += [zero(x, "--explicit" if spec.explicit else "--dirk") for x in line[last:]]
     return stages, update, names, constraints
 
 
@@ -99,6 +99,8 @@ def symmetric_paths(spec: Spec) -> Paths:
         own = [[named("a", i, len(path) + r, j) for j in every] for r in range(1, extra + 1)]
         names += [x for line in own for x in line]
         stages.append([*path, *own])
+        if spec.dirk:
+            constraints += [zero(x, "--dirk") for line in stages[-1] for x in line[i:]]
         mirror = stages[s - i] if s - i < i else None
         if mirror is not None:
             partner = mirror[len(mirror) - extra :]

@@ -5,11 +5,20 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from orderconds.errors import InputError
 from orderconds.families import Family
 from orderconds.solve.ansatz import Ansatz
 from orderconds.solve.coefficients import Cells, eliminated, row_text
 from orderconds.solve.linear import Constraint, Elimination, equal, named
 from orderconds.solve.spec import Spec, refuse
+
+COMPOSED = (
+    "the method composes steps of one symmetric method of order 2, and the step sizes form a palindrome"
+)
+"""The assumption about compositions."""
+
+PALINDROMES = "the step sizes of T form a palindrome, and the step sizes of V form a palindrome"
+"""The assumption about symmetric splittings. There are other symmetric splittings with zero step sizes."""
 
 
 def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
@@ -59,7 +68,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
         elimination.free,
         cells.numbers(order),
         cells.unknown(names),
-        assumptions=("the step sizes form a palindrome",),
+        assumptions=(COMPOSED,),
     )
 
 
@@ -72,6 +81,13 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
     ('a1',)
     """
     refuse(family.label(), spec, ("fsal", "explicit", "dirk", "exponentials", "inner"))
+    if family.label() != family.name:
+        raise InputError(
+            f"methods of family {family.label()!r} cannot be searched",
+            where="solve",
+            expected=f"{family.name} (two parts)",
+        )
+    label = family.solved_as(spec.rkn)
     s = spec.stages
     a, b = ([named(x, i + 1) for i in range(n)] for x, n in (("a", s + 1), ("b", s)))
     constraints = []
@@ -98,10 +114,18 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
         f'name = "{name}"',
         'family = "splitting"',
         'parts = ["T", "V"]',
-        *(['rkn = "V"'] if spec.rkn else []),
+        *(['rkn = "V"'] if label == family.solved_as(nystroem=True) else []),
         "step = [",
         *(f"  {x}," for x in steps),
         "]",
     )
-    label = family.solved_as(spec.rkn)
-    return Ansatz(label, name, structure, body, elimination.free, cells.numbers(order), cells.unknown(order))
+    return Ansatz(
+        label,
+        name,
+        structure,
+        body,
+        elimination.free,
+        cells.numbers(order),
+        cells.unknown(order),
+        assumptions=(PALINDROMES,) if spec.symmetric else (),
+    )

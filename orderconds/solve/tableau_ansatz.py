@@ -10,7 +10,7 @@ from orderconds.families import Family
 from orderconds.solve.abscissae import WHERE, crouch_grossman_times, transport
 from orderconds.solve.ansatz import Ansatz
 from orderconds.solve.coefficients import Cells, eliminated, row_text
-from orderconds.solve.linear import Elimination, equal, named, spell, sum_to_one, zero
+from orderconds.solve.linear import Elimination, divisor, equal, named, spell, sum_to_one, zero
 from orderconds.solve.spec import Spec, refuse
 
 
@@ -90,6 +90,8 @@ def _assumptions(family: Family, spec: Spec) -> tuple[str, ...]:
     assumptions = []
     if spec.symmetric:
         assumptions.append("a_ij + a_(s+1-i)(s+1-j) = b_j for all i and j")
+    if spec.fsal:
+        assumptions.append("a_1j = 0 and a_sj = b_j for all j")
     # Without these options, a stage with the weight zero can be replaced by a stage with a nonzero weight
     # (:func:`orderconds.solve.elimination.infeasible`).
     if family.symplectic and not family.needs_nonzero_weights and (spec.dirk or spec.symmetric or spec.fix):
@@ -113,8 +115,14 @@ def _symplectic(
             mirrored = (last - j, last - i)
             if symmetric and (mirrored == (i, j) or mirrored < (i, j)):
                 continue
-            choices = [(j, i), (i, j)]
-            chosen = next((k for k in choices if A[k[0]][k[1]] in elimination.free), None)
+            # An entry cannot be computed from the other one if a constraint computes the other one from it.
+            choices = [
+                (row, column)
+                for row, column in ((j, i), (i, j))
+                if A[row][column] in elimination.free
+                and A[row][column] not in elimination.cell(A[column][row])
+            ]
+            chosen = choices[0] if choices else None
             if chosen is None and _is_symplectic(elimination, (A[i][j], A[j][i]), (b[i], b[j])):
                 continue
             if chosen is None:
@@ -126,7 +134,7 @@ def _symplectic(
                 )
             row, column = chosen
             weight, other = cells.written(b[column]), cells.written(A[column][row])
-            product = f" - {weight}*{other}/{cells.written(b[row])}" if other != "0" else ""
+            product = f" - {weight}*{other}/{divisor(cells.written(b[row]))}" if other != "0" else ""
             formulas[A[row][column]] = f"{weight}{product}"
     return formulas
 

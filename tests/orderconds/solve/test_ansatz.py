@@ -164,3 +164,34 @@ def test_exponents_may_sum_to_the_gauss_tableau() -> None:
     assert [[text(x) for x in row] for row in total.A] == [
         [gauss.ring.text(x) for x in row] for row in known.A
     ]
+
+
+@pytest.mark.parametrize(
+    ("family", "spec", "message"),
+    [
+        ("splitting(3)", Spec(2), "methods of family 'splitting(3)' cannot be searched"),
+        ("rk", Spec(2, explicit=True, fix=("a21=5",), size=Fraction(1)), "the constraints imply a21 = 5"),
+        ("splitting", Spec(2, fix=("a1=5", "a2=1/2"), size=Fraction(9, 2)), "imply a1 = 5"),
+        ("symplectic_rk", Spec(2, fix=("a12=a21",)), "the constraints determine both a12 and a21"),
+    ],
+)
+def test_a_search_that_makes_no_sense_is_refused(family: str, spec: Spec, message: str) -> None:
+    with pytest.raises(InputError) as refused:
+        ansatz(family, spec)
+    assert message in str(refused.value)
+
+
+def test_explicit_is_stronger_than_diagonally_implicit() -> None:
+    """In an explicit commutator-free method, stage i has no coefficient of stage i."""
+    free = ansatz("cf", Spec(2, explicit=True, dirk=True, inner=1)).free
+    assert [name for name in free if name[0] == "a"] == ["a2_1_1"]
+
+
+def test_a_symmetric_commutator_free_method_may_be_diagonally_implicit() -> None:
+    free = ansatz("cf", Spec(2, symmetric=True, dirk=True), "symmetric").free
+    assert not [name for name in free if name.startswith("a1_") and name.endswith("_2")]
+
+
+def test_a_nystroem_splitting_can_be_searched_by_the_name_of_its_family() -> None:
+    assert 'rkn = "V"' in ansatz("rkn", Spec(2)).body
+    assert 'rkn = "V"' not in ansatz("splitting", Spec(2)).body

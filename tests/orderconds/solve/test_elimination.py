@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+
 import pytest
 import sympy
 
 from orderconds.checking.verdict import check
+from orderconds.ring.laurent import LaurentPolynomials
 from orderconds.ring.polynomials import Polynomials
 from orderconds.solve.elimination import _certificate, _consequence, _nonzero, infeasible
 from orderconds.solve.problem import find_problem
+from orderconds.solve.solver import Order, solve
 from orderconds.solve.spec import Spec
-from orderconds.tableau import Tableau
+from orderconds.tableau import RungeKutta, Tableau
+from orderconds.tableau.method_properties import symplectic
 
 CASES = [
     ("vcg", 3, Spec(2)),
@@ -88,7 +93,27 @@ def test_a_proof_for_symplectic_methods_with_options_assumes_nonzero_weights() -
     [
         ("vcg", 3, Spec(2), "full", ""),
         ("rk", 4, Spec(3, explicit=True), "full", ""),
-        ("composition", 6, Spec(3), "full", "the step sizes form a palindrome"),
+        (
+            "composition",
+            6,
+            Spec(3),
+            "full",
+            "the method composes steps of one symmetric method of order 2, and the step sizes form a palindrome",
+        ),
+        (
+            "splitting",
+            4,
+            Spec(4, symmetric=True, fix=("b1=0",)),
+            "full",
+            "the step sizes of T form a palindrome, and the step sizes of V form a palindrome",
+        ),
+        (
+            "rk",
+            2,
+            Spec(3, fsal=True, fix=("b3=2/5+a11", "a21=a11", "a22=-a11", "a23=0")),
+            "full",
+            "a_1j = 0 and a_sj = b_j for all j",
+        ),
         ("rk", 3, Spec(1, symmetric=True), "full", "a_ij + a_(s+1-i)(s+1-j) = b_j for all i and j"),
         ("symplectic_rk", 3, Spec(2, dirk=True), "full", "all weights b_i are nonzero"),
         (
@@ -96,15 +121,17 @@ def test_a_proof_for_symplectic_methods_with_options_assumes_nonzero_weights() -
             4,
             Spec(2, explicit=True),
             "full",
-            "the numbers of exponentials are at most 2 in the update and n_i in stage i, with n = 0, 2",
+            "the update is y0 multiplied by at most 2 exponentials, and stage i is y0 multiplied by at most n_i "
+            "exponentials, with n = 0, 2",
         ),
         (
             "cf",
             4,
             Spec(2, symmetric=True, exponentials=1),
             "symmetric",
-            "the numbers of exponentials are at most 1 in the update and n_i in stage i, with n = 2, 1; "
-            "stage i begins with k_i exponentials of the update, with k = 1, 0",
+            "the update is y0 multiplied by at most 1 exponentials, and stage i is y0 multiplied by at most n_i "
+            "exponentials, with n = 2, 1; stage i begins with k_i exponentials of the update, with k = 1, 0, and "
+            "the stages i and s+1-i are symmetric to each other",
         ),
     ],
 )
@@ -114,6 +141,46 @@ def test_a_proof_states_what_it_assumes(
     proof = infeasible(find_problem(family, order, spec, structure))
     assert proof is not None
     assert proof.assumptions == ((assumption,) if assumption else ())
+
+
+@pytest.mark.parametrize(
+    ("stages", "fix"),
+    [
+        # Gauss's method, and a method with the weights of Simpson's rule in another order.
+        (2, ("b1=1/2", "b2=1/2")),
+        (3, ("b1=2/3", "a13=5/24", "a21=5/6", "a23=1/12", "a33=1/12")),
+    ],
+)
+def test_a_fixed_weight_is_a_divisor_as_a_whole(stages: int, fix: tuple[str, ...]) -> None:
+    """The formula a_12 = b_2 - b_2 a_21/b_1 needs parentheses if b_1 is a fraction."""
+    problem = find_problem("symplectic_rk", 4, Spec(stages, fix=fix), "full")
+    ring = LaurentPolynomials(problem.ansatz.free)
+    method = problem.ansatz.method(ring.generators, ring)
+    assert isinstance(method, RungeKutta)
+    assert symplectic(method, ring) is True
+    assert infeasible(problem) is None
+    assert solve(Order("symplectic_rk", 4, Spec(stages, fix=fix))).solution is not None
+
+
+def test_an_ansatz_that_is_not_symplectic_proves_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    spec = Spec(2, dirk=True)
+    assert infeasible(find_problem("symplectic_rk", 3, spec, "full")) is not None
+    elimination = import_module("orderconds.solve.elimination")
+    monkeypatch.setattr(elimination, "symplectic", lambda method, ring: None)
+    assert infeasible(find_problem("symplectic_rk", 3, spec, "full")) is None
+
+
+def test_the_abscissae_are_exact_for_fixed_weights() -> None:
+    problem = find_problem("vcg", 3, Spec(3, fix=("b1=1/3", "b2=2/5")), "abscissae")
+    ring = LaurentPolynomials(problem.ansatz.free)
+    method = problem.ansatz.method(ring.generators, ring)
+    assert isinstance(method, RungeKutta)
+    A, b = method.A, method.b
+    m = [sum(b[:i], ring.zero) + b[i] * ring.rational(1, 2) for i in range(3)]
+    for i in range(3):
+        assert ring.is_zero(sum(A[i], ring.zero) - m[i])
+        column = sum((b[k] * A[k][i] for k in range(3)), ring.zero)
+        assert ring.is_zero(column - b[i] * (ring.one - m[i]))
 
 
 def test_a_weight_that_may_be_zero_in_the_equation_is_named_in_the_reason() -> None:
