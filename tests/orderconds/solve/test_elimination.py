@@ -98,7 +98,8 @@ def test_a_proof_for_symplectic_methods_with_options_assumes_nonzero_weights() -
             6,
             Spec(3),
             "full",
-            "the method composes steps of one symmetric method of order 2, and the step sizes form a palindrome",
+            "the method composes steps of one symmetric method of order 2, "
+            "and the step sizes form a palindrome",
         ),
         (
             "splitting",
@@ -121,17 +122,18 @@ def test_a_proof_for_symplectic_methods_with_options_assumes_nonzero_weights() -
             4,
             Spec(2, explicit=True),
             "full",
-            "the update is y0 multiplied by at most 2 exponentials, and stage i is y0 multiplied by at most n_i "
-            "exponentials, with n = 0, 2",
+            "the update is y0 multiplied by at most 2 exponentials, "
+            "and stage i is y0 multiplied by at most n_i exponentials, with n = 0, 2",
         ),
         (
             "cf",
             4,
             Spec(2, symmetric=True, exponentials=1),
             "symmetric",
-            "the update is y0 multiplied by at most 1 exponentials, and stage i is y0 multiplied by at most n_i "
-            "exponentials, with n = 2, 1; stage i begins with k_i exponentials of the update, with k = 1, 0, and "
-            "the stages i and s+1-i are symmetric to each other",
+            "the update is y0 multiplied by at most 1 exponentials, "
+            "and stage i is y0 multiplied by at most n_i exponentials, with n = 2, 1; "
+            "stage i begins with k_i exponentials of the update, with k = 1, 0, "
+            "and the stages i and s+1-i are symmetric to each other",
         ),
     ],
 )
