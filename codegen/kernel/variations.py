@@ -77,15 +77,15 @@ class Variations:
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
         """Return the variation of the state after a step.
 
-        ``state`` contains the coordinates of the state after the step. Each coordinate is a function of the
-        old state. ``rates[k]`` is the derivative of coordinate k in the direction of the variation of the old
-        state.
+        ``state`` contains the coordinates of the state after the step. ``rates`` contains their directional
+        derivatives in the direction of the variation of the old state. For each group element g with the
+        derivative v in ``rates``, the result contains the element xi of the Lie algebra with v = xi.g.
         """
         rates_of_end: list[Expr] = []
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # For a tangent vector v at g, ``rate`` returns the element xi of the Lie algebra with v = xi.g.
+            # The method ``rate`` computes xi from v.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 

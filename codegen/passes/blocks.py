@@ -49,7 +49,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     graph.add_nodes_from(range(len(block.body)))
     for k, assign in enumerate(block.body):
         for arg in assign.args:
-            # For an unknown, ``source`` computes its image (the right-hand side of its equation).
+            # If ``arg`` is an unknown, ``source`` is the assignment of the right-hand side of its equation.
             source = maker.get(image.get(arg, arg))
             if source is not None:
                 graph.add_edge(source, k)

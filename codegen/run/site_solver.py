@@ -71,7 +71,7 @@ class _Stopping(Stopping):
 def loop_of(block: SiteBlock) -> Loop:
     """Return the data that the stopping rule needs about a block of equations."""
     newton = None if block.newton is None else Newton((), (), leading=True)
-    # An empty tuple as third argument would mean a warm start.
+    # The third argument is a nonempty tuple, because an empty tuple would mean a warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
 
 

@@ -240,7 +240,7 @@ class _Controlled:
     def is_sound(self) -> Term:
         """Return the test whether the old state and the new state are finite.
 
-        A NaN in the old state may have no effect on the new state, so both states are tested.
+        The new state can be finite although the old state contains a NaN, so both states are tested.
         """
         return both(all_finite(self.trial), all_finite(self.state))
 

@@ -33,8 +33,8 @@ DIGITS = (DOUBLE, 60)
 class ConvergenceTest:
     """A convergence test of methods on a scene.
 
-    ``equations`` contains the equations of the scene in the variables of ``form``. If ``form`` is None,
-    ``equations`` is ``scene``.
+    ``form`` is the form of the equations that the option ``--form`` selects, or None. ``equations`` is the
+    initial value problem in this form. If ``form`` is None, ``equations`` is ``scene``.
     """
 
     scene: Problem
