@@ -258,9 +258,10 @@ class Carried:
     The conversions are m = ``inward``(q, mu) and mu = ``outward``(q, m), where q is the group element in the
     state. ``first`` is the index of the first momentum component in the state.
 
-    If the steps map (q, m) to (q', m'), the new space momentum is mu' = mu + (outward(q', m') - outward(q, m)).
-    In exact arithmetic, this is outward(q', m'). In floating-point arithmetic, q and q' are slightly
-    non-orthogonal, and the resulting errors nearly cancel in the difference.
+    If the steps map (q, m) to (q', m'), the new space momentum is
+    mu' = mu + (outward(q', m') - outward(q, m)). In exact arithmetic, this is outward(q', m'). In
+    floating-point arithmetic, q and q' are slightly non-orthogonal, and the resulting errors nearly cancel in
+    the difference.
     """
 
     inward: Kernel

@@ -408,9 +408,9 @@ class _Selection:
         """Return the kernel and the choices for a problem on which every solver failed in its first trial.
 
         With at most :data:`LARGE` unknowns, each solver makes a new trial with continuation in h (initial
-        guesses from shorter steps). The fastest solver that converges in this trial is chosen. With more unknowns, or
-        if no solver converges, Newton's method is chosen. If its matrix cannot be computed, fixed-point
-        iteration is chosen.
+        guesses from shorter steps). The fastest solver that converges in this trial is chosen. With more
+        unknowns, or if no solver converges, Newton's method is chosen. If its matrix cannot be computed,
+        fixed-point iteration is chosen.
         """
         kernels = {s: c.kernel for s, c in self.candidates.items()}
         small = unknowns_of(self.fixed) <= LARGE

@@ -32,8 +32,8 @@ class SecondKind(CoordinateMap):
                 f"{group.name} has no adjoint map, but coordinates of the second kind need an adjoint map",
                 where=where,
                 expected="a group with an adjoint map",
-                hint='write coordinates="exp", or derive the class of the group from Coadjoint and define the '
-                "adjoint map there",
+                hint='write coordinates="exp", or derive the class of the group from Coadjoint and define '
+                "the adjoint map there",
             )
 
     def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:
