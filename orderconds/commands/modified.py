@@ -44,10 +44,11 @@ def command(tableau: str, order: int, family: str | None, modifying: bool, as_js
     Each field is an elementary differential of f or a commutator of such differentials.
 
     For the family rk, the tree is a rooted tree. For families of Lie group methods (cg, cf, "rkmk(1)"), the
-    tree is replaced by a Lyndon word. The letters of this word are ordered trees. For these families, f[y] is
-    the derivative of f along the field y. The second derivative f[x y] is the derivative of f[y] along the
-    field x, where the value of y in the Lie algebra is treated as constant (Munthe-Kaas and Wright, Found.
-    Comput. Math. 8 (2008) 227). The commutator is [x, y] = x y - y x.
+    tree is replaced by a Lyndon word. The letters of this word are ordered trees. For these families, a field
+    is a function with values in the Lie algebra, and f[y] is the derivative of f along the field y. The
+    second derivative f[x y] at a point p is the derivative of f[Y] along the field x at p. Here Y is the
+    constant field with the value y(p) (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227). The
+    commutator is [x, y] = x y - y x.
 
     For a symplectic method, the command also prints the modified Hamiltonian H~. The first term of H~ is the
     Hamiltonian H. Each other term is a multiple of a derivative of H, such as H''(f, f). The arguments of

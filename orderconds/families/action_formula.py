@@ -70,9 +70,8 @@ def _momentum_multiplier(tree: Momentum) -> int:
 class ActionFormula(ABC):
     """The base class of objects that write the conditions of action trees as sums over indices.
 
-    The argument ``row`` is the index of a stage, or None for the update. Both sides of each condition are
-    multiplied by an integer that removes denominators (:func:`multiplier`). For example, the condition
-    ``sum_i b_i c_i^2/2 = 1/6`` becomes ``sum_i b_i c_i^2 = 1/3``.
+    Both sides of each condition are multiplied by an integer that removes denominators (:func:`multiplier`).
+    For example, the condition ``sum_i b_i c_i^2/2 = 1/6`` becomes ``sum_i b_i c_i^2 = 1/3``.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import force, velocity

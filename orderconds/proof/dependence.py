@@ -93,10 +93,11 @@ def dependences(
     """Yield the independent and the dependent conditions among ``candidates``.
 
     The conditions are evaluated modulo one prime after another, for random methods that satisfy the formulas
-    ``symbolic``. Modulo some primes, fewer conditions are independent than modulo others. Each object
-    contains the results of those primes used so far that gave the largest set of independent conditions. No
-    object is yielded after a prime whose results are not used, for example because the formulas cannot be
-    evaluated modulo this prime.
+    ``symbolic``. Each object contains the results modulo one or more primes, and replaces all earlier
+    objects. All primes of one object give the same set of independent conditions. If a new prime gives a
+    larger set, the next object contains only the results modulo the new prime. If a new prime gives a smaller
+    set, the new prime is ignored. A prime is also ignored if the formulas cannot be evaluated modulo this
+    prime.
 
     ``candidates`` contains the conditions of each order. ``surd`` is the only radical in the formulas, or
     None.

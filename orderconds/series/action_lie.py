@@ -213,13 +213,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return coefficients of a word with two new letters x and z. The result is a list with one map
-        (:data:`Varied`) for each stage.
-
-        Replace the velocity xi_i of one stage i by xi_i + x, and keep the velocities of all other stages.
-        Then compute the group element exp(X_j) of each stage j, and expand dexpinv_{X_j} z in words (the
-        method :meth:`_terms` defines this series). Entry ``[j][i]`` of the result is the coefficient of the
-        word (``before``, x, ``after``, z, ``behind``) in the expansion."""
+        """Let exp(X_j) be the group element of stage j, and let x and z be new letters. Return a list with
+        one map (:data:`Varied`) for each stage j. Entry ``[j][i]`` is the coefficient of the word
+        (``before``, x, ``after``, z, ``behind``) in the series for dexpinv_{X_j} z, after x has been added to
+        the velocity of stage i. The method :meth:`_terms` defines the series."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -229,13 +226,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return coefficients of a word with two new letters x and z. The result is a list with one map
-        (:data:`Varied`) for each stage.
-
-        Replace the velocity xi_i of one stage i by xi_i + x, and keep the velocities of all other stages.
-        Then compute the group element exp(X_j) of each stage j, and expand dexpinv_{X_j} z in words (the
-        method :meth:`_terms` defines this series). Entry ``[j][i]`` of the result is the coefficient of the
-        word (``first``, z, ``before``, x, ``after``) in the expansion."""
+        """Let exp(X_j) be the group element of stage j, and let x and z be new letters. Return a list with
+        one map (:data:`Varied`) for each stage j. Entry ``[j][i]`` is the coefficient of the word (``first``,
+        z, ``before``, x, ``after``) in the series for dexpinv_{X_j} z, after x has been added to the velocity
+        of stage i. The method :meth:`_terms` defines the series."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

@@ -3,27 +3,31 @@
 The program (:class:`orderconds.series.brackets.BracketProgram`) computes the arguments u_1, ..., u_s of the
 exponentials of the stages and the argument u of the exponential of the step.
 
-Let q_j be the sum of the stage value k_j and fixed multiples of k_1, ..., k_(j-1). The symbols q_1, q_2, ...
-are called letters. The argument u_i contains only the letters q_1, ..., q_(i-1), because it is computed
-before k_i. Choose a number m < i. The letters q_m, ..., q_(i-1) are called new, and the letters q_1, ...,
-q_(m-1) are called old. Let N be the number of brackets with new letters in a program for u_1, ..., u_i.
+The arguments are expressed in the elements q_j = k_j + c_j1 k_1 + ... + c_j(j-1) k_(j-1), where k_j is the
+value of stage j. The module :mod:`orderconds.series.brackets` chooses the numbers c_jn such that the order of
+q_j in the step size is as high as possible. The symbols q_1, q_2, ... are called letters. The argument u_i
+contains only the letters q_1, ..., q_(i-1), because it is computed before k_i. Choose a number m < i. The
+letters q_m, ..., q_(i-1) are called new, and the letters q_1, ..., q_(m-1) are called old. Let N be the
+number of brackets with new letters in a program for u_1, ..., u_i.
 
 If all brackets are expanded by [x, y] = x y - y x, each argument becomes a sum of terms. A term is a product
 of letters, multiplied by a number.
 
-First bound: for each of the arguments u_1, ..., u_i, form the sum of the terms that have at least two letters
-and contain a new letter. Before the expansion, each argument is a linear combination of letters and of
-brackets of the program. Single letters and brackets of old letters contribute nothing to the sums. Therefore
-each of the sums is a linear combination of N vectors, one for each bracket with new letters. Hence N is at
-least the dimension of the space that the sums span.
+First bound: for each argument, form the sum of the terms that have at least two letters and contain a new
+letter. This sum is called the new part of the argument. The new part of a bracket is defined in the same way.
+Before the expansion, each argument is a linear combination of letters and of brackets of the program. The new
+part of a single letter is zero, and the new part of a bracket of old letters is zero. Therefore the new part
+of each argument is a linear combination of the new parts of the N brackets with new letters. Hence N is at
+least the dimension of the space that the new parts of u_1, ..., u_i span.
 
 Second bound: for each argument, form the sum of the terms that have at least two letters and exactly one new
 letter. This sum is called the linear part of the argument. Let ad_q be the operator with ad_q y = [q, y]. To
 obtain the operator ad_(P) for a polynomial P, replace each letter q in P by the operator ad_q. For example,
 let q_1 and q_2 be old letters, and let q_n be a new letter. With the polynomial P = q_2 q_1, ad_(P) q_n is
-the bracket [q_2, [q_1, q_n]]. In general, each linear part is a sum over the new letters q_n. The summand for
-the letter q_n is ad_(P_n) q_n, where P_n is a polynomial in the old letters. Let S be the space that the
-linear parts of u_1, ..., u_i span, and let d be the dimension of S.
+the bracket [q_2, [q_1, q_n]]. Each argument is a linear combination of letters and of (nested) brackets.
+Therefore the linear part of each argument has the form sum_n ad_(P_n) q_n. Here n runs over the indices of
+the new letters, and P_n is a polynomial in the old letters. Let S be the space that the linear parts of u_1,
+..., u_i span, and let d be the dimension of S.
 
 The linear part of a bracket is defined in the same way. The linear part of each argument is a linear
 combination of the linear parts of the N brackets. Hence N is at least d.
@@ -33,12 +37,11 @@ of (nested) brackets of old letters. Let L be the space of all sums sum_n ad_(P_
 in the old letters. If d > 0, and if zero is the only common element of S and L, then N is at least d + 1.
 
 Proof: all brackets that are computed before the first of the N brackets contain only old letters. Therefore
-both factors of the first of the N brackets are sums of letters and of Lie elements in the old letters. This
-bracket has the form [a + A, b + B], where a and b are linear combinations of new letters, and A and B are Lie
-elements in the old letters. The linear part of this bracket is [A, b] - [B, a], which is an element of L.
-Assume N = d. The linear parts of the N brackets span a space of dimension at most d that contains S. Hence
-this space is S, and the linear parts are a basis of S. Then the linear part of the first bracket is a nonzero
-element of S and of L, a contradiction.
+the first of the N brackets has the form [a + A, b + B], where a and b are linear combinations of new letters,
+and A and B are Lie elements in the old letters. The linear part of this bracket is [A, b] - [B, a], which is
+an element of L. Assume N = d. The linear parts of the N brackets span a space of dimension at most d that
+contains S. Hence this space is S, and the linear parts are a basis of S. Then the linear part of the first
+bracket is a nonzero element of S and of L, a contradiction.
 
 The new letters are computed after u_1, ..., u_m, because the stage value k_m depends on u_m. Therefore the
 brackets in u_1, ..., u_m contain only old letters, and are not among the N brackets. Add a lower bound for

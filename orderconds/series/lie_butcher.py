@@ -129,8 +129,8 @@ class ExponentialsSeries:
         p is the coefficient of the word in P_p. All other entries are zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # If the last tree, the last two trees, ... are removed from ``word``, shorter words remain. For each
-        # of these words, ``heads`` contains a list of the coefficients in the products P_0, P_1, ....
+        # ``heads[r - 1][p]`` is the coefficient of a shorter word in the product of exponentials with the
+        # index p. The shorter word is ``word`` without its last r trees.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]

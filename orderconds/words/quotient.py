@@ -37,8 +37,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Each functional begins with the word of a column that is a linear combination of the columns to its
-        # left. The Lyndon words are last, so that many of these columns belong to Lyndon words.
+        # The word in the first pair of a functional should be a Lyndon word. For the first pair, ``_kernel``
+        # prefers words at the end of ``columns``. Therefore the Lyndon words are last in ``columns``.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)

@@ -227,9 +227,10 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # FRAMES is valid for a step that calls the kernel and does not use Newton's method. With Newton's method,
-    # the additional call of ``invert`` needs about FRAMES // 2 bytes. If the kernel is inlined in the loop
-    # over the steps (``is_looped``), the missing call of the kernel saves about FRAMES // 2 bytes.
+    # Without Newton's method, the function calls in a step need at most FRAMES bytes of the stack. The call
+    # of the kernel needs about half of these bytes. If the kernel is inlined in the loop over the steps
+    # (``is_looped``), this half is not needed. With Newton's method, the call of ``invert`` needs about
+    # FRAMES // 2 additional bytes.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
