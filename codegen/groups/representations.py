@@ -186,10 +186,7 @@ class AlgebraVectors(Representation):
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Apply ``word``, a product of functions of ad_x, to v.
-
-        The method evaluates the group's formula for ``word`` with dual numbers (see the class).
-        """
+        """Apply ``word``, a product of functions of ad_x, to v."""
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
         return tuple(a.real for a in result), tuple(a.rate for a in result)
@@ -197,13 +194,11 @@ class AlgebraVectors(Representation):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Apply ``word``, a product of functions of ad*_x, to p.
-
-        The method evaluates the group's formula for ``word`` with dual numbers a + b e, where e^2 = 0. The
-        pair x = (y, v) becomes the vector y + v e, whose real part is y. The pair p = (m, q) becomes the
-        vector q + m e, whose real part is q.
-        """
+        """Apply ``word``, a product of functions of ad*_x, to p."""
         closed = group.require(ClosedFormSeries)
+        # The vectors y + v e and q + m e with e^2 = 0 represent x = (y, v) and p = (m, q). The order of m and
+        # q is reversed, because the pairing <m, y> + <q, v> of p and x must be the coefficient of e in the
+        # dot product of the two vectors.
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
         return tuple(a.rate for a in result), tuple(a.real for a in result)
 

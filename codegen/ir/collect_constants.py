@@ -90,10 +90,11 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # A power that is used only to compute other powers is ignored here.
+    # Let y be 1/sqrt x. ``read`` contains the pair (node number of y, n) if a multiple of y^n is one of the
+    # ``roots``, or an argument of an expression that is not a multiple of a power of y.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # ``read`` contains a pair (node number of y, n) for each power y^n that is not ignored. If n is 1 or an
-    # even number in one of the pairs for y, no power of this y is rewritten as a quotient.
+    # ``bases`` contains the node number of y if ``read`` contains a pair for y in which n is 1 or even. No
+    # power of such a y is rewritten as a quotient.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 

@@ -76,10 +76,10 @@ class BilinearFunction(VectorFunction):
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return zeros, the entries of f(a, b), if the matrix a or b is zero. Otherwise return None.
+        """Simplify f(a, b), where f is this function and ``args`` are the entries of the matrices a and b.
 
-        The object ``self`` represents the bilinear function f. ``args`` are the entries of a and b. If the
-        result is None, emitted code must call f.
+        If a or b is zero, the result is a tuple of n^2 zeros, because f(a, b) is the zero matrix. Otherwise
+        the result is None, and emitted code must call f.
         """
         # A bilinear function is zero if one of its arguments is zero.
         if all(x.is_zero for x in args[: self.size]) or all(x.is_zero for x in args[self.size :]):

@@ -70,9 +70,10 @@ class Sweep:
       belongs to the load ``read_outside[k]``.
     - ``axis`` is :data:`OWN` if the sweep visits single sites. If the sweep visits pairs of neighbouring
       sites, ``axis`` is the index of the lattice axis along which the two sites are neighbours. In a sweep
-      over pairs, a load reads a number of the first site if its ``neighbour`` is :data:`OWN`, and a number of
-      the second site if its ``neighbour`` is 0. The first half of ``stores`` contains the rows for the first
-      site. The second half contains the rows for the second site.
+      over pairs, loads with ``neighbour`` = :data:`OWN` read numbers of the first site, and loads with
+      ``neighbour`` = 0 read numbers of the second site. For pairs, the number 0 does not refer to
+      :attr:`SiteStep.offsets`. The first half of ``stores`` contains the rows for the first site. The second
+      half contains the rows for the second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
       values g(u). In fixed-point iteration, the sweep stores g(u). In Newton's method, the sweep stores
       the difference g(u) - u.

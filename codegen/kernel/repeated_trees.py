@@ -182,9 +182,9 @@ class Trees:
             return 0
         i, j = places[0]
         # ``count[first]`` is the number of trees with the key ``first``. If this number exceeds ``k``, at
-        # least one of these trees is not joined and still needs its own function. The lines of this function
-        # are then emitted twice: in this function, and in the function for the joined trees. The same is true
-        # for ``second``.
+        # least one of these trees is not joined. The lines of code for a tree with this key are then emitted
+        # twice: in a function for the trees that are not joined, and in the function for the joined trees.
+        # The same is true for ``second``.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # Each of the ``k`` pairs needs one function call in place of two. This saves about three lines.
         return k * 3 - copies

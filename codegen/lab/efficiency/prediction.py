@@ -182,15 +182,16 @@ class Bar:
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
         """Return True if the limits exclude a method of the given family.
 
-        A method is excluded in three cases:
+        The argument ``explicit`` is True for an explicit method. This object contains limits for methods of
+        one order p. A method is excluded in three cases:
 
         - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
-        - ``self.explicit`` is True, and the argument ``explicit`` is False.
-        - Even methods of higher order are too inaccurate: the least predicted error of these methods exceeds
-          :data:`FAR` times ``self.error``. ``self.least`` contains the least predicted errors for each
-          family, separately for explicit and implicit methods. If there is no entry for ``family`` and
-          ``explicit``, the entry for all families and ``explicit`` is used. If that entry is missing, too,
-          this case does not apply.
+        - The method is implicit, and ``self.explicit`` is True.
+        - ``self.least`` contains a triple (``family``, ``explicit``, e), and e exceeds :data:`FAR` times
+          ``self.error``. Here e is the least error that is predicted for methods of the orders p + 1 and
+          p + 2 with the CPU time ``self.seconds``. If ``self.least`` contains no triple that begins with
+          ``family`` and ``explicit``, the triple ('', ``explicit``, e) for all families is used. If that
+          triple is missing, too, this case does not apply.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -218,8 +219,9 @@ class Predictor:
 
     - ``equations``: the equations of the scene in certain coordinates, for example with unit quaternions.
     - ``exact``: the reference solution.
-    - ``beginning``: None, or a function that returns a pair for the first of :data:`PARTS` equal intervals of
-      the time span: the equations on this interval, and the reference solution at the end of this interval.
+    - ``beginning``: None, or a function that returns the pair (equations, reference solution) for the first
+      part of the time span. The length of this part is 1/:data:`PARTS` of the length of the time span. The
+      reference solution is the state at the end of this part.
     - ``failures``: for each kind of method, a count of the methods that failed in runs with a constant step
       size. If a method of a kind succeeds, the count for this kind is set to zero.
     - ``uncontrolled``: for each kind of method, a count of the methods that reached no small error

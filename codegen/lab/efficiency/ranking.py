@@ -52,11 +52,15 @@ def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     """Return the CPU time in seconds that a candidate needs to reach ``error``, or None if no run reaches it.
 
-    The runs are sorted from coarse to fine. Runs after the most accurate run are not used. The time is
-    interpolated between two runs a and b: a is the last run whose error is above ``error``, and b is the run
-    after a. The interpolation is linear in the logarithms of time and error. Run b and the runs after b
-    reach ``error``, too. If the fastest of these runs takes less than the interpolated time, the result is
-    the time of this run. Otherwise the result is the interpolated time.
+    The runs must be sorted from coarse to fine. Runs after the most accurate run are not used. Let a be the
+    last run whose error is above ``error``, and let b be the run after a. The result is the smaller of two
+    times:
+
+    - the time that is interpolated between a and b, linearly in the logarithms of time and error;
+    - the least CPU time of b and of all runs after b.
+
+    If the error of b is 0, its logarithm does not exist, and the result is the second time. If the errors of
+    all runs are at most ``error``, the result is the least CPU time of all runs.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)

@@ -195,7 +195,7 @@ class Refused:
         raise InputError(self.reason)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Always return True, because a method that cannot be emitted needs no run."""
+        """Return True: no run is needed, because this object represents a method that cannot be emitted."""
         return True
 
 
