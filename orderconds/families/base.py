@@ -343,9 +343,11 @@ class Family(ABC):
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return a condition of the given order that contradicts other conditions of at most this order.
+        """Return the condition of the given order that is the first to fail if the order of all methods of
+        the family is bounded.
 
-        No method of the family satisfies all these conditions. Return None if no such condition is known.
+        Let p be the highest order of methods of the family. For ``order`` = p + 1, the condition contradicts
+        other conditions. Return None if no such condition is known.
         """
         return None
 

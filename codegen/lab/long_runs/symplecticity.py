@@ -40,10 +40,11 @@ LEFT = 0.5
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
-    """Return the largest symplectic defect of three steps of size ``h``.
+    """Return the largest symplectic defect of at most three steps of size ``h``.
 
     The trajectory is used only up to the first large deviation of a conserved quantity (:data:`LEFT`). In
     this part, the steps start at the first sample, the middle sample, and the sample with the fastest motion.
+    Two of these samples may be the same.
     Raises ArithmeticError or ValueError if a step cannot be computed with 40 digits.
     """
     defects = [

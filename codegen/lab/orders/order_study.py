@@ -36,7 +36,8 @@ class OrderStudy:
     - ``order``: the order from the order conditions.
     - ``convergences``: for each target (programming language), the runs with different step sizes.
     - ``times``: the CPU times of runs with the default target.
-    - ``spread``: the largest difference between the final states of the targets (:func:`largest_difference`).
+    - ``spread``: the largest difference between the final states of the targets and the interpreter
+      (:func:`largest_difference`).
       All compared runs have the same number n of steps, and n is at least :data:`COMPARED`. If no number n is
       found with which all runs succeed, ``spread`` is None.
     - ``artifact``: the emitted files for the default target.
