@@ -81,7 +81,8 @@ if TYPE_CHECKING:
     type=click.IntRange(*EXPONENTIALS),
     default=2,
     show_default=True,
-    help="For the families cf and vcf: the number of exponentials in each stage.",
+    help="For the families cf and vcf: the number of exponentials in each stage. With --symmetric, a stage "
+    "can have more exponentials.",
 )
 @click.option(
     "--rkn",
@@ -247,7 +248,7 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
     elif outcome.solution is None:
         click.echo(
             f"orderconds: no {order.family} method of order {order.order} with {_stages(order)} was "
-            f"found; the least residual norm is {outcome.best:.3g}",
+            f"found and proved; the least residual norm is {outcome.best:.3g}",
             err=True,
         )
         for line in outcome.tried:
@@ -269,10 +270,13 @@ def _stages(order: Order) -> str:
 def _print_proof(order: Order, proof: Infeasible) -> None:
     options = order.restrictions()
     restricted = f" and the options {options}" if options else ""
-    assumed = f", if {' and '.join(proof.assumptions)}" if proof.assumptions else ""
-    click.echo(
-        f"no {order.family} method with {_stages(order)}{restricted} has order {order.order}{assumed}:"
-    )
+    assumed = " and the following properties" if proof.assumptions else ""
+    methods = f"{order.family} method with {_stages(order)}{restricted}{assumed}"
+    click.echo(f"no {methods} has order {order.order}:")
+    for assumption in proof.assumptions:
+        click.echo(f"  - {assumption}")
+    if proof.assumptions:
+        click.echo("proof:")
     for condition, equation, multiplier in zip(
         proof.conditions, proof.equations, proof.multipliers, strict=True
     ):

@@ -61,6 +61,7 @@ class Elimination:
         earlier constraints.
         """
         rank = {name: place for place, name in enumerate(self.names)}
+        earlier: list[str] = []
         for constraint in constraints:
             form = self._reduced(constraint.form)
             unknown = [name for name in form if name]
@@ -69,9 +70,10 @@ class Elimination:
                     raise InputError(
                         f"the constraint {constraint.text} contradicts the other constraints",
                         where="constraints",
-                        expected="constraints that some tableau satisfies",
+                        expected=f"a constraint that agrees with {', '.join(dict.fromkeys(earlier))}",
                     )
                 continue
+            earlier.append(constraint.text)
             pivot = max(unknown, key=rank.__getitem__)
             scale = -1 / form.pop(pivot)
             row = {name: scale * x for name, x in form.items()}

@@ -15,6 +15,14 @@ from orderconds.solve.paths import Path, full_paths, symmetric_paths
 from orderconds.solve.spec import Spec, refuse
 from orderconds.solve.tableau_ansatz import tableau_structures
 
+MIRRORED = (
+    "exponential m+1-J of the update is exponential J with its coefficients in reverse order; "
+    "further exponential r of stage s+1-i is minus further exponential r of stage i with its coefficients in "
+    "reverse order; for odd m and s, the middle stage also contains half of the middle exponential of the "
+    "update"
+)
+"""The assumptions about symmetric methods (:mod:`orderconds.solve.paths`)."""
+
 
 def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
     """Return the names of the parametrisations that a search for commutator-free methods tries, in order of
@@ -92,10 +100,7 @@ exponentials, with n = 0, 2'
     if not symmetric:
         return numbers
     begins = ", ".join(map(str, shared))
-    return (
-        f"{numbers}; stage i begins with k_i exponentials of the update, with k = {begins}, and "
-        "the stages i and s+1-i are symmetric to each other"
-    )
+    return f"{numbers}; stage i begins with k_i exponentials of the update, with k = {begins}; {MIRRORED}"
 
 
 def _abscissae(

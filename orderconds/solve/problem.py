@@ -133,7 +133,11 @@ class Problem:
             else:
                 places = [k for k, name in enumerate(names) if name == wish]
             if not places:
-                raise InputError(f"{wish!r}", where="--positive", expected=f"b, or one of {', '.join(names)}")
+                raise InputError(
+                    f"{wish!r}",
+                    where="--positive",
+                    expected=f"b, or a coefficient that is not constant: {', '.join(names)}",
+                )
             indices += places
         return tuple(indices)
 

@@ -45,7 +45,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     gamma = [named("g", i + 1) for i in range(s)]
     total = Constraint("the step sizes add up to 1", {**dict.fromkeys(gamma, Fraction(1)), "": Fraction(-1)})
     mirrored = [
-        equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
+        equal("step sizes that form a palindrome", (1, gamma[s - 1 - i]), (-1, gamma[i]))
+        for i in range(s // 2)
     ]
     # The step sizes in the middle come last.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))

@@ -181,7 +181,7 @@ def _finished(
     for _, point in solutions[:8]:
         try:
             return certify_solution(problem, point, order.name, source, minimised=order.minimised), refused
-        # ZeroWeight: a formula of the family divides by a weight b_i that is zero at this solution.
-        except (NotProved, ZeroWeight) as problem_met:
+        # A formula of the family may divide by a weight or another number that is zero at this solution.
+        except (NotProved, ZeroWeight, ZeroDivisionError) as problem_met:
             refused = str(problem_met)
     return None, refused

@@ -53,7 +53,8 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
         constraints += [zero(A[0][j], "--fsal") for j in range(s)]
     if family.symplectic:
         refuse(family.label(), spec, ("explicit", "fsal"))
-        constraints += [equal("symplecticity", (2, A[i][i]), (-1, b[i])) for i in range(s)]
+        why = "symplecticity with nonzero weights"  # It implies 2 a_ii b_i = b_i^2.
+        constraints += [equal(why, (2, A[i][i]), (-1, b[i])) for i in range(s)]
     if structure == "abscissae":
         constraints.append(sum_to_one(b))
     nodes = {named("c", i + 1): line for i, line in enumerate(A)}
@@ -107,7 +108,16 @@ def _symplectic(
 
     For a symmetric method with s stages, the equations for (i, j) and for (s + 1 - j, s + 1 - i) are
     equivalent. The equation for (i, s + 1 - i) follows from the symmetry.
+
+    Raises InputError if the constraints imply b_i = 0 for a weight, or determine both a_ij and a_ji.
     """
+    for weight in b:
+        if not elimination.cell(weight):
+            raise InputError(
+                f"the constraints imply {weight} = 0",
+                where="constraints",
+                expected="nonzero weights, because symplectic methods do not use a stage with the weight 0",
+            )
     cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
     for j in range(len(b)):

@@ -195,3 +195,17 @@ def test_a_symmetric_commutator_free_method_may_be_diagonally_implicit() -> None
 def test_a_nystroem_splitting_can_be_searched_by_the_name_of_its_family() -> None:
     assert 'rkn = "V"' in ansatz("rkn", Spec(2)).body
     assert 'rkn = "V"' not in ansatz("splitting", Spec(2)).body
+
+
+@pytest.mark.parametrize(
+    ("family", "spec", "expected"),
+    [
+        ("symplectic_rk", Spec(2, fix=("a11=0", "b1=1/2")), "symplecticity with nonzero weights"),
+        ("composition", Spec(3, fix=("g1=1/3", "g3=1/2")), "step sizes that form a palindrome"),
+        ("symplectic_rk", Spec(2, fix=("b2=0",)), "nonzero weights"),
+    ],
+)
+def test_a_contradiction_names_the_assumptions(family: str, spec: Spec, expected: str) -> None:
+    with pytest.raises(InputError) as refused:
+        ansatz(family, spec)
+    assert expected in str(refused.value)

@@ -11,6 +11,7 @@ from orderconds.checking.verdict import check
 from orderconds.ring.laurent import LaurentPolynomials
 from orderconds.ring.polynomials import Polynomials
 from orderconds.solve.elimination import _certificate, _consequence, _nonzero, infeasible
+from orderconds.solve.path_ansatz import MIRRORED
 from orderconds.solve.problem import find_problem
 from orderconds.solve.solver import Order, solve
 from orderconds.solve.spec import Spec
@@ -132,8 +133,7 @@ def test_a_proof_for_symplectic_methods_with_options_assumes_nonzero_weights() -
             "symmetric",
             "the update is y0 multiplied by at most 1 exponentials, "
             "and stage i is y0 multiplied by at most n_i exponentials, with n = 2, 1; "
-            "stage i begins with k_i exponentials of the update, with k = 1, 0, "
-            "and the stages i and s+1-i are symmetric to each other",
+            f"stage i begins with k_i exponentials of the update, with k = 1, 0; {MIRRORED}",
         ),
     ],
 )
