@@ -10,6 +10,7 @@ from os import PathLike
 
 from orderconds.argument import DIGITS, integer
 from orderconds.checking.exact_forms import exact_forms
+from orderconds.checking.refuted import refuted_claims
 from orderconds.proof import refine as newton
 from orderconds.proof.certificate import Certificate, certify
 from orderconds.proof.krawczyk import NotProved
@@ -54,8 +55,8 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
     - Without this table, each double or rounded decimal becomes a fraction or a number p + q sqrt(d) with
       rational p and q. The exact method has at least the order of the given method.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` in two cases: the equations are not proved to have a
-    solution near the given decimals, or no exact numbers are found.
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` in three cases: the equations are not proved to have
+    a solution near the given decimals, no exact numbers are found, or a claim of the tableau is wrong.
 
     >>> refine("cg4a", digits=30)
     <refined Tableau('cg4a', rk, 5 stages): 13 decimals within 4.88e-31>
@@ -70,8 +71,17 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
             raise NotProved(
                 "found no exact numbers that agree with the coefficients and preserve the order of the method"
             )
+        _require_claims(forms.tableau)
         return Refinement(forms.tableau, {}, exact=forms.texts)
     where = given.path or given.name
     refined = newton.refine(dumps(given), where, digits)
     sharper = Tableau.loads(refined.text, where)
-    return Refinement(sharper, refined.decimals, refined.pinned, certify(sharper))
+    proof = certify(sharper)
+    _require_claims(sharper)
+    return Refinement(sharper, refined.decimals, refined.pinned, proof)
+
+
+def _require_claims(tableau: Tableau) -> None:
+    """Raise NotProved if the new coefficients refute a claim of the tableau."""
+    if refuted := refuted_claims(tableau):
+        raise NotProved(f"a claim of the tableau is wrong: {'; '.join(refuted)}; correct the claim")

@@ -8,7 +8,7 @@ import click
 
 from orderconds.argument import CONSTRUCTED_STAGES
 from orderconds.commands import screen
-from orderconds.commands.place import FILE, put
+from orderconds.commands.tableau_output import output_format, put_tableau, tableau_output
 
 
 @click.command(name="construct")
@@ -16,7 +16,7 @@ from orderconds.commands.place import FILE, put
 @click.option(
     "--stages", "-s", type=click.IntRange(*CONSTRUCTED_STAGES), required=True, help="The number of stages."
 )
-@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
+@tableau_output
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(kind: str, stages: int, output: str | None, as_json: bool) -> int:
     """Write the tableau of a method of the given KIND, with exact coefficients. KIND is gauss, radau1a,
@@ -27,14 +27,17 @@ def command(kind: str, stages: int, output: str | None, as_json: bool) -> int:
         orderconds construct gauss --stages 3
         orderconds construct lobatto3d --stages 4 -o mine.toml
     """
-    from orderconds.tableau import dumps
     from orderconds.tableau.collocation import KINDS, construct
+    from orderconds.tableau.toml_text import toml_text
+    from orderconds.tableau.write import as_data
 
+    to = output_format(output)
     tableau = construct(kind, stages)
     name = f"{KINDS[kind].called}, {stages} {'stage' if stages == 1 else 'stages'}"
-    text = dumps(replace(tableau, source=f"{name}: orderconds construct {kind} --stages {stages}"))
+    data = as_data(replace(tableau, source=f"{name}: orderconds construct {kind} --stages {stages}"))
+    text = toml_text(data)
     if output is not None:
-        put(output, text.encode())
+        put_tableau(output, to, data, text)
     if as_json:
         record = {"name": tableau.name, "kind": kind, "stages": stages, "order": KINDS[kind].order(stages)}
         screen.print_json({**record, "tableau": text})

@@ -80,6 +80,8 @@ def command(
         raise click.UsageError("--explicit has no effect without --stages; give --stages S too")
     if as_json and form not in (None, "json"):
         raise click.UsageError(f"--json and --format {form} select two output formats; omit one of them")
+    if explain and form == "sympy":
+        raise click.UsageError("--explain has no effect with --format sympy; omit one of them")
     with screen.working(f"deriving {family} to order {order}"):
         derivation = derive(family, order, stages, explicit=explicit, every=every)
     chosen = "json" if as_json else form or "text"

@@ -6,7 +6,8 @@ from __future__ import annotations
 import click
 
 from orderconds.commands import screen
-from orderconds.commands.place import FILE, put
+from orderconds.commands.tableau_output import output_format, put_tableau, tableau_output
+from orderconds.errors import InputError
 
 
 @click.command(name="extend")
@@ -17,7 +18,7 @@ from orderconds.commands.place import FILE, put
     type=click.IntRange(1, 12),
     help="The order of the extension.  [default: the highest order for which an extension exists]",
 )
-@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
+@tableau_output
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(tableau: str, order: int | None, output: str | None, as_json: bool) -> int:
     """Add a continuous extension to TABLEAU and write the result. TABLEAU is a file, or the name of a tableau
@@ -26,19 +27,32 @@ def command(tableau: str, order: int | None, output: str | None, as_json: bool) 
     The extension gives the solution at each time t + theta h inside a step from t to t + h. The weights
     b_i(theta) of the extension are polynomials. The order of the extension is proved.
 
+    Only TOML and JSON files can contain an extension, so FILE must have the suffix .toml or .json.
+
     \b
     Examples:
         orderconds extend rk4
         orderconds extend mine.toml --order 3 -o mine.toml
     """
     from orderconds.checking import check
+    from orderconds.exchange import can_contain
     from orderconds.solve.extension import extended
-    from orderconds.tableau import Tableau, dumps
+    from orderconds.tableau import Tableau
+    from orderconds.tableau.toml_text import toml_text
+    from orderconds.tableau.write import as_data
 
+    to = output_format(output)
+    if not can_contain("dense", to):
+        raise InputError(
+            f"the format {to} cannot contain a continuous extension",
+            where=f"--output {output}",
+            expected="a file with the suffix .toml or .json",
+        )
     extension = extended(Tableau.load(tableau), order)
-    text = dumps(extension)
+    data = as_data(extension)
+    text = toml_text(data)
     if output is not None:
-        put(output, text.encode())
+        put_tableau(output, to, data, text)
     if as_json:
         dense = check(extension).dense
         assert dense is not None

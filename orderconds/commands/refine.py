@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import click
 
 from orderconds.argument import DIGITS
 from orderconds.commands import screen
-from orderconds.commands.place import FILE, put
+from orderconds.commands.tableau_output import output_format, put_tableau, tableau_output
 from orderconds.tableau import Tableau, dumps
 
 UNKNOWN = (
@@ -24,7 +26,7 @@ UNKNOWN = (
     show_default=True,
     help="The number of decimal places of the new coefficients.",
 )
-@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
+@tableau_output
 @click.option(
     "--json",
     "as_json",
@@ -40,11 +42,16 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     [proof] table of the new file contains the names of these decimals.
 
     If FILE has no [proof] table, replace binary floats and rounded decimals by nearby fractions or numbers
-    p + q sqrt(d), where p, q and d are rational. The order of the method does not change. The suffix of
-    the output file determines the format. The format on stdout is TOML.
+    p + q sqrt(d), where p, q and d are rational. The order of the method does not change.
 
-    Exits with 0 if new coefficients were found. Exits with 1 if no new coefficients were found, or if the
-    proof failed. Exits with 2 if the file cannot be read.
+    The format on stdout is TOML. Only TOML and JSON files can contain the proof and the continuous extension.
+    For other formats, the command prints a note about each omitted key.
+
+    The new file contains the claims of FILE. The command tests them with the new coefficients. If a claim
+    is wrong, the command writes nothing.
+
+    Exits with 0 if new coefficients were found. Exits with 1 if no new coefficients were found, if the
+    proof failed, or if a claim is wrong. Exits with 2 if the file cannot be read.
 
     \b
     Examples:
@@ -53,26 +60,29 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """
     from orderconds.checking import read
 
+    to = output_format(output)
     tableau = read(file)
     if tableau.proof is None:
-        return _exact(tableau, output, as_json)
+        return _exact(tableau, output, to, as_json)
+    from orderconds.checking.refuted import refuted_claims
     from orderconds.proof.certificate import certify
     from orderconds.proof.krawczyk import NotProved
     from orderconds.proof.refine import refine
-    from orderconds.tableau.file import text_of
+    from orderconds.tableau.file import parsed, text_of
 
     text = text_of(file) if file.endswith(".toml") else dumps(tableau)
     try:
         with screen.working(f"refining {file}"):
             refined = refine(text, file, digits)
-            proof = certify(Tableau.loads(refined.text, file))
+            new = Tableau.loads(refined.text, file)
+            proof = certify(new)
+            refuted = refuted_claims(new)
     except NotProved as problem:
-        click.echo(f"orderconds: {file}: no proof: {problem}", err=True)
-        if as_json:
-            screen.print_json({"decimals": {}, "proof": None, "reason": str(problem)})
-        return 1
+        return _failed(file, f"no proof: {problem}", "decimals", as_json, str(problem))
+    if refuted:
+        return _failed(file, _wrong(refuted), "decimals", as_json)
     if output is not None:
-        put(output, refined.text.encode())
+        put_tableau(output, to, parsed(refined.text, file), refined.text)
     if as_json:
         screen.print_json({"decimals": refined.decimals, "proof": proof.as_json()})
     elif output is None:
@@ -81,25 +91,42 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     return 0
 
 
-def _exact(tableau: Tableau, output: str | None, as_json: bool) -> int:
+def _exact(tableau: Tableau, output: str | None, to: str, as_json: bool) -> int:
     """Write the tableau with exact coefficients, and return the exit status."""
     from orderconds.checking.exact_forms import exact_forms
-    from orderconds.exchange import export, format_of
+    from orderconds.checking.refuted import refuted_claims
+    from orderconds.exchange import export
 
     with screen.working(f"refining {tableau.path}"):
         forms = exact_forms(tableau)
+        refuted = () if forms is None else refuted_claims(forms.tableau)
     if forms is None:
         exact = tableau.file is not None and not tableau.file.symbolic.decimals()
         reason = "all coefficients are exact already" if exact else UNKNOWN
-        click.echo(f"orderconds: {tableau.path}: {reason}", err=True)
-        if as_json:
-            screen.print_json({"exact": {}, "proof": None, "reason": reason})
-        return 1
-    content = export(forms.data, "toml" if output is None else format_of(output))
+        return _failed(str(tableau.path), reason, "exact", as_json)
+    if refuted:
+        return _failed(str(tableau.path), _wrong(refuted), "exact", as_json)
     if output is not None:
-        put(output, content)
+        put_tableau(output, to, forms.data)
     if as_json:
         screen.print_json({"exact": forms.texts, "proof": None})
     elif output is None:
-        click.echo(content, nl=False)
+        click.echo(export(forms.data, "toml"), nl=False)
     return 0
+
+
+def _wrong(refuted: Sequence[str]) -> str:
+    """Return the reason not to write a tableau with wrong claims."""
+    return f"a claim of the file is wrong: {'; '.join(refuted)}; correct the claim and repeat the command"
+
+
+def _failed(file: str, message: str, key: str, as_json: bool, reason: str | None = None) -> int:
+    """Print why there are no new coefficients, and return the exit status 1.
+
+    ``key`` is the key of the new coefficients in the JSON record. The record contains ``reason``. By default,
+    this is ``message``.
+    """
+    click.echo(f"orderconds: {file}: {message}", err=True)
+    if as_json:
+        screen.print_json({key: {}, "proof": None, "reason": reason or message})
+    return 1

@@ -14,6 +14,7 @@ from orderconds.argument import EXPONENTIALS, PROCESSES, SEED, SOLVED_ORDER, SOL
 from orderconds.commands import screen
 from orderconds.commands.names import completing, family_names
 from orderconds.commands.place import FILE, put
+from orderconds.commands.tableau_output import output_format, put_tableau, tableau_output
 from orderconds.errors import InputError
 
 if TYPE_CHECKING:
@@ -115,7 +116,7 @@ if TYPE_CHECKING:
     help="Run the search on the dask cluster with the scheduler at tcp://host:port.",
 )
 @click.option("--name", default="found", show_default=True, help="The name of the new tableau.")
-@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
+@tableau_output
 @click.option(
     "--checkpoint",
     type=FILE,
@@ -133,6 +134,9 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     If a search is interrupted, repeat the command to continue the search from the file of
     --checkpoint.
 
+    The format on stdout is TOML. Only TOML and JSON files can contain the proof. For other formats, the
+    command prints a note that the output does not contain the key proof.
+
     \b
     Examples:
         orderconds solve rk --stages 3 --order 3 --explicit --fix c2=1/2 --fix c3=1
@@ -143,6 +147,7 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
         os.environ[f"{library}_NUM_THREADS"] = "1"
     from orderconds.solve.solver import solve
 
+    to = _format(family, output)
     order = _order(family, output, options)
     try:
         with screen.working(f"searching {family}") as report:
@@ -156,12 +161,48 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
             )
         raise
     if outcome.solution is not None and output is not None:
-        put(output, outcome.solution.text.encode())
+        _put(output, to, outcome.solution.text)
     if as_json:
         screen.print_json(_record(order, outcome, output))
     else:
         _print(order, outcome, output)
     return 0 if outcome.solution is not None else 1
+
+
+def _format(family: str, output: str | None) -> str:
+    """Return the format of the output file.
+
+    Raise InputError before the search if the format cannot represent a method of the family.
+    """
+    from orderconds import families
+    from orderconds.exchange import COMPLETE
+    from orderconds.tableau.formats import FORMATS
+
+    to = output_format(output)
+    if to not in COMPLETE and not any(FORMATS[name].in_arrays for name in families.get(family).formats):
+        raise InputError(
+            f"the format {to} cannot represent methods of the family {family}",
+            where=f"--output {output}",
+            expected="a file with the suffix .toml or .json",
+        )
+    return to
+
+
+def _put(output: str, to: str, text: str) -> None:
+    """Write the tableau with the TOML text ``text`` to the output file.
+
+    If the format ``to`` cannot represent the tableau, write a TOML file, because a search may take hours.
+    Then raise InputError.
+    """
+    from orderconds.tableau.file import parsed
+
+    try:
+        put_tableau(output, to, parsed(text, output), text)
+    except InputError as problem:
+        if to != "toml":
+            put(f"{output}.toml", text.encode())
+            problem.hint = f"the method was written to the file {output}.toml"
+        raise
 
 
 def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:

@@ -79,8 +79,7 @@ def command(
     from orderconds.explain.enumeration import trees
 
     chosen = kinds.get(kind)
-    if count and (draw or (explain and svg is None)):
-        raise click.UsageError("--count prints only a number; omit --draw and --explain")
+    _refuse_idle_options(count, draw, explain, plain, svg, as_json)
     if not count or svg is not None:
         members = trees(kind, order)  # Raises an error for an order with too many trees.
     if svg is not None:
@@ -93,6 +92,19 @@ def command(
         for line in _listed(chosen, order, draw, explain, plain):
             click.echo(line)
     return 0
+
+
+def _refuse_idle_options(
+    count: bool, draw: bool, explain: bool, plain: bool, svg: str | None, as_json: bool
+) -> None:
+    """Raise click.UsageError for an option that would not change the output."""
+    if count and (draw or (explain and svg is None)):
+        raise click.UsageError("--count prints only a number; omit --draw and --explain")
+    drawn = not count and (draw if as_json else svg is None and (draw or explain))
+    if plain and not drawn:
+        raise click.UsageError(
+            "--ascii has no effect, because the output contains no text drawings; give --draw"
+        )
 
 
 def _record(

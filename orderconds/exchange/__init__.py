@@ -1,7 +1,8 @@
 """Read and write tableaux in the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
 A Python file is executed only at the user's request. If a method is exported and imported again, its
-coefficients do not change. All formats except TOML and JSON omit the table ``[proof]``.
+coefficients do not change. TOML and JSON can contain every key of a tableau. The other formats omit the
+tables ``[proof]`` and ``[dense]`` (:func:`left_out`).
 
 A number from another program is a double, a rounded decimal or exact:
 
@@ -19,8 +20,8 @@ from pathlib import Path
 from typing import Protocol, cast
 
 from orderconds.errors import InputError
-from orderconds.tableau import Tableau
-from orderconds.tableau.comparison import equal_coefficients
+from orderconds.tableau import Claims, Tableau
+from orderconds.tableau.comparison import equal_coefficients, equal_extensions
 from orderconds.tableau.file import MAX_NAME, bytes_of
 from orderconds.tableau.file_format import Data
 from orderconds.tableau.record import from_data
@@ -35,6 +36,9 @@ FORMATS = {
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
 """For each format, the module that reads and writes the files, and the suffix of the files."""
+
+COMPLETE = ("toml", "json")
+"""The formats that can contain every key of a tableau."""
 
 
 def export(data: Data, to: str) -> bytes:
@@ -55,12 +59,22 @@ def export(data: Data, to: str) -> bytes:
 def _require_same(given: Tableau, back: Tableau, to: str) -> None:
     """Raise InputError if ``back``, the tableau that was read from the output, differs from ``given``."""
     same = (given.family, given.source, given.bibtex) == (back.family, back.source, back.bibtex)
+    same &= _comparable(given.claims) == _comparable(back.claims)
+    if can_contain("dense", to):
+        same &= equal_extensions(given, back)
+    if can_contain("proof", to):
+        same &= (given.proof is None) == (back.proof is None)
     if not (same and equal_coefficients(given, back)):
         raise InputError(
             f"format {to} cannot represent this tableau: reading the output gives a different tableau",
             where=given.name,
             expected="a format that can represent the tableau, such as json",
         )
+
+
+def _comparable(claims: Claims) -> tuple[dict[str, int], dict[str, bool]]:
+    """Return claims in a form that does not depend on their sequence in a file."""
+    return {claim.label: claim.order for claim in claims.orders}, dict(claims.properties)
 
 
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:
@@ -135,16 +149,34 @@ def name_of(path: str | Path) -> str:
 
 
 def left_out(data: Data, to: str) -> tuple[str, ...]:
-    """Return the keys of ``data`` that a file in the format ``to`` cannot contain.
+    """Return the keys of ``data`` that a file in the format ``to`` cannot contain. Keys with empty values are
+    ignored.
 
     >>> left_out({"name": "m", "proof": {"conditions": "cg"}}, "csv")
     ('proof',)
     """
-    return ("proof",) if to not in ("toml", "json") and data.get("proof") else ()
+    return tuple(key for key, value in data.items() if value and not can_contain(key, to))
 
 
-def format_of(path: str) -> str:
-    """Return the format that the suffix of a file indicates. Raise InputError for an unknown suffix.
+def can_contain(key: str, to: str) -> bool:
+    """Return True if files in the format ``to`` can contain the value of the key ``key`` of a tableau.
+
+    The value may be written in another form. For example, arrays contain the exponentials that follow from
+    the key ``low_storage``.
+
+    >>> can_contain("dense", "json"), can_contain("dense", "csv")
+    (True, False)
+    """
+    if to in COMPLETE:
+        return True
+    from orderconds.exchange.arrays import KEYS
+
+    return key in KEYS
+
+
+def format_of(path: str, hint: str = "") -> str:
+    """Return the format that the suffix of a file indicates. Raise InputError for an unknown suffix. The
+    message contains ``hint``.
 
     >>> format_of("rk4.h")
     'c'
@@ -154,7 +186,7 @@ def format_of(path: str) -> str:
     raise InputError(
         f"a file with an unknown suffix: {path}",
         expected=f"one of {', '.join(suffix for _, suffix in FORMATS.values())}, .h",
-        hint="give the format with --from or --to",
+        hint=hint,
     )
 
 

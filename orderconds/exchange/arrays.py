@@ -11,7 +11,7 @@ The names of the arrays depend on the family:
   ``count`` contains the number of exponentials. ``start`` contains 0 for a product that acts on y0, and i for
   a product that acts on the value of stage i.
 
-The table ``proof`` of a tableau file is omitted.
+The tables ``proof`` and ``dense`` of a tableau file are omitted.
 """
 
 from __future__ import annotations
@@ -40,6 +40,8 @@ TABLES = ("numbers", "claims")
 TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
+KEYS = frozenset((*TEXTS, *ROWS, *MATRICES, "embedded", "stage", "update", "low_storage"))
+"""The keys of a tableau file whose values :func:`to_arrays` represents. All other keys are omitted."""
 ROUNDED = 12
 """A decimal in an imported file is considered exact if it has fewer significant digits than this number."""
 

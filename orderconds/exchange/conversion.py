@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+import warnings
 from os import PathLike
 
-from orderconds.exchange import export, json_file
+from orderconds.exchange import export, json_file, left_out
 from orderconds.tableau import Tableau, dumps
 from orderconds.tableau.file_format import Data
 from orderconds.tableau.write import as_data
@@ -21,13 +22,22 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
     a tableau in the library. Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a
     method that the format cannot represent.
 
+    All formats except toml and json omit the proof and the continuous extension (the keys ``proof`` and
+    ``dense``). A UserWarning names the omitted keys.
+
     >>> print(convert("euler", "csv").splitlines()[-1])
     b,1
     """
     given = tableau if isinstance(tableau, Tableau) else Tableau.load(tableau)
-    content = dumps(given).encode() if to == "toml" else export(as_data(given), to)
+    data = as_data(given)
+    content = dumps(given).encode() if to == "toml" else export(data, to)
     if given.doubles and to == "json":
-        content = json_file.write(_with_floats(as_data(given)))
+        content = json_file.write(_with_floats(data))
+    if keys := left_out(data, to):
+        warnings.warn(
+            f"{given.name}: the format {to} cannot contain the keys {', '.join(keys)}; json and toml can",
+            stacklevel=2,
+        )
     try:
         return content.decode()
     except UnicodeDecodeError:

@@ -8,7 +8,7 @@ from flint import fmpq
 
 from orderconds.ring import Balls, NumberField, Rationals
 from orderconds.ring.decimals import endpoints
-from orderconds.ring.protocol import Element
+from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.record import Tableau
 
 COMPARED = 160
@@ -31,13 +31,37 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
     return len(first) == len(second) and all(map(_agree, first, second))
 
 
+def equal_extensions(one: Tableau, other: Tableau) -> bool:
+    """Return True if both tableaux have equal continuous extensions, or if both have none. Coefficients are
+    compared as in :func:`equal_coefficients`.
+
+    >>> from orderconds.tableau import find
+    >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))
+    >>> equal_extensions(rk4, rk4), equal_extensions(rk4, heun)
+    (True, False)
+    """
+    if one.extension is None or other.extension is None:
+        return one.extension is other.extension
+    if (one.extension.order, one.extension.degree) != (other.extension.order, other.extension.degree):
+        return False
+    first, second = (
+        [_enclosure(x, tableau.ring) for row in extension.rows for x in row]
+        for tableau, extension in ((one, one.extension), (other, other.extension))
+    )
+    return len(first) == len(second) and all(map(_agree, first, second))
+
+
+def _enclosure(x: Element, ring: Ring) -> tuple[fmpq, fmpq]:
+    """Return the ends of an interval that contains ``x``."""
+    return endpoints(cast("Rationals | NumberField | Balls", ring).ball(x, COMPARED))
+
+
 def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
     """Return intervals that contain the coefficients. The coefficients of the embedded method come last."""
     enclosures: list[tuple[fmpq, fmpq]] = []
-    ring = cast("Rationals | NumberField | Balls", tableau.ring)
 
     def visit(x: Element) -> Element:
-        enclosures.append(endpoints(ring.ball(x, COMPARED)))
+        enclosures.append(_enclosure(x, tableau.ring))
         return x
 
     tableau.method.map(visit)

@@ -32,6 +32,26 @@ def test_the_record_says_what_was_left_out_and_stderr_says_nothing() -> None:
     assert "the output does not contain the key proof" in run("yoshida6", "--to", "csv").stderr
 
 
+def test_an_extension_that_a_format_has_no_place_for_is_announced() -> None:
+    for to in FORMATS:
+        result = run("bogacki_shampine3", "--to", to)
+        announced = "the output does not contain the key dense" in result.stderr
+        assert (result.exit_code, announced) == (0, to not in ("toml", "json"))
+    record = json.loads(run("bogacki_shampine3", "--to", "csv", "--json").stdout)
+    assert record["left_out"] == ["dense"]
+
+
+@pytest.mark.parametrize("to", ["toml", "json", "csv", "sympy", "latex", "c"])
+def test_name_sets_the_name_of_the_new_tableau(to: str, tmp_path: Path) -> None:
+    record = json.loads(run("rk4", "--to", to, "--name", "other", "--json").stdout)
+    path = tmp_path / f"m{FORMATS[to][1]}"
+    path.write_text(record["tableau"])
+    assert (record["name"], Tableau.load(path).name) == ("other", "other")
+    unnamed = tmp_path / "unnamed.csv"
+    unnamed.write_text("A,0\nb,1\n")
+    assert json.loads(run(str(unnamed), "--json").stdout)["name"] == "unnamed"
+
+
 def test_an_archive_is_no_text_and_needs_a_file(tmp_path: Path) -> None:
     assert "give -o FILE" in run("rk4", "--to", "numpy", "--json").stderr
     path = tmp_path / "rk4.npz"

@@ -221,3 +221,13 @@ def test_more_terms_than_can_be_written_are_refused(words: str, said: str) -> No
     assert re.search(
         rf"the conditions have {said}\d+ terms; expected at most \d+; lower the order", result.stderr
     )
+
+
+def test_an_explanation_that_a_format_cannot_contain_is_refused() -> None:
+    result = run("rk", "-p", "3", "--format", "sympy", "--explain")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert "--explain has no effect with --format sympy" in result.stderr
+    for form in ("text", "latex", "json"):
+        explained = run("rk", "-p", "3", "--format", form, "--explain")
+        assert explained.exit_code == 0
+        assert explained.stdout != run("rk", "-p", "3", "--format", form).stdout

@@ -164,7 +164,7 @@ def test_bad_input_is_one_message(args: str, said: str) -> None:
 def test_a_link_to_itself_is_one_message(option: str, tmp_path: Path) -> None:
     loop, other = tmp_path / "loop.toml", "-o" if option == "--checkpoint" else "--checkpoint"
     loop.symlink_to(loop)
-    words = ["rk", "--stages", "2", "--order", "2", option, str(loop), other, str(tmp_path / "other")]
+    words = ["rk", "--stages", "2", "--order", "2", option, str(loop), other, str(tmp_path / "other.toml")]
     result = run(*words)
     assert (result.exit_code, result.stdout) == (2, "")
     assert str(loop) in result.stderr

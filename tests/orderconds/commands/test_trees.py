@@ -94,11 +94,21 @@ def test_the_drawing_of_a_rooted_tree() -> None:
         ["rooted", "--order", "3", "--svg", ""],
         ["rooted", "--order", "3", "--count", "--draw"],
         ["rooted", "--order", "3", "--count", "--explain"],
+        ["rooted", "--order", "3", "--ascii"],
+        ["rooted", "--order", "3", "--ascii", "--count"],
+        ["rooted", "--order", "3", "--ascii", "--draw", "--svg", "/nowhere/trees.svg"],
     ],
 )
 def test_bad_usage_exits_2_with_one_message(args: list[str]) -> None:
     result = run(*args)
     assert (result.exit_code, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+
+
+def test_ascii_is_refused_exactly_if_no_text_drawing_is_printed() -> None:
+    for drawn in (["--draw"], ["--explain"], ["--draw", "--json"]):
+        assert run("rooted", "--order", "3", "--ascii", *drawn).exit_code == 0
+    for undrawn in ([], ["--json"], ["--explain", "--json"]):
+        assert "--ascii has no effect" in run("rooted", "--order", "3", "--ascii", *undrawn).stderr
 
 
 def test_a_misspelt_kind_is_told_the_right_one() -> None:

@@ -15,9 +15,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from orderconds import Tableau
+from orderconds import Tableau, convert
 from orderconds.errors import InputError, TableauError
-from orderconds.exchange import FORMATS, export, read_data
+from orderconds.exchange import FORMATS, export, json_file, left_out, read_data
 from orderconds.proof.certificate import certify
 from orderconds.tableau import Claims, available, dumps, find
 from orderconds.tableau.record import from_data
@@ -94,6 +94,56 @@ def test_a_tableau_of_each_kind_reads_back_the_same(of: str) -> None:
 def test_every_tableau_of_the_library_reads_back_the_same(of: str) -> None:
     for name in available():
         check_reads_back(name, of)
+
+
+REWRITTEN = {"numbers", "low_storage"}
+"""Keys that arrays represent by the coefficients that follow from them."""
+
+
+def check_announced(name: str, of: str) -> None:
+    """The keys that a format drops are those of ``left_out``; all others keep their values."""
+    data = content(name)
+    try:
+        back = read_data(export(data, of), of, "back")
+    except InputError:
+        assert not carries(name, of) or "proof" in data
+        return
+    assert {*data} - {*back} - REWRITTEN == {*left_out(data, of)}, name
+    texts = ("name", "family", "source", "bibtex", "base", "order", "claims")
+    assert {key: back.get(key) for key in texts} == {key: data.get(key) for key in texts}, name
+
+
+@pytest.mark.parametrize("of", FORMATS)
+def test_every_key_of_a_file_is_kept_or_announced(of: str) -> None:
+    one_for_each_set_of_keys = {frozenset(content(name)): name for name in available()}
+    for name in one_for_each_set_of_keys.values():
+        check_announced(name, of)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("of", FORMATS)
+def test_every_key_of_the_library_is_kept_or_announced(of: str) -> None:
+    for name in available():
+        check_announced(name, of)
+
+
+def test_a_writer_that_loses_a_claim_or_an_extension_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    data = content("rk4")
+    for key in ("claims", "dense"):
+        less = json_file.write({k: x for k, x in data.items() if k != key})
+        monkeypatch.setattr(json_file, "write", lambda _, less=less: less)
+        with pytest.raises(InputError, match="reading the output gives a different tableau"):
+            export(data, "json")
+        monkeypatch.undo()
+
+
+@pytest.mark.parametrize("of", FORMATS)
+def test_the_api_warns_of_keys_that_a_format_cannot_contain(of: str) -> None:
+    if of in ("toml", "json"):
+        assert "dense" in convert("bogacki_shampine3", of)
+        return
+    with pytest.warns(UserWarning, match="bogacki_shampine3: the format .* cannot contain the keys dense"):
+        convert("bogacki_shampine3", of)
 
 
 @pytest.mark.parametrize("of", ["toml", "json"])
