@@ -483,6 +483,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
             sizes = abs(rows[k:, k])
             pivot = k + max(range(n - k), key=sizes.__getitem__)
             if not sizes[pivot - k] > 0:
+                matrix[:] = rows.ravel().tolist()
                 return 0
             order.append(pivot)
             rows[[k, pivot]] = rows[[pivot, k]]

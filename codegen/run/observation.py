@@ -304,21 +304,26 @@ class Observation:
         self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
     ) -> tuple[Statement, ...]:
         """Return the statements that choose ``middle``, the fraction of the step for the next trial."""
-        i, estimate = count("i"), real("estimate")
+        i, estimate, difference = count("i"), real("estimate"), real("difference")
         # For each event function, a secant interpolates the weighted values (:meth:`_moved`) at ``low`` and
         # ``high``. The earliest zero of a secant is chosen. In every third iteration, the midpoint is chosen
         # instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
-        # Either a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1.
+        # Either a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1. If the weighted
+        # values underflow, a - b is zero, and the secant has no zero. Then the midpoint is the estimate.
+        bisected = 0.5 * (self.low + high)
+        secant = self.low + (high - self.low) * (a / difference)
+        crossing = either(difference > 0.0, difference < 0.0)
         candidate = (
-            Assign(estimate, self.low + (high - self.low) * (a / (a - b))),
+            Assign(difference, a - b),
+            If(crossing, (Assign(estimate, secant),), (Assign(estimate, bisected),)),
             If(estimate < self.middle, (Assign(self.middle, estimate),)),
         )
         halved = either((trials % 3).equals(2), negated(is_finite(self.middle)))
         return (
             Assign(self.middle, high),
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
-            If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
+            If(halved, (Assign(self.middle, bisected),)),
             # ``middle`` must be at least ``width`` away from ``low`` and ``high``.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
