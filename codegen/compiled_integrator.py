@@ -69,7 +69,7 @@ class CompiledIntegrator(Integrator):
             why = reason(Status(status).name, self._block(counted), span[2])
             if status == Status.BAD_STEP:
                 given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
-                why = f"expected finite numbers, no negative tolerance, and a positive tolerance, found {given}"
+                why = f"expected finite numbers, no negative and one positive tolerance, found {given}"
             failed = begun.failed(status, accepted[0], final, why)
             failed.arrival = Arrival(
                 failed.state, t[0], h[0], accepted[0], rejected[0], None, (), failed.status
@@ -106,7 +106,7 @@ class CompiledIntegrator(Integrator):
         if status == Status.BAD_STEP:
             given = "t={}, end={}, h={}".format(*span)
             given += ", rtol={}, atol={}, least={}, greatest={}".format(*bounds) * interface.controlled
-            bounded = "no negative tolerance, a positive tolerance, and 0 <= least <= greatest"
+            bounded = "no negative and one positive tolerance, and 0 <= least <= greatest"
             expected = bounded if interface.controlled else "and a step size other than 0"
             why = f"expected finite numbers, {expected}; found {given}"
         flat = self._ffi.unpack(rows, written[0] * size) if written[0] else []

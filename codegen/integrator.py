@@ -257,9 +257,7 @@ class Integrator(RunToEnd):
                 failed = StepFailed(failure.status, accepted + failure.step, failure.state, failure.reason)
                 if (last := failure.arrival) is not None:
                     accepted, rejected = accepted + last.accepted, rejected + last.rejected
-                    failed.arrival = replace(
-                        last, accepted=accepted, rejected=rejected, states=restore(rows)
-                    )
+                    failed.arrival = replace(last, accepted=accepted, rejected=rejected, states=restore(rows))
                 raise failed from None
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
             # If only one step led to ``time``, this step may have been shortened to end there. Then
