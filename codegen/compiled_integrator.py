@@ -199,7 +199,7 @@ class _Buffers:
     def __init__(self, ffi: Any, interface: Interface, values: EventValues) -> None:
         real, size = interface.format.c_type, interface.size
         self.size, self.null = size, ffi.NULL
-        self.found: list[tuple[int, float, int, list[float]]] = []
+        self.events: list[tuple[int, float, int, list[float]]] = []
         # Between two calls of the event functions, each event function has at most one event. The C code
         # also needs free entries for one more event of each function.
         self.room = 2 * interface.events
@@ -227,14 +227,14 @@ class _Buffers:
         Each zero is a tuple (index of the event function, time, direction, state).
         """
         self.empty()
-        return self.found
+        return self.events
 
     def empty(self) -> None:
-        """Move the stored events from the C arrays to the list ``found``."""
+        """Move the stored events from the C arrays to the list ``events``."""
         n = self.size
         for k in range(self.count[0]):
             row = [self.rows[k * n + i] for i in range(n)]
-            self.found.append((self.numbers[k] // 2, self.times[k], 2 * (self.numbers[k] % 2) - 1, row))
+            self.events.append((self.numbers[k] // 2, self.times[k], 2 * (self.numbers[k] % 2) - 1, row))
         self.count[0] = 0
 
 
