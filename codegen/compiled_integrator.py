@@ -69,7 +69,7 @@ class CompiledIntegrator(Integrator):
             why = reason(Status(status).name, self._block(counted), span[2])
             if status == Status.BAD_STEP:
                 given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
-                why = f"expected finite numbers and non-negative tolerances, found {given}"
+                why = f"expected finite numbers, no negative and one positive tolerance, found {given}"
             failed = begun.failed(status, accepted[0], final, why)
             failed.arrival = Arrival(
                 failed.state, t[0], h[0], accepted[0], rejected[0], None, (), failed.status
@@ -106,7 +106,7 @@ class CompiledIntegrator(Integrator):
         if status == Status.BAD_STEP:
             given = "t={}, end={}, h={}".format(*span)
             given += ", rtol={}, atol={}, least={}, greatest={}".format(*bounds) * interface.controlled
-            bounded = "a positive tolerance, and 0 <= least <= greatest"
+            bounded = "no negative and one positive tolerance, and 0 <= least <= greatest"
             expected = bounded if interface.controlled else "and a step size other than 0"
             why = f"expected finite numbers, {expected}; found {given}"
         flat = self._ffi.unpack(rows, written[0] * size) if written[0] else []
@@ -190,41 +190,52 @@ class CompiledIntegrator(Integrator):
 
 
 class _Buffers:
-    """The arguments for events in one call of the C function ``integrate``."""
+    """The arguments for events in one call of the C function ``integrate``.
 
-    ROOM = 1024
+    The C code calls the event functions before it stores an event. Each call of the event functions empties
+    the C arrays, so the arrays are never full, and the run never ends early.
+    """
 
     def __init__(self, ffi: Any, interface: Interface, values: EventValues) -> None:
         real, size = interface.format.c_type, interface.size
-        self.ffi, self.size = ffi, size
+        self.size, self.null = size, ffi.NULL
+        self.events: list[tuple[int, float, int, list[float]]] = []
+        # Between two calls of the event functions, each event function has at most one event. The C code
+        # also needs free entries for one more event of each function.
+        self.room = 2 * interface.events
 
         def write(t: float, state: Any, array: Any, data: Any) -> None:
+            self.empty()
             for k, x in enumerate(values(t, ffi.unpack(state, size))):
                 array[k] = x
 
         self.function = ffi.callback(f"void({real}, const {real} *, {real} *, void *)", write)
         stops = [event.stops for event in values.events]
         self.stops = ffi.new("size_t[]", stops + [0] * (interface.events - len(stops)))
-        self.times, self.rows = ffi.new(f"{real}[]", self.ROOM), ffi.new(f"{real}[]", self.ROOM * size)
-        self.numbers, self.count = ffi.new("size_t[]", self.ROOM), ffi.new("size_t *")
+        self.times, self.rows = ffi.new(f"{real}[]", self.room), ffi.new(f"{real}[]", self.room * size)
+        self.numbers, self.count = ffi.new("size_t[]", self.room), ffi.new("size_t *")
 
     @property
     def arguments(self) -> list[Any]:
         """The arguments for events, in the order of the parameters of the C function ``integrate``."""
         buffers = [self.times, self.rows, self.numbers, self.count]
-        return [self.function, self.ffi.NULL, self.stops, self.ROOM, *buffers]
+        return [self.function, self.null, self.stops, self.room, *buffers]
 
     def crossings(self) -> list[tuple[int, float, int, list[float]]]:
         """Return the zeros that the C code found.
 
         Each zero is a tuple (index of the event function, time, direction, state).
         """
+        self.empty()
+        return self.events
+
+    def empty(self) -> None:
+        """Move the stored events from the C arrays to the list ``events``."""
         n = self.size
-        events = []
         for k in range(self.count[0]):
             row = [self.rows[k * n + i] for i in range(n)]
-            events.append((self.numbers[k] // 2, self.times[k], 2 * (self.numbers[k] % 2) - 1, row))
-        return events
+            self.events.append((self.numbers[k] // 2, self.times[k], 2 * (self.numbers[k] % 2) - 1, row))
+        self.count[0] = 0
 
 
 class _Callback:

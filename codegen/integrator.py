@@ -247,15 +247,24 @@ class Integrator(RunToEnd):
         """
         rows: list[Sequence[float]] = []
         accepted = rejected = 0
+        restore = begun.form.restore
         for time in times:
-            arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted - rejected)
+            left = limit - accepted - rejected
+            try:
+                arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, left)
+            except StepFailed as failure:
+                # ``failure`` counts only the steps after the last output time.
+                failed = StepFailed(failure.status, accepted + failure.step, failure.state, failure.reason)
+                if (last := failure.arrival) is not None:
+                    accepted, rejected = accepted + last.accepted, rejected + last.rejected
+                    failed.arrival = replace(last, accepted=accepted, rejected=rejected, states=restore(rows))
+                raise failed from None
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
             # If only one step led to ``time``, this step may have been shortened to end there. Then
             # ``arrival.h`` may be too small.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
-        restore = begun.form.restore
         return Arrival(restore(rows[-1]), t, h, accepted, rejected, restore(rows[:-1]))
 
     def run_batch(

@@ -96,9 +96,10 @@ class InterpretedIntegrator(Integrator):
         except self.module.StepFailed as failure:
             failed = begun.failed(failure.status, failure.step, failure.state, failure.reason)
             if hasattr(failure, "t"):
-                # The exception ``failure`` does not contain the number of rejected steps, so 0 is stored.
-                state, status = failed.state, failed.status
-                failed.arrival = Arrival(state, failure.t, failure.h, failure.step, 0, None, (), status)
+                failed.arrival = Arrival(
+                    *(failed.state, failure.t, failure.h, failure.step, failure.rejected),
+                    status=failed.status,
+                )
             raise failed from None
         finally:
             self._count(counts, begun.statistics)

@@ -62,10 +62,10 @@ class RunToEnd(ABC):
         )
         begun = self._begin(state, parameters, inputs, statistics)
         functions = events_of(events, self.interface.events)
-        arrival = self._continued(begun, functions, (t, end, h), bounds, limit, times)
+        arrival = self._arrival(begun, functions, (t, end, h), bounds, limit, times)
         return arrival if t_eval is not None else replace(arrival, states=None)
 
-    def _continued(
+    def _arrival(
         self,
         begun: Begun,
         events: Sequence[Event],
@@ -74,38 +74,26 @@ class RunToEnd(ABC):
         limit: int,
         times: Sequence[float],
     ) -> Arrival:
-        """Integrate to the end by one or more calls of ``_integrate``.
-
-        If the buffer of events is full, a call returns before the end.
-        """
-        t, end, h = span
+        """Call the emitted function, and return its results in the form of the caller's state."""
         restore = begun.form.restore
-        rows: list[Sequence[float]] = []
-        crossings: list[Crossing] = []
-        accepted = rejected = 0
         values = EventValues(events, self.interface.events, restore)
-        while True:
-            run = self._integrate(
-                begun, values, (t, end, h), bounds, limit - accepted - rejected, times[len(rows) :]
-            )
-            accepted, rejected = accepted + run.accepted, rejected + run.rejected
-            rows += run.rows
-            for k, time, direction, state in run.events:
-                if events[k].direction in (0, direction):
-                    crossings.append(Crossing(k, time, direction, restore(state)))
-            state = restore(run.state)
-            states = restore(rows)
-            arrival = Arrival(state, run.t, run.h, accepted, rejected, states, tuple(crossings))
-            if values.failure is not None:
-                raise values.failure
-            if run.status not in (Status.OK, Status.EVENT):
-                failed = begun.failed(run.status, accepted, run.state, run.reason)
-                failed.arrival = replace(arrival, status=failed.status)
-                raise failed
-            stopped = any(x.t == run.t and events[x.event].terminal for x in crossings)
-            if run.status == Status.OK or stopped:
-                return replace(arrival, status=Status(run.status))
-            begun, t, h = replace(begun, numbers=list(run.state)), run.t, run.h
+        run = self._integrate(begun, values, span, bounds, limit, times)
+        if values.failure is not None:
+            raise values.failure
+        crossings = [
+            Crossing(k, time, direction, restore(state))
+            for k, time, direction, state in run.events
+            if events[k].direction in (0, direction)
+        ]
+        arrival = Arrival(
+            *(restore(run.state), run.t, run.h, run.accepted, run.rejected),
+            *(restore(list(run.rows)), tuple(crossings)),
+        )
+        if run.status not in (Status.OK, Status.EVENT):
+            failed = begun.failed(run.status, run.accepted, run.state, run.reason)
+            failed.arrival = replace(arrival, status=failed.status)
+            raise failed
+        return replace(arrival, status=Status(run.status))
 
     @abstractmethod
     def _begin(
@@ -130,7 +118,7 @@ class RunToEnd(ABC):
         limit: int,
         times: Sequence[float],
     ) -> Reached:
-        """Call the emitted function, which stops at the end or when the buffer of events is full.
+        """Call the emitted function. All events of the run are stored, whatever their number.
 
         ``span`` is (t, end, h): the initial time, the end time, and the first step size. ``bounds`` is
         (rtol, atol, least, greatest): the relative and the absolute tolerance, and the least and the greatest

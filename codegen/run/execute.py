@@ -483,14 +483,14 @@ def _inverted(n: int, matrix: list[Any]) -> int:
             sizes = abs(rows[k:, k])
             pivot = k + max(range(n - k), key=sizes.__getitem__)
             if not sizes[pivot - k] > 0:
+                matrix[:] = rows.ravel().tolist()
                 return 0
             order.append(pivot)
             rows[[k, pivot]] = rows[[pivot, k]]
             factor = 1 / rows[k, k]
             rows[k] *= factor
             rows[k, k] = factor
-            multiples = rows[:, k].copy()
-            others = numpy.arange(n) != k
+            multiples, others = rows[:, k].copy(), numpy.arange(n) != k
             rows[others] -= numpy.outer(multiples[others], rows[k])
             rows[others, k] = -(multiples[others] * factor)
         # If rows i and j of the matrix were exchanged, columns i and j of the inverse must be exchanged.

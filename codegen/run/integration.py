@@ -207,14 +207,12 @@ class _Adaptive(Controlled):
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements that are executed before the first step."""
         observation, state = self.observation, self.plan.state()
-        # If LEAST is zero, the step size has no lower bound.
-        ordered = both(LEAST >= 0.0, GREATEST >= LEAST, GREATEST > 0.0)
-        # If both tolerances were zero, every step would be rejected.
-        positive = either(RTOL > 0.0, ATOL > 0.0)
+        # If LEAST is zero, the step size has no lower bound. If GREATEST is infinite, it has no upper bound.
+        ordered = both(LEAST >= 0.0, is_finite(LEAST), GREATEST >= LEAST, GREATEST > 0.0)
         return (
             *super().begin(),
             Array(self.stop, zero=True),
-            If(negated(both(ordered, positive)), (Assign(STATUS, code(BAD_STEP)),)),
+            If(negated(ordered), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
             # The step size given by the caller may be outside the interval [LEAST, GREATEST].

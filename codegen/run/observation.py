@@ -5,9 +5,8 @@ If a continuous extension was requested, the states at output times are computed
 (:mod:`codegen.run.dense_output`).
 
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of the
-sign of an event function between two consecutive times. Two changes of sign between
-consecutive times are not found. If an event function is exactly zero at the beginning of a run, this zero is
-no event.
+sign of an event function between two consecutive times. Two changes of sign between consecutive times are not
+found. If an event function is exactly zero when a run begins, this is no event.
 
 The Illinois variant of the secant method, together with bisection, encloses an event in a short interval. The
 event state is the state at the end of this interval, where the sign has changed.
@@ -47,8 +46,7 @@ from codegen.run.terms import (
 from codegen.run.trajectory import COMPLETED, Rows
 
 INSIDE, ORDERED, CROSSED, LOCATE, EVENTS, OBSERVE = (
-    *("inside", "in_order", "crossed", "locate", "find_events"),
-    "observe",
+    *("inside", "in_order", "crossed", "locate", "find_events", "observe"),
 )
 """The names of the private emitted functions that this module builds."""
 
@@ -145,8 +143,7 @@ class Observation:
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
         events: tuple[Statement, ...] = ()
         if self.events:
-            # The arrays are set to zero, because some compilers would warn that entries may be read before
-            # they are assigned.
+            # Without the zeros, some compilers would warn that entries may be read before they are assigned.
             arrays = tuple(Array(x, zero=True) for x in (*self.memory, self.measured))
             measured = (*self.measure(now, state), Assign(self.values, self.measured), *self.signed())
             events = (Assign(self.event_count[0], whole(0)), *arrays, If(STATUS.equals(code(OK)), measured))
@@ -304,21 +301,24 @@ class Observation:
         self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
     ) -> tuple[Statement, ...]:
         """Return the statements that choose ``middle``, the fraction of the step for the next trial."""
-        i, estimate = count("i"), real("estimate")
+        i, estimate, difference = count("i"), real("estimate"), real("difference")
         # For each event function, a secant interpolates the weighted values (:meth:`_moved`) at ``low`` and
         # ``high``. The earliest zero of a secant is chosen. In every third iteration, the midpoint is chosen
         # instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
-        # Either a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1.
+        # Either a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1. If the weighted
+        # values underflow, a - b is zero, and the secant has no zero. Then the midpoint is the estimate.
+        bisected, secant = 0.5 * (self.low + high), self.low + (high - self.low) * (a / difference)
         candidate = (
-            Assign(estimate, self.low + (high - self.low) * (a / (a - b))),
+            Assign(difference, a - b),
+            Assign(estimate, select(either(difference > 0.0, difference < 0.0), secant, bisected)),
             If(estimate < self.middle, (Assign(self.middle, estimate),)),
         )
         halved = either((trials % 3).equals(2), negated(is_finite(self.middle)))
         return (
             Assign(self.middle, high),
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
-            If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
+            If(halved, (Assign(self.middle, bisected),)),
             # ``middle`` must be at least ``width`` away from ``low`` and ``high``.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),

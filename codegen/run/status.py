@@ -32,10 +32,10 @@ MEANINGS = {
     TOO_FAR: "the step is too long: no finite new state was computed; a shorter step succeeds",
     SINGULAR: "the matrix of an implicit block is singular",
     TOO_SHORT: "the end was not reached: the step became too small to change t",
-    EVENT: "the run ended at an event, or the buffer for events is full",
+    EVENT: "the run ended at an event",
     BAD_TIMES: "an output time is NaN, out of order, or not between t and end",
     LEAST_STEP: "the end was not reached: a step of the least size was rejected",
-    BAD_EVENT: "an event function is infinite or NaN, or the buffer for events is too short",
+    BAD_EVENT: "an event function is infinite or NaN",
     BAD_SHAPE: "a dimension has too few sites, or has an odd number of sites but needs an even number",
     BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is infinite or NaN",
 }

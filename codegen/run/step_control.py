@@ -86,6 +86,17 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     return weighted(plan), between(), Controlled(plan).function()
 
 
+def usable_tolerances() -> Term:
+    """Return the test whether both tolerances are finite and not negative, and one is positive.
+
+    If both tolerances were zero, every step would be rejected. With an infinite tolerance, every step would
+    be accepted.
+    """
+    # The test is false if a tolerance is a NaN.
+    positive = either(RTOL > 0.0, ATOL > 0.0)
+    return both(is_finite(RTOL), is_finite(ATOL), RTOL >= 0.0, ATOL >= 0.0, positive)
+
+
 def weighted(plan: Plan) -> Function:
     """Return the emitted function that computes the norm of an error estimate."""
     n, i = plan.size, count("i")
@@ -175,8 +186,6 @@ class Controlled:
         # The arguments are tested for NaNs and infinities only here. Later step sizes are finite, because
         # ``between`` returns only finite factors.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
-        # If a tolerance is a NaN, this test is false, and the status is BAD_STEP.
-        tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
         # A rough first step size is enough, because it may change by a large factor after the first trial.
         chosen = size(self.end - self.now) / FIRST
@@ -190,7 +199,7 @@ class Controlled:
             Assign(self.starting, self.length <= 0.0),
             If(self.starting, (Assign(self.length, chosen),)),
             Assign(self.previous, number(1.0)),
-            If(negated(both(numbers, tolerances)), (Assign(STATUS, code(BAD_STEP)),)),
+            If(negated(both(numbers, usable_tolerances())), (Assign(STATUS, code(BAD_STEP)),)),
             *memory,
             Array(self.trial),
             Array(self.error),

@@ -33,11 +33,13 @@ from codegen.run.statistics import SWEEPS, count_matrix, count_sweeps
 from codegen.run.stopping import CHANGE, Stopping
 from codegen.run.terms import (
     NOT_CONVERGED,
+    NOT_FINITE,
     OK,
     SINGULAR,
     STATUS,
     Kind,
     Term,
+    all_finite,
     both,
     code,
     count,
@@ -50,6 +52,7 @@ from codegen.run.terms import (
     own,
     paired,
     real,
+    select,
     size,
     total,
     truth,
@@ -345,19 +348,20 @@ class _Newton(_Loop):
     def prepared(self) -> list[Statement]:
         """Return the statements that compute and invert the matrix before the sweeps of a step.
 
-        If elimination finds a singular matrix, the emitted function returns the status SINGULAR.
+        If elimination finds a singular matrix, the emitted function returns the status SINGULAR. If the
+        matrix contains infinities or NaNs, the status is NOT_FINITE.
         """
         sequence = self.entries()
         if self.newton.inverted:
             return sequence
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
         sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
+        # A failed elimination of a matrix with infinities or NaNs leaves at least one of them in the array.
+        cause = select(all_finite(self.inverse), code(SINGULAR), code(NOT_FINITE))
         # The function ``count_sweeps`` reads the status to record a failure, so the status is set first.
-        sequence.append(Assign(STATUS, code(SINGULAR)))
-        singular = inverted.equals(0)
-        if self.counting:
-            sequence.append(If(singular, (count_sweeps(self.plan, self.number - 1, whole(0)),)))
-        return [*sequence, If(singular, (Return(STATUS),))]
+        counted = (count_sweeps(self.plan, self.number - 1, whole(0)),) if self.counting else ()
+        failed = (Assign(STATUS, cause), *counted, Return(STATUS))
+        return [*sequence, If(inverted.equals(0), failed)]
 
     def entries(self) -> list[Statement]:
         """Return the statements that compute the entries of the matrix."""

@@ -28,6 +28,7 @@ from codegen.run.language import (
 )
 from codegen.run.plan import STEP, TIME, Plan
 from codegen.run.step import ADVANCE
+from codegen.run.step_control import ATOL, RTOL, usable_tolerances
 from codegen.run.terms import (
     BAD_STEP,
     LIMIT,
@@ -70,7 +71,6 @@ The formula divides by the norm, so a norm below LEAST is replaced by LEAST."""
 ROWS = 4
 """The number of products that :func:`inner_sums` adds to a sum in one iteration."""
 
-RTOL, ATOL = real("rtol"), real("atol")
 
 ORDER_TERM = own(ORDER)
 
@@ -366,8 +366,6 @@ class _Controlled:
         # The run may go forwards or backwards in time.
         moving = either(self.now < self.end, self.now > self.end)
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
-        # A comparison with a NaN is false, so a tolerance that is NaN gives the status BAD_STEP.
-        tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
             Assign(self.steps, whole(0)),
@@ -375,7 +373,7 @@ class _Controlled:
             # If the caller gives a step size, it is an upper bound for the first step.
             Assign(self.length, size(self.h[0])),
             Assign(self.advised, self.length),
-            If(negated(both(numbers, tolerances)), (Assign(STATUS, code(BAD_STEP)),)),
+            If(negated(both(numbers, usable_tolerances())), (Assign(STATUS, code(BAD_STEP)),)),
             *self.arrays(),
             While(both(STATUS.equals(code(OK)), moving), self.step()),
             Assign(self.t[0], self.now),

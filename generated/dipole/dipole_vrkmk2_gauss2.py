@@ -43,6 +43,7 @@ Use:
 """
 
 from math import cos, fabs, isfinite, nan, sin, sqrt
+from operator import index
 
 OK = 0  # success
 NOT_CONVERGED = 1  # an implicit block did not converge
@@ -262,6 +263,7 @@ def invert(n, matrix):
     for k in range(n):
         pivot = max(range(k, n), key=lambda i: fabs(a[i][k]))
         if not fabs(a[pivot][k]) > 0.0:
+            matrix[:] = [x for row in a for x in row]
             return 0
         order[k] = pivot
         a[k], a[pivot] = a[pivot], a[k]
@@ -1026,6 +1028,10 @@ def run(state, h, steps, *, stride=0, statistics=None):
     """
     state = _numbers(state)
     h = float(h)
+    try:
+        steps = index(steps)
+    except TypeError:
+        raise TypeError(f"expected an integer for steps, found {steps!r}") from None
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
     rows = [[0.0] * 12 for _ in range(steps // stride + 1)] if stride > 0 else None

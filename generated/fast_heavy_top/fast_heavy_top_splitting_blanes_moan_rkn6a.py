@@ -34,6 +34,7 @@ Use:
 """
 
 from math import cos, isfinite, nan, sin, sqrt
+from operator import index
 
 OK = 0  # success
 NOT_FINITE = 2  # the new state would contain an infinity or a NaN
@@ -692,6 +693,10 @@ def run(state, h, steps, *, stride=0):
     """
     state = _numbers(state)
     h = float(h)
+    try:
+        steps = index(steps)
+    except TypeError:
+        raise TypeError(f"expected an integer for steps, found {steps!r}") from None
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
     rows = [[0.0] * 12 for _ in range(steps // stride + 1)] if stride > 0 else None

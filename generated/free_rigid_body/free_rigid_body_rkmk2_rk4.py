@@ -30,6 +30,7 @@ Use:
 """
 
 from math import cos, isfinite, sin, sqrt
+from operator import index
 
 OK = 0  # success
 NOT_FINITE = 2  # the new state would contain an infinity or a NaN
@@ -287,6 +288,10 @@ def run(state, h, steps, *, stride=0):
     """
     state = _numbers(state)
     h = float(h)
+    try:
+        steps = index(steps)
+    except TypeError:
+        raise TypeError(f"expected an integer for steps, found {steps!r}") from None
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
     rows = [[0.0] * 3 for _ in range(steps // stride + 1)] if stride > 0 else None

@@ -33,6 +33,7 @@ Use:
 """
 
 from math import cos, isfinite, sin, sqrt
+from operator import index
 
 OK = 0  # success
 NOT_CONVERGED = 1  # an implicit block did not converge
@@ -1308,6 +1309,10 @@ def run(state, h, steps, *, stride=0, statistics=None):
     """
     state = _numbers(state)
     h = float(h)
+    try:
+        steps = index(steps)
+    except TypeError:
+        raise TypeError(f"expected an integer for steps, found {steps!r}") from None
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
     rows = [[0.0] * 4 for _ in range(steps // stride + 1)] if stride > 0 else None

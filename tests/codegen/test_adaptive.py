@@ -174,6 +174,9 @@ def test_the_limit_counts_the_rejected_steps_before_each_output_time(target):
     with pytest.raises(StepFailed) as failure:
         integrator.adaptive(start, 0, 2, **options, limit=steps - 1)
     assert failure.value.status == Status.LIMIT
+    ended = failure.value.arrival
+    assert (ended.accepted, ended.rejected) == (whole.accepted - 1, whole.rejected)
+    assert (failure.value.step, ended.states) == (whole.accepted - 1, whole.states)
 
 
 @pytest.mark.parametrize("target", ["c", "python"])
@@ -185,11 +188,12 @@ def test_what_the_tolerance_forbids_ends_at_the_last_good_state(target):
     assert (failure.value.status, failure.value.step) == (Status.LIMIT, 3)
     assert list(failure.value.state) != start
     with pytest.raises(StepFailed) as failure:
-        integrator.adaptive(start, 0, 2, rtol=0, atol=0)
+        integrator.adaptive(start, 1e17, 1e17 + 64)
     assert failure.value.status == Status.TOO_SHORT
     assert list(failure.value.state) == start
-    known = {"t": 0, "end": 1}
-    for bad in ({"t": math.nan}, {"end": math.inf}, {"h": math.nan}, {"rtol": -1}, {"atol": math.nan}):
+    known, inf = {"t": 0, "end": 1}, math.inf
+    tolerances = ({"rtol": -1}, {"atol": math.nan}, {"rtol": 0, "atol": 0}, {"rtol": inf}, {"atol": inf})
+    for bad in ({"t": math.nan}, {"end": inf}, {"h": math.nan}, *tolerances):
         with pytest.raises(StepFailed, match=r"found t=.*, end=.*, h=.*, rtol=.*, atol=") as failure:
             integrator.adaptive(start, **{**known, **bad})
         assert failure.value.status == Status.BAD_STEP
@@ -197,6 +201,30 @@ def test_what_the_tolerance_forbids_ends_at_the_last_good_state(target):
     with pytest.raises(StepFailed) as failure:
         integrator.adaptive([math.nan, 0, 1], 0, 2)
     assert failure.value.status == Status.NOT_FINITE
+
+
+def test_a_failed_run_states_the_number_of_rejected_steps_in_both_targets():
+    counts = []
+    for target in ("c", "python"):
+        emission = emitted("free_rigid_body", "cf:cf43", target)
+        start, integrator = emission.manifest["initial"], load(emission)
+        with pytest.raises(StepFailed) as failure:
+            integrator.adaptive(start, 0, 2, 1.0, rtol=1e-10, atol=1e-10, limit=20)
+        arrival = failure.value.arrival
+        assert arrival.accepted + arrival.rejected == 20
+        assert (arrival.accepted, arrival.status) == (failure.value.step, Status.LIMIT)
+        counts.append(arrival.rejected)
+    assert counts[0] == counts[1] > 0
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_a_taylor_run_refuses_tolerances_that_no_step_can_use(target):
+    emission = emitted("free_rigid_body", "taylor(12)", target)
+    start, integrator = emission.manifest["initial"], load(emission)
+    for bad in ({"rtol": 0, "atol": 0}, {"rtol": math.inf}, {"atol": math.inf}):
+        with pytest.raises(StepFailed) as failure:
+            integrator.adaptive(start, 0, 1, **bad)
+        assert (failure.value.status, list(failure.value.state)) == (Status.BAD_STEP, start)
 
 
 @pytest.mark.parametrize("target", ["c", "python"])

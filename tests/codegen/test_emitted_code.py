@@ -172,6 +172,14 @@ def test_a_negative_number_of_steps_is_refused(kernels):
         load(kernels.emission(kernels.rigid(), "python")).module.run([0.4, -0.3, 0.9], 0.1, -1)
 
 
+def test_a_number_of_steps_that_is_no_integer_is_refused(kernels):
+    run = load(kernels.emission(kernels.rigid(), "python")).module.run
+    for steps in (2.5, 3.0, math.nan, "3", None):
+        with pytest.raises(TypeError, match="expected an integer for steps, found"):
+            run([0.4, -0.3, 0.9], 0.1, steps)
+    assert run([0.4, -0.3, 0.9], 0.1, np.int64(3)) == run([0.4, -0.3, 0.9], 0.1, 3)
+
+
 def test_statistics_of_c_and_python_are_equal_and_add_up(kernels):
     counts = []
     for target in ("c", "python"):

@@ -235,11 +235,37 @@ def test_events_and_outputs_work_backwards_in_time(target: str) -> None:
         assert state == pytest.approx(exact, abs=1e-13)
 
 
-def test_a_full_buffer_of_events_is_emptied_and_the_run_goes_on() -> None:
-    integrator = loaded("rotation", "rkmk:rk4", events=1)
-    found = integrator.integrate([1, 0, 0], 0, 1100 * math.pi, 0.7, events=[lambda t, y: y[0]])
-    assert len(found.crossings) == 1100
-    assert found.crossings[-1].t == pytest.approx(1099.5 * math.pi, rel=1e-13)
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize(("method", "adaptive"), [("rkmk:gauss2", False), ("cf:cf43", True)])
+def test_any_number_of_events_leaves_the_steps_unchanged(method: str, adaptive: bool, target: str) -> None:
+    integrator = loaded("free_rigid_body", method, target, events=64, adaptive=adaptive)
+    start, end = integrator.initial, 20.0
+    options: dict[str, Any] = {"rtol": 1e-5, "atol": 1e-5} if adaptive else {"h": 0.3}
+    plain = integrator.integrate(start, 0.0, end, t_eval=[3.3], **options)
+    zeros = [(k + 0.9) * math.pi / 3 for k in range(19)]
+    waves = [lambda t, y: math.sin(3 * t + 0.1 * math.pi)] * 64
+    found = integrator.integrate(start, 0.0, end, t_eval=[3.3], events=waves, **options)
+    assert (found.state, found.states) == (plain.state, plain.states)
+    assert (found.h, found.accepted, found.rejected) == (plain.h, plain.accepted, plain.rejected)
+    # Each function has each zero once. An array with 1024 entries is too short for these 1216 events.
+    assert [x.event for x in found.crossings] == [*range(64)] * 19
+    assert [x.t for x in found.crossings[::64]] == pytest.approx(zeros, abs=1e-13)
+    last = Event(lambda t, y: t - 19.0, terminal=True)
+    ended = integrator.integrate(start, 0.0, end, events=[*waves[1:], last], **options)
+    assert (ended.t, ended.status) == (pytest.approx(19.0, abs=1e-13), Status.EVENT)
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_values_that_underflow_in_the_search_for_an_event_are_bisected(target: str) -> None:
+    integrator = loaded("rotation", "rkmk:rk4", target, events=1)
+    tiny = 5e-324
+    for k in range(1, 60):
+        time = k / 61
+        for after in (0.0, -tiny):
+            found = integrator.integrate(
+                [1, 0, 0], 0.0, 1.0, 0.1, events=[lambda t, y, time=time, a=after: tiny if t < time else a]
+            )
+            assert [x.t for x in found.crossings] == pytest.approx([time], abs=1e-14)
 
 
 def test_events_do_not_change_the_steps() -> None:
@@ -312,12 +338,13 @@ def test_bad_arguments_have_a_status_and_keep_the_state(target: str) -> None:
     bad: list[dict[str, Any]] = [
         *({"rtol": x, "atol": x} for x in (0.0, -1.0, nan)),
         *({"rtol": -1e-6}, {"atol": -1e-6}, {"rtol": nan}, {"atol": nan}),
+        *({"rtol": math.inf}, {"atol": math.inf}, {"least": math.inf}),
         *({"least": -1.0}, {"least": nan}, {"greatest": nan}, {"greatest": 0.0}),
         {"least": 0.2, "greatest": 0.1},
         *({"h": nan}, {"h": math.inf}, {"t": nan}, {"end": math.inf}),
     ]
     for arguments in bad:
-        with pytest.raises(StepFailed, match="expected finite numbers, a positive tolerance") as failure:
+        with pytest.raises(StepFailed, match="no negative and one positive tolerance") as failure:
             integrator.integrate(start, **{**good, **arguments})
         assert failure.value.status == Status.BAD_STEP
         assert failure.value.state == start

@@ -30,11 +30,6 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment
 
-ROOM = 1024
-"""The largest number of events that one call of ``integrate`` stores. If there is no room for more events,
-``integrate`` returns early.
-"""
-
 LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
 """The default options of a run with step-size control."""
 
@@ -194,7 +189,6 @@ class _Module:
             "jacobian": self.jacobian(time, inputs, given),
             "integrate": self.integrate(inputs, given, optional, counted),
             "events": interface.events,
-            "room": ROOM,
         }
         return environment("python").get_template("module/module.py.j2").render(variables)
 

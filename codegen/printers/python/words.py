@@ -11,7 +11,7 @@ _WORDS = """
     cos exp log sinh cosh inf nan isfinite copysign quotient choose signed_stumpff0 signed_stumpff1
     signed_stumpff2 signed_stumpff3 invert fabs slope2 slope3 curvature2 curvature3 signed_slope1
     signed_slope2 signed_slope3 float32 errstate self OK NOT_CONVERGED NOT_FINITE BAD_STEP LIMIT TOO_FAR
-    SINGULAR TOO_SHORT StepFailed Statistics step run run_adaptive jacobian
+    SINGULAR TOO_SHORT StepFailed Statistics step run run_adaptive jacobian index
 """
 
 # Builtins are reserved, because a parameter ``max`` would hide the builtin function ``max``.
@@ -31,7 +31,7 @@ A run-time parameter with such a name gets another identifier in the module.
 
 _INTEGRATION = """
     EVENT BAD_TIMES LEAST_STEP BAD_EVENT Arrival integrate times written event stops room event_times
-    event_rows event_numbers event_count events arrival least greatest
+    event_rows event_numbers event_count events arrival least greatest _Rows
 """
 
 INTEGRATION = frozenset(_INTEGRATION.split())

@@ -275,6 +275,16 @@ def test_sweeps_fall_with_the_step_faster_the_better_the_matrix():
     assert counts[FIXED_POINT, 1 / 1024] > counts[SIMPLIFIED_NEWTON, 1 / 1024]
 
 
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_stage_that_is_not_finite_has_the_same_status_in_c_and_python(solver):
+    """The sine of an infinite time is no number: the matrix of simplified Newton is not singular."""
+    for target in ("c", "python"):
+        integrator, state = loaded("driven_spin", "rkmk(2):gauss2", solver, target)
+        with pytest.raises(StepFailed, match="not finite") as failure:
+            integrator.run(list(state), 0.1, 5, t=math.inf)
+        assert (failure.value.status, failure.value.step) == (Status.NOT_FINITE, 0)
+
+
 def test_many_unknowns_are_left_to_a_fixed_point_and_moved_together():
     """Twenty-seven unknowns: Newton's method would cost more; both targets compare and move them in loops."""
     made = compiled("dipole", "slgi:cg5")
