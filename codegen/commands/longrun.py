@@ -67,7 +67,6 @@ def command(
     conserves a quantity in exact arithmetic, the rounding errors are measured with and without compensated
     summation. The root mean square (rms) of the rounding errors over several initial states grows like
     steps^p. The column "steps^p" contains p. If a run ends early or a method fails, the exit status is 1.
-    The symplectic defect of a step is the change of the symplectic form. It does not depend on units.
 
     \b
     Examples:

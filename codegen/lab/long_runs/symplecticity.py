@@ -41,8 +41,8 @@ OFFSET = 25
 the scale of this direction.
 
 The relative errors of the differences are about 10^(-2 OFFSET) from the third derivative of the step, and
-10^(OFFSET - DIGITS) from rounding: 10^-50 and 10^-55. The scales are sizes of whole vectors. If a component is
-10^12 times smaller than the vector, the error relative to this component is about 10^-26."""
+10^(OFFSET - DIGITS) from rounding: 10^-50 and 10^-55. The scales are sizes of whole vectors. If a component
+is 10^12 times smaller than the vector, the error relative to this component is about 10^-26."""
 
 SWEEPS = 80
 """The largest number of fixed-point iterations for each system of implicit equations in a step."""
