@@ -258,16 +258,16 @@ def _refined(F: Polynomial, ring: SignedRing, a: Fraction, b: Fraction | None) -
         low, high = (high, 2 * high) if sign(high) == 1 else (low, 2 * high)
     while low == 0:
         # The first bisections divide by 2 until the enclosure has a positive lower end.
-        low, high = (high / 2, high) if (found := sign(high / 2)) == 1 else (low, high / 2)
-        if found is None:
+        low, high = (high / 2, high) if (side := sign(high / 2)) == 1 else (low, high / 2)
+        if side is None:
             raise Undecided
     while high - low > low / 2**ACCURACY:
         middle = (low + high) / 2
-        found = sign(middle)
-        if found is None:
+        side = sign(middle)
+        if side is None:
             low, high = _nearest(sign, 1, low, middle), _nearest(sign, -1, high, middle)
             break
-        low, high = (middle, middle) if found == 0 else (middle, high) if found == 1 else (low, middle)
+        low, high = (middle, middle) if side == 0 else (middle, high) if side == 1 else (low, middle)
     if high - low > low / 2**COARSE:
         raise Undecided
     return low, high
