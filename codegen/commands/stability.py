@@ -46,6 +46,11 @@ def command(
     test if the result is accurate, or if the emitted code returns an error status. If an input does not pass
     the test, or if a method cannot be emitted for the scene, the exit status is 1.
 
+    A stability interval is the largest interval from 0, on the negative real or the positive imaginary axis,
+    on which |R| <= 1. R is the stability function of the tableau. The ends are computed from the exact
+    coefficients: "none" means that |R| > 1 right after 0, by however little, and "unbounded" is proved.
+    "undecided" means that rounded coefficients do not determine the end.
+
     \b
     Examples:
         orderconds stability free_rigid_body --method cf4 --quick
@@ -98,6 +103,7 @@ def _alone(job: Job) -> list[Stability | NotTested]:
 def show(result: Stability | NotTested) -> None:
     """Print the results of the stress tests of one method, or the reason why the method was not tested."""
     from codegen.lab.measurements.stability import endurance_text
+    from codegen.lab.stability.linear_stability import interval
     from codegen.lab.stability.stability_study import NotTested
 
     click.echo(f"{result.method} on {result.scene}")
@@ -124,12 +130,3 @@ def show(result: Stability | NotTested) -> None:
     for note in findings.notes:
         click.echo(f"  {note}")
     click.echo()
-
-
-def interval(length: float) -> str:
-    """Return the length of a stability interval as a text.
-
-    >>> interval(2.0), interval(float("inf")), interval(0.0)
-    ('2', 'unbounded', 'none')
-    """
-    return "unbounded" if length == float("inf") else f"{length:.4g}" if length else "none"

@@ -69,14 +69,14 @@ def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
         return {"a_stable": None, "l_stable": None}
     try:
         a_stable, l_stable = _decided(method, ring)
-    except _Undecided:
+    except Undecided:
         return {"a_stable": None, "l_stable": None}
     return {"a_stable": a_stable, "l_stable": l_stable}
 
 
 def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
     if _largest_block(method, ring) > LARGEST:
-        raise _Undecided
+        raise Undecided
     from orderconds.ring.nodal import nodal_algebra
     from orderconds.tableau.rational_stability import determinant, stable
 
@@ -88,7 +88,7 @@ def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
         maps = algebra.rational_maps()
         if (verdict := stable(*map(determinant, maps))) is not None:
             return verdict
-    limited = cast("SignedRing", _Limited(ring))
+    limited = cast("SignedRing", Limited(ring))
     R = stability_function(method, limited)
     a_stable = poles_right(R.denominator, limited) and bounded_on_axis(R, limited)
     return a_stable, a_stable and len(R.numerator) < len(R.denominator)
@@ -122,13 +122,13 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bo
     return {"a_stable": all(signed.sign(x) in (0, 1) for x in left), "l_stable": False}
 
 
-class _Undecided(Exception):
+class Undecided(Exception):
     """Stability cannot be decided: the sign of a ball (interval) is unknown, or the computation would take
     too long."""
 
 
-class _Limited:
-    """A ring that raises :class:`_Undecided` if the total work exceeds :data:`EFFORT`."""
+class Limited:
+    """A ring that raises :class:`Undecided` if the total work exceeds :data:`EFFORT`."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring, self.left = ring, EFFORT
@@ -140,7 +140,7 @@ class _Limited:
         """Subtract ``work`` from the remaining part of the limit :data:`EFFORT`."""
         self.left -= work
         if self.left < 0:
-            raise _Undecided
+            raise Undecided
 
 
 def _bits(x: Element) -> int:
@@ -154,7 +154,7 @@ def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) 
     """Subtract the estimated work of ``count`` multiplications from the work that is still allowed. The
     estimate is quadratic in the number of bits of ``numbers`` if ``quadratic`` is true, and linear
     otherwise."""
-    if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
+    if isinstance(ring, Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
         bits = 1000 + degree * max(map(_bits, numbers), default=1)
@@ -173,7 +173,7 @@ def _largest_block(method: RungeKutta, ring: Ring) -> int:
 def _sign(x: Element, ring: SignedRing) -> int:
     sign = ring.sign(x)
     if sign is None:
-        raise _Undecided
+        raise Undecided
     return int(sign)
 
 
@@ -185,26 +185,41 @@ def stability_function(method: RungeKutta, ring: Ring) -> StabilityFunction:
     >>> [str(x) for x in R.numerator], [str(x) for x in R.denominator]
     (['1', '1/2'], ['1', '-1/2'])
     """
-    A, b = method.A, method.b
-    Q = _determinant(A, ring)
-    P = _determinant([[a - w for a, w in zip(row, b, strict=True)] for row in A], ring)
+    P, Q = (_trimmed(p, ring) for p in determinants(method, ring))
     common = _gcd(P, Q, ring)
     return StabilityFunction(tuple(_quotient(P, common, ring)), tuple(_quotient(Q, common, ring)))
 
 
-def _determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
+def determinants(method: RungeKutta, ring: Ring) -> tuple[list[Element], list[Element]]:
+    """Return the polynomials P and Q of the stability function P/Q. P and Q can have common factors, and
+    their last coefficients can be zero.
+
+    >>> P, Q = determinants(RungeKutta(((QQ.zero,),), (QQ.one,)), QQ)
+    >>> [str(x) for x in P], [str(x) for x in Q]
+    (['1', '1'], ['1', '0'])
+    """
+    less = [[a - w for a, w in zip(row, method.b, strict=True)] for row in method.A]
+    if ring is QQ:
+        from orderconds.tableau.rational_stability import determinant
+
+        P, Q = determinant(less).coeffs(), determinant(method.A).coeffs()
+        return padded(P, Q, ring)
+    return _determinant(less, ring), _determinant(method.A, ring)
+
+
+def _determinant(A: Sequence[Sequence[Element]], ring: Ring) -> list[Element]:
     """Return det(I - zA) as a polynomial in z, by the method of Faddeev and LeVerrier."""
     result = [ring.one]
     start = 0
     for end in range(1, len(A) + 1):
         if all(ring.is_zero(x) is True for row in A[:end] for x in row[end:]):
             block = [row[start:end] for row in A[start:end]]
-            result = _product(result, _block_determinant(block, ring), ring)
+            result = product(result, _block_determinant(block, ring), ring)
             start = end
     return result
 
 
-def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
+def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> list[Element]:
     stages = range(len(A))
     _spend(ring, len(A) ** 4, [x for row in A for x in row], quadratic=False)
     coefficients = [ring.one]
@@ -220,7 +235,7 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
         ]
         trace = sum((A[i][m] * M[m][i] for i in stages for m in stages), ring.zero)
         coefficients.append(trace * ring.rational(-1, k))
-    return _trimmed(coefficients, ring)
+    return coefficients
 
 
 def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
@@ -252,7 +267,7 @@ def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
     >>> bounded_on_axis(stability_function(gauss1.method, gauss1.ring), gauss1.ring)
     True
     """
-    moduli = _padded(_modulus(R.denominator, ring), _modulus(R.numerator, ring), ring)
+    moduli = padded(squared_modulus(R.denominator, ring), squared_modulus(R.numerator, ring), ring)
     E = _trimmed([q - p for q, p in zip(*moduli, strict=True)], ring)
     if not E:
         return True
@@ -260,16 +275,20 @@ def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
         return False
     return not any(
         multiplicity % 2 and positive_roots(factor, ring)
-        for multiplicity, factor in enumerate(_squarefree(E, ring), start=1)
+        for multiplicity, factor in enumerate(squarefree(E, ring), start=1)
     )
 
 
-def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
-    """Return |p(iy)|^2 for real y as a polynomial in y^2."""
+def squared_modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
+    """Return |p(iy)|^2 for real y as a polynomial in y^2.
+
+    >>> [str(x) for x in squared_modulus([QQ.rational(x) for x in (1, 1)], QQ)]
+    ['1', '1']
+    """
     real = [x if k % 2 == 0 else -x for k, x in enumerate(p[0::2])]
     imaginary = [x if k % 2 == 0 else -x for k, x in enumerate(p[1::2])]
-    square, rest = _product(real, real, ring), [ring.zero, *_product(imaginary, imaginary, ring)]
-    return [x + y for x, y in zip(*_padded(square, rest, ring), strict=True)]
+    square, rest = product(real, real, ring), [ring.zero, *product(imaginary, imaginary, ring)]
+    return [x + y for x, y in zip(*padded(square, rest, ring), strict=True)]
 
 
 def positive_roots(p: Sequence[Element], ring: SignedRing) -> int:
@@ -290,7 +309,7 @@ def _changes(values: Sequence[Element], ring: SignedRing) -> int:
     return sum(x != y for x, y in pairwise(signs))
 
 
-def _squarefree(p: Polynomial, ring: Ring) -> list[Polynomial]:
+def squarefree(p: Polynomial, ring: Ring) -> list[Polynomial]:
     """Return square-free polynomials f_1, f_2, ... such that p is a constant multiple of f_1 f_2^2 f_3^3 ...
     (Yun 1976)."""
     common = _gcd(p, _derivative(p, ring), ring)
@@ -335,7 +354,8 @@ def _divided(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> tuple[Po
     return _trimmed(quotient, ring), _trimmed(rest[: len(q) - 1], ring)
 
 
-def _product(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> Polynomial:
+def product(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> Polynomial:
+    """Return the product of two polynomials. Its last coefficients are not trimmed."""
     result = [ring.zero] * max(len(p) + len(q) - 1, 0)
     for i, x in enumerate(p):
         for j, y in enumerate(q):
@@ -347,13 +367,14 @@ def _trimmed(p: Polynomial, ring: Ring) -> Polynomial:
     while p:
         vanishes = ring.is_zero(p[-1])
         if vanishes is None:
-            raise _Undecided
+            raise Undecided
         if not vanishes:
             break
         p = p[:-1]
     return p
 
 
-def _padded(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> tuple[Polynomial, Polynomial]:
+def padded(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> tuple[Polynomial, Polynomial]:
+    """Return two polynomials with zeros appended to the shorter one, so that both have equal length."""
     size = max(len(p), len(q))
     return [*p, *[ring.zero] * (size - len(p))], [*q, *[ring.zero] * (size - len(q))]

@@ -15,9 +15,24 @@ from codegen.lab.long_runs.long_run import LongRun
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.extreme_steps import DIGITS, solved_step
 from codegen.lower import problem_for
+from codegen.method import Method
+from orderconds.tableau.uncertainty import uncertainty
 
-SYMPLECTIC = 1e-12
-"""A step counts as symplectic if its symplectic defect is below this number."""
+SYMPLECTIC = 1e-24
+"""A step counts as symplectic if its symplectic defect is below this number.
+
+The defect of symplectic steps is at most the error of the finite differences, about 1e-50, or about 1e-26 if
+components of the state differ by a factor of 1e12
+(:data:`~codegen.lab.long_runs.symplecticity.OFFSET`). The defect of other steps has a power of the step size,
+so it can be far below the precision of doubles.
+"""
+
+ROUNDED = 1e-12
+"""The limit that replaces :data:`SYMPLECTIC` if the coefficients have fewer than :data:`ACCURATE` bits, for
+example doubles. Their rounding, about 1e-16 for doubles, causes a defect also in symplectic methods."""
+
+ACCURATE = 100
+"""The number of bits, about 30 digits, to which coefficients must be known for :data:`SYMPLECTIC`."""
 
 SYMMETRIC = 1e-30
 """A step counts as symmetric if the distance computed by :func:`reversal` is below this number."""
@@ -58,12 +73,19 @@ def properties(compiled: Compiled, run: LongRun) -> Properties:
     drifts = None if kept is None else kept.drift.drifts
     return Properties(
         run.method,
-        None if run.symplectic is None else run.symplectic < SYMPLECTIC,
+        None if run.symplectic is None else run.symplectic < _limit(compiled.method),
         None if back is None else back < SYMMETRIC,
         None if drifts is None else not drifts,
         "" if kept is None else kept.name,
         back,
     )
+
+
+def _limit(method: Method) -> float:
+    """Return the largest symplectic defect of a step of a symplectic method."""
+    tableau = method.coefficients
+    rounded = tableau is not None and (tableau.doubles or uncertainty(tableau, ACCURATE) != "")
+    return ROUNDED if rounded else SYMPLECTIC
 
 
 def reversal(compiled: Compiled, h: float) -> float | None:

@@ -10,14 +10,18 @@ pairs (xi_1, nu_1) and (xi_2, nu_2), the symplectic form has the value
 
 The brackets <nu, xi> denote the pairing of the dual with the Lie algebra, and [xi_1, xi_2] is the Lie
 bracket. The formula is eq. (2.26) of H. Marthinsen, *Lie group integrators*.
+
+The defect does not depend on the units of length, mass and time: each direction of the tangent space is
+measured in a scale of its own (:class:`_Scales`), and the increments of the finite differences are
+proportional to these scales.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-
-import numpy
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from codegen.emitter import Compiled
 from codegen.ir.domain import PreciseDomain
@@ -28,11 +32,19 @@ from codegen.lab.runner import Emitted
 from codegen.lab.stability.extreme_steps import CORRECTIONS, precise_step, solutions
 from codegen.lab.straight_line_field import velocity
 
-DIGITS = 40
-OFFSET = 10
-"""The tangent map is approximated by central differences with the increment 10^-OFFSET."""
+if TYPE_CHECKING:
+    import mpmath
 
-SWEEPS = 40
+DIGITS = 80
+OFFSET = 25
+"""The tangent map is approximated by central differences. The increment in each direction is 10^-OFFSET times
+the scale of this direction.
+
+The relative errors of the differences are about 10^(-2 OFFSET) from the third derivative of the step, and
+10^(OFFSET - DIGITS) from rounding: 10^-50 and 10^-55. The scales are sizes of whole vectors. If a component
+is 10^12 times smaller than the vector, the error relative to this component is about 10^-26."""
+
+SWEEPS = 80
 """The largest number of fixed-point iterations for each system of implicit equations in a step."""
 
 LEFT = 0.5
@@ -45,7 +57,7 @@ def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, 
     The trajectory is used only up to the first large deviation of a conserved quantity (:data:`LEFT`). In
     this part, the steps start at the first sample, the middle sample, and the sample with the fastest motion.
     Two of these samples may be the same.
-    Raises ArithmeticError or ValueError if a step cannot be computed with 40 digits.
+    Raises ArithmeticError or ValueError if a step cannot be computed with :data:`DIGITS` digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -90,20 +102,20 @@ def symplectic_defect(
     """Return the symplectic defect of a step of size ``h``.
 
     Let J be the matrix of the tangent map of the step. Let A and B be the matrices of the symplectic form
-    before and after the step. The defect is the largest absolute entry of the matrix transpose(J) B J - A,
-    divided by the largest absolute entry of A.
+    before and after the step. All matrices refer to the scaled basis of :class:`_Scales`, and the forms are
+    divided by the scale of the action. The defect is the largest absolute entry of the matrix
+    transpose(J) B J - A, divided by the largest absolute entry of A. It is a number without unit.
 
     ``state`` contains the coordinates of a group element and of its momentum. The scene must be Hamiltonian.
     If fixed-point iteration fails for an implicit step, Newton's method starts from the approximate solution
-    ``near``. Raises ArithmeticError or ValueError if no solution is found.
+    ``near``. Raises ArithmeticError or ValueError if no solution is found, or if the group element or the
+    momentum has no size.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)
-    group, n = scene.group, scene.group.dim
+    group = scene.group
     number = domain.context.mpf
     q, mu = tuple(map(number, state[: group.size])), tuple(map(number, state[group.size :]))
-    epsilon = domain.context.mpf(10) ** -OFFSET
-
     solution: list[list[Scalar]] | None = None
 
     def step(q: Vector, mu: Vector) -> tuple[Vector, Vector]:
@@ -118,28 +130,92 @@ def symplectic_defect(
         solution = [list(block) for block in near]
         # This call replaces the entries of ``solution`` by more accurate numbers.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
-    basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
-    frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T
+    scales = _scales(compiled, domain, (q, end), (mu, momentum))
+    J = _tangent_map(compiled, domain, step, (q, mu), end, scales)
+    before, after = (_form(compiled, domain, m, scales) for m in (mu, momentum))
+    defect = J.T * after * J - before
+    return float(max(map(abs, defect)) / max(map(abs, before)))
+
+
+@dataclass(frozen=True)
+class _Scales:
+    """The units in which tangent vectors (xi, nu) at a state are measured.
+
+    ``positions`` contains a scale for each coordinate of xi, and ``action`` is the scale of the symplectic
+    form. The scale of a coordinate of nu is ``action`` divided by the scale of the same coordinate of xi. If
+    the units of the scene change, all scales change with them.
+    """
+
+    positions: tuple[Scalar, ...]
+    action: Scalar
+
+    @property
+    def all(self) -> tuple[Scalar, ...]:
+        """The scales of the coordinates of (xi, nu)."""
+        return (*self.positions, *(self.action / x for x in self.positions))
+
+
+def _scales(
+    compiled: Compiled, domain: PreciseDomain, elements: Sequence[Vector], momenta: Sequence[Vector]
+) -> _Scales:
+    """Return the scales at a step from the first to the second state.
+
+    The motion exp(s xi) q changes the group element q by about its own size if s is the scale of xi. The
+    scale of the action is the largest product of this scale and the momentum in the same direction. The
+    larger of the two states counts, because a coordinate can be zero at one of them. Raises ArithmeticError
+    if the coordinates of the group elements or of the momenta are zero at both states.
+    """
+    group, context = compiled.scene.group, domain.context
+    size = max(map(context.norm, elements))
+    momentum = max(map(context.norm, momenta))
+    if not size or not momentum:
+        what = "momentum" if size else "position"
+        raise ArithmeticError(f"the {what} is zero before and after the step, so it has no scale")
+    positions = []
+    for e in _basis(group.dim, domain):
+        speeds = [context.norm(group.velocity(domain, e, q)) for q in elements]
+        positions.append(size / max(speeds))
+    return _Scales(tuple(positions), max(positions) * momentum)
+
+
+def _tangent_map(
+    compiled: Compiled,
+    domain: PreciseDomain,
+    step: Callable[[Vector, Vector], tuple[Vector, Vector]],
+    state: tuple[Vector, Vector],
+    end: Vector,
+    scales: _Scales,
+) -> mpmath.matrix:
+    """Return the matrix of the tangent map of a step in the scaled basis, by central differences.
+
+    ``state`` is the pair of the group element and the momentum before the step, and ``end`` is the group
+    element after the step.
+    """
+    group, context = compiled.scene.group, domain.context
+    basis = _basis(group.dim, domain)
+    frame = context.matrix([list(group.velocity(domain, e, end)) for e in basis]).T
+    epsilon = context.mpf(10) ** -OFFSET
+    q, mu = state
     columns = []
-    for k in range(2 * n):
-        ends = []
+    for k, unit in enumerate(scales.all):
+        direction, ends = basis[k % group.dim], []
         for sign in (1, -1):
-            moved_q, moved_mu = q, mu
-            if k < n:
-                turn = group.exp(domain, tuple(sign * epsilon * x for x in basis[k]))
-                moved_q = tuple(group.mul(domain, turn, q))
+            move = tuple(sign * epsilon * unit * x for x in direction)
+            if k < group.dim:
+                ends.append(step(tuple(group.mul(domain, group.exp(domain, move), q)), mu))
             else:
-                moved_mu = tuple(m + sign * epsilon * x for m, x in zip(mu, basis[k - n], strict=True))
-            ends.append(step(moved_q, moved_mu))
+                ends.append(step(q, tuple(m + x for m, x in zip(mu, move, strict=True))))
         dq, dmu = (
-            [float((a - b) / (2 * epsilon)) for a, b in zip(x, y, strict=True)]
-            for x, y in zip(*ends, strict=True)
+            [(a - b) / (2 * epsilon) for a, b in zip(x, y, strict=True)] for x, y in zip(*ends, strict=True)
         )
-        xi = numpy.linalg.lstsq(frame, numpy.array(dq), rcond=None)[0]
-        columns.append([*xi, *dmu])
-    J = numpy.array(columns).T
-    before, after = _form(compiled, domain, mu), _form(compiled, domain, momentum)
-    return float(numpy.abs(J.T @ after @ J - before).max() / numpy.abs(before).max())
+        # ``frame`` has full rank, so this is the least-squares solution.
+        xi = context.lu_solve(frame.T * frame, frame.T * context.matrix(dq))
+        columns.append([x / s for x, s in zip([*xi, *dmu], scales.all, strict=True)])
+    return context.matrix(columns).T
+
+
+def _basis(n: int, domain: PreciseDomain) -> list[tuple[Scalar, ...]]:
+    return [tuple(domain.rational(int(i == j)) for j in range(n)) for i in range(n)]
 
 
 def _step(
@@ -156,12 +232,14 @@ def _step(
     return tuple(state[: len(q)]), tuple(state[len(q) :])
 
 
-def _form(compiled: Compiled, domain: PreciseDomain, mu: Vector) -> numpy.ndarray:
-    group, n = compiled.scene.group, compiled.scene.group.dim
-    basis = [tuple(domain.rational(int(i == j)) for j in range(n)) for i in range(n)]
-    bracket = [
-        [float(sum(m * x for m, x in zip(mu, group.ad(domain, a, b), strict=True))) for b in basis]
-        for a in basis
-    ]
-    unit, zero = numpy.eye(n), numpy.zeros((n, n))
-    return numpy.block([[-numpy.array(bracket), unit], [-unit, zero]])
+def _form(compiled: Compiled, domain: PreciseDomain, mu: Vector, scales: _Scales) -> mpmath.matrix:
+    """Return the matrix of the symplectic form at ``mu`` in the scaled basis, divided by the action."""
+    group, context, n = compiled.scene.group, domain.context, compiled.scene.group.dim
+    basis, units = _basis(n, domain), scales.positions
+    form = context.matrix(2 * n, 2 * n)
+    for i, a in enumerate(basis):
+        form[i, n + i], form[n + i, i] = context.mpf(1), context.mpf(-1)
+        for j, b in enumerate(basis):
+            bracket = sum(m * x for m, x in zip(mu, group.ad(domain, a, b), strict=True))
+            form[i, j] = -bracket * units[i] * units[j] / scales.action
+    return form

@@ -14,7 +14,7 @@ from codegen.lab.page.figures import region_figure
 from codegen.lab.page.formatting import Picture, enumeration, scientific
 from codegen.lab.stability.endurance import Endurance
 from codegen.lab.stability.extreme_steps import ACCURATE, WRONG, Answer
-from codegen.lab.stability.linear_stability import region
+from codegen.lab.stability.linear_stability import interval, region
 from codegen.lab.stability.stability_study import Findings, Stability, StiffScenes, findings, stiff_scenes
 from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 
@@ -154,8 +154,8 @@ def _row(stability: Stability) -> dict[str, object]:
         "label": stability.method,
         "h": "none" if limit.h is None else f"{limit.h:.3g}",
         "reason": limit.reason,
-        "real": "–" if linear is None else _length(linear.real),
-        "imaginary": "–" if linear is None else _length(linear.imaginary),
+        "real": "–" if linear is None else interval(linear.real, 3),
+        "imaginary": "–" if linear is None else interval(linear.imaginary, 3),
         "accurate": kinds["accurate"],
         "status": kinds["status"],
         "other": kinds["undetermined"],
@@ -167,10 +167,6 @@ def _kind(answer: Answer) -> str:
     if answer.verdict.startswith(WRONG):
         return "wrong"
     return answer.verdict.partition(":")[0] if answer.verdict != ACCURATE else "accurate"
-
-
-def _length(x: float) -> str:
-    return "unbounded" if x == float("inf") else f"{x:.3g}" if x else "none"
 
 
 def _cases(stability: Stability) -> dict[str, object]:

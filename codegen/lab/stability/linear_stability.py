@@ -11,15 +11,21 @@ varies along the solution, the stability intervals of the tableau limit the step
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from codegen.method import Method
 from orderconds.errors import InputError
 from orderconds.families import get
-from orderconds.tableau.stability import stability_function
-
-FARTHEST = 100.0
-SLACK = 1e-9
+from orderconds.ring import QQ
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau import Tableau
+from orderconds.tableau.stability import Undecided, determinants, stability_function
+from orderconds.tableau.stability_intervals import (
+    Intervals,
+    Vanishing,
+    stability_intervals,
+    vanishing_coefficients,
+)
 
 
 @dataclass(frozen=True)
@@ -39,44 +45,116 @@ class Quotient:
 class Region:
     """The stability function of a method, and its stability intervals.
 
-    ``label`` is the name of the method, and ``value`` is the stability function R. On a stability interval,
-    which begins at zero, |R(z)| <= 1. ``real`` and ``imaginary`` are the lengths of the intervals on the
-    negative real and the positive imaginary axis. If a length exceeds :data:`FARTHEST`, it is replaced by
-    infinity.
+    ``label`` is the name of the method, and ``value`` is the stability function R in double precision. On a
+    stability interval, which begins at zero, |R(z)| <= 1. ``real`` and ``imaginary`` are the lengths of the
+    largest intervals on the negative real and the positive imaginary axis. They are computed from the exact
+    coefficients: a length is infinite only if this is proved, and None if it is undecided
+    (:class:`~orderconds.tableau.stability_intervals.Intervals`).
     """
 
     label: str
     value: Callable[[complex], complex]
-    real: float
-    imaginary: float
+    real: float | None
+    imaginary: float | None
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data, which can be written as JSON. An infinite length becomes None."""
-        return {
-            "real": None if self.real == float("inf") else self.real,
-            "imaginary": None if self.imaginary == float("inf") else self.imaginary,
-        }
+        """Return plain data, which can be written as JSON.
+
+        A length that is infinite or undecided becomes None. The key ``undecided`` lists the axes whose length
+        is undecided.
+        """
+        lengths = {"real": self.real, "imaginary": self.imaginary}
+        known = {axis: None if length == float("inf") else length for axis, length in lengths.items()}
+        return {**known, UNDECIDED: [axis for axis, length in lengths.items() if length is None]}
+
+
+UNDECIDED = "undecided"
+"""The word for the length of a stability interval that is not known, and the JSON key of such axes."""
+
+
+def interval(length: float | None, digits: int = 4) -> str:
+    """Return the length of a stability interval as a text with ``digits`` significant digits.
+
+    >>> interval(2.0), interval(float("inf")), interval(0.0), interval(None)
+    ('2', 'unbounded', 'none', 'undecided')
+    """
+    if length is None:
+        return UNDECIDED
+    return "unbounded" if length == float("inf") else f"{length:.{digits}g}" if length else "none"
 
 
 def region(method: Method) -> Region | None:
     """Return the stability function and the stability intervals of the tableau of a method.
 
-    The result is None if the stability function is not known, for example for splitting methods and tableaux
-    with inexact coefficients.
+    The result is None if the stability function is not known, for example for splitting methods.
     """
     known = get(method.family_label).stability_coefficients()
     if known is not None:
-        polynomial = Quotient(tuple(map(float, known)), (1.0,))
-        return Region(method.label, polynomial, reach(polynomial, -1.0), reach(polynomial, 1j))
-    tableau = method.tableau
+        P, Q = [QQ.rational(x.numerator, x.denominator) for x in known], [QQ.one]
+        lengths = stability_intervals(P, Q, QQ)
+        return Region(method.label, _quotient(P, Q, QQ), lengths.real, lengths.imaginary)
     try:
-        R = stability_function(tableau.abelian(), tableau.ring)
-        rows = [[float(tableau.ring.approximate(x, 20)) for x in p] for p in (R.numerator, R.denominator)]
+        tableau = method.tableau
+        lengths = _intervals(tableau)
+        value = _value(tableau)
     except (InputError, TypeError, ValueError, ArithmeticError, AttributeError):
         return None
+    return Region(method.label, value, lengths.real, lengths.imaginary)
 
-    value = Quotient(*map(tuple, rows))
-    return Region(method.label, value, reach(value, -1.0), reach(value, 1j))
+
+def _intervals(tableau: Tableau) -> Intervals:
+    P, Q = determinants(tableau.abelian(), tableau.ring)
+    return stability_intervals(P, Q, tableau.ring, _proved_order(tableau), _identities(tableau))
+
+
+def _proved_order(tableau: Tableau) -> int:
+    """Return an order that the equations in the table [proof] of the tableau imply on vector spaces.
+
+    The order is 0 if the tableau has no valid proof.
+    """
+    if tableau.proof is None:
+        return 0
+    from orderconds.proof.certificate import certify
+    from orderconds.proof.implications import least_order
+    from orderconds.proof.krawczyk import NotProved
+
+    try:
+        return least_order(certify(tableau).facts, get("rk"))
+    except NotProved:
+        return 0
+
+
+def _identities(tableau: Tableau) -> Vanishing:
+    """Return the coefficients that vanish for all values of the rounded decimals in the tableau.
+
+    Random numbers replace the decimals. The probability of a wrong answer is negligible
+    (:mod:`orderconds.tableau.random_member`).
+    """
+    if tableau.proof is None:
+        return Vanishing()
+    from orderconds.tableau.random_member import OUTSIDE, RandomMember
+
+    ring = RandomMember(tableau.proof.symbolic)
+    try:
+        drawn = replace(tableau, method=ring.method(), ring=ring)
+        return vanishing_coefficients(*determinants(drawn.abelian(), ring), ring)
+    except OUTSIDE:
+        return Vanishing()
+
+
+def _value(tableau: Tableau) -> Quotient:
+    """Return the stability function in double precision, in lowest terms if balls do not prevent this."""
+    method, ring = tableau.abelian(), tableau.ring
+    try:
+        R = stability_function(method, ring)
+    except Undecided:
+        return _quotient(*determinants(method, ring), ring)
+    return _quotient(R.numerator, R.denominator, ring)
+
+
+def _quotient(P: Sequence[Element], Q: Sequence[Element], ring: Ring) -> Quotient:
+    top, bottom = (tuple(float(ring.approximate(x, 20)) for x in p) for p in (P, Q))
+    return Quotient(top, bottom)
 
 
 def _horner(row: Sequence[float], z: complex) -> complex:
@@ -84,26 +162,3 @@ def _horner(row: Sequence[float], z: complex) -> complex:
     for c in reversed(row):
         total = total * z + c
     return total
-
-
-def reach(value: Callable[[complex], complex], direction: complex) -> float:
-    """Return the largest r such that |value(s ``direction``)| <= 1 for 0 <= s <= r.
-
-    ``direction`` is a complex number with absolute value 1. If r exceeds :data:`FARTHEST`, the result is
-    infinity.
-
-    >>> round(reach(lambda z: 1 + z, -1.0), 6), reach(lambda z: 1 / (1 - z), -1.0)
-    (2.0, inf)
-    """
-    step, x = 1.0 / 128, 0.0
-    while x < FARTHEST:
-        if abs(value((x + step) * direction)) > 1.0 + SLACK:
-            break
-        x += step
-    else:
-        return float("inf")
-    low, high = x, x + step
-    for _ in range(40):
-        middle = (low + high) / 2
-        low, high = (middle, high) if abs(value(middle * direction)) <= 1.0 + SLACK else (low, middle)
-    return low if low > step else 0.0

@@ -18,7 +18,7 @@ from codegen.lab.runner import Emitted
 from codegen.lab.stability import largest_step as limits
 from codegen.lab.stability.endurance import Endurance, endure
 from codegen.lab.stability.largest_step import largest_step
-from codegen.lab.stability.linear_stability import reach, region
+from codegen.lab.stability.linear_stability import region
 from codegen.lab.stability.order_reduction import order_reduction
 from codegen.scenes import stiff_variants
 from codegen.scenes.free_rigid_body import thin_body
@@ -59,11 +59,6 @@ def test_stability_intervals_are_the_known_ones(spelling, real, imaginary):
     assert found is not None
     assert found.real == pytest.approx(real, abs=1e-6)
     assert found.imaginary == pytest.approx(imaginary, abs=1e-4)
-
-
-def test_an_interval_ends_where_the_function_leaves_the_disk():
-    assert reach(lambda z: 1 + z + z * z / 2, -1.0) == pytest.approx(2.0)
-    assert reach(lambda z: 2 + z, -1.0) == 0.0
 
 
 def test_order_is_lost_on_a_thin_body_and_kept_by_nothing_that_is_resolved():
