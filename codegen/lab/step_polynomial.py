@@ -183,7 +183,7 @@ class _Signs:
         centre = self._expansions(shifted, middle)
         over = self._expansions(tuple(p(arb_poly([around, 1])) for p in shifted), middle + around)
         ends = self.values(solution.at(b), solution.start + b)
-        found = False
+        negative = False
         for k in unknown:
             form = _taylor_form(centre[k], over[k])
             if form(around) >= -self.limits[k]:
@@ -194,16 +194,16 @@ class _Signs:
             if ends[k] < -self.limits[k]:
                 if self.sizes[k] < NEGLIGIBLE:
                     raise Undecided("the argument of an operation with several cases is too close to zero")
-                found = True
-        return found
+                negative = True
+        return negative
 
     def _negative_possible(self, state: Vector, t: Scalar) -> list[int]:
         try:
-            found = self.values(state, t)
+            values = self.values(state, t)
         except (ArithmeticError, ValueError):
             # The box can contain points at which a function is not defined.
             return list(range(self.count))
-        return [k for k, x in enumerate(found) if not x >= -self.limits[k]]
+        return [k for k, x in enumerate(values) if not x >= -self.limits[k]]
 
     def _expansions(self, state: tuple[arb_poly, ...], tau: Scalar) -> list[list[arb]]:
         """Return the power series of the functions, as lists of DEGREE + 1 coefficients."""

@@ -36,9 +36,9 @@ def test_a_short_interval_with_a_negative_value_is_bracketed(width: float) -> No
         return ((y[0] - arb("0.9")) * (y[0] - arb("0.9")) - arb(width) * arb(width),)
 
     with precision(BITS):
-        found = polynomial().first_exit(dip, dip, arb("0.8"))
-        assert found is not None
-        a, b = found
+        bracket = polynomial().first_exit(dip, dip, arb("0.8"))
+        assert bracket is not None
+        a, b = bracket
         first, last = ((arb("0.9") + s * arb(width)).acos() for s in (1, -1))
         assert a < first < b < last
 
