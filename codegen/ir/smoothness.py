@@ -105,9 +105,9 @@ def features(roots: Sequence[Expr]) -> str:
         elif node.payload == ANGLE:
             words.append(f"the jump of {node} from pi to -pi")
         elif node.payload == ABSOLUTE:
-            words.append(f"abs({_argument(node)})")
+            words.append(f"abs({argument_text(node)})")
         elif node.payload == CHOOSE:
-            words.append(f"a case distinction at {_argument(node)} = 0")
+            words.append(f"a case distinction at {argument_text(node)} = 0")
     unique = list(dict.fromkeys(words))
     return ", ".join(unique[:SHOWN]) + (f" and {len(unique) - SHOWN} more" if len(unique) > SHOWN else "")
 
@@ -116,7 +116,7 @@ SHOWN = 3
 """The largest number of entries in the list of :func:`features`."""
 
 
-def _argument(node: Expr) -> str:
+def argument_text(node: Expr) -> str:
     """Return the text of the first argument of ``node``. A minus sign before the argument is omitted."""
     x = node.args[0]
     # The zeros of x and -x are the same, so the sign does not matter.

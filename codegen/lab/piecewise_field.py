@@ -21,7 +21,9 @@ from codegen.ir.expr import Expr
 from codegen.ir.smoothness import Sides, on_sides, selections
 from codegen.ir.table import PiecewisePolynomial
 from codegen.lab.ambient_field import FUNCTIONS, ball
+from codegen.lab.number_functions import Functions
 from codegen.lab.number_types import Evaluate, Scalar, Vector
+from codegen.lab.step_polynomial import SERIES, StepPolynomial
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
@@ -40,17 +42,10 @@ of |f - g| for the two lengths s in NEAR give k.
 """
 
 VANISHING = 1e-30
-"""A margin is a function of the state and the time. A margin with an absolute value less than VANISHING
-counts as zero.
+"""The largest accepted difference between a step and its Taylor polynomial, relative to the state.
 
-The field can be non-smooth at a zero of a margin.
-"""
-
-SUBSTEPS = 24
-"""The largest number of points inside a step at which :meth:`Sided.leaves` tests the signs of the margins.
-
-A margin is a function of the state and the time. A negative margin shows that an operation such as abs(x) has
-passed from one case to another inside the step.
+The tolerances of the steps are 1e-33 and 1e-36, so a larger difference is an error of the polynomial. The
+positions of events are more accurate: at an event, a margin is zero up to VANISHING / 10^8.
 """
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
@@ -62,12 +57,13 @@ MOST = 9
 class PiecewiseField:
     """The smooth fields of a scene whose vector field contains selections (operations with several cases).
 
-    Each combination of cases has its own smooth field. The dictionary ``compiled`` stores the results of
-    :meth:`on`.
+    Each combination of cases has its own smooth field. The dictionaries ``compiled`` and ``expanded`` store
+    the results of :meth:`on` and :meth:`series`.
     """
 
     scene: Problem
     compiled: dict[Sides, tuple[Evaluate, Evaluate]] = field(default_factory=dict)
+    expanded: dict[Sides, tuple[Evaluate, Evaluate]] = field(default_factory=dict)
 
     @cached_property
     def roots(self) -> tuple[Expr, ...]:
@@ -92,11 +88,20 @@ class PiecewiseField:
         for the case x > 0 of abs(x) is x. While all cases in ``sides`` apply, all margins are positive.
         """
         if sides not in self.compiled:
-            pair = on_sides(self.roots, self.nodes, sides)
-            name, symbols = self.scene.name, self.scene.symbols
-            first, second = (straight_line(name, symbols, tuple(r)).python(ball, FUNCTIONS) for r in pair)
-            self.compiled[sides] = first, second
+            self.compiled[sides] = self._pair(sides, FUNCTIONS)
         return self.compiled[sides]
+
+    def series(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
+        """Return the same two functions as :meth:`on`, for power series with balls as coefficients."""
+        if sides not in self.expanded:
+            self.expanded[sides] = self._pair(sides, SERIES)
+        return self.expanded[sides]
+
+    def _pair(self, sides: Sides, functions: Functions) -> tuple[Evaluate, Evaluate]:
+        pair = on_sides(self.roots, self.nodes, sides)
+        name, symbols = self.scene.name, self.scene.symbols
+        first, second = (straight_line(name, symbols, tuple(r)).python(ball, functions) for r in pair)
+        return first, second
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
         """Return the case that applies just after the time t, for each operation with several cases.
@@ -153,25 +158,19 @@ class Sided:
 
     A selection is an operation with several cases, such as abs(x). ``sides`` contains the current case of
     each selection. ``kinks`` contains the number of continuous derivatives at each past event, or -1 if the
-    field is discontinuous there. ``points`` contains the pairs (state, t) of the latest evaluations of the
-    field.
+    field is discontinuous there.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
         self.fields = fields
         self.kinks: list[int] = []
-        self.points: list[tuple[Vector, Scalar]] = []
 
-    def begin(self, y: Vector, t: Scalar, least: float) -> None:
-        """Set ``sides`` for a run that begins at the state y and the time t.
-
-        ``least`` is the length of the shortest permitted step.
-        """
-        self.sides, self.least = self.fields.sides_at(y, t), least
+    def begin(self, y: Vector, t: Scalar) -> None:
+        """Set ``sides`` for a run that begins at the state y and the time t."""
+        self.sides = self.fields.sides_at(y, t)
 
     def __call__(self, y: Vector, t: Scalar) -> Vector:
-        """Return the value of the field at the state y and the time t, and add (y, t) to ``points``."""
-        self.points.append((y, t))
+        """Return the value of the field at the state y and the time t."""
         return self.fields.on(self.sides)[0](y, t)
 
     def margins(self, y: Vector, t: Scalar) -> Vector:
@@ -181,39 +180,64 @@ class Sided:
         """
         return self.fields.on(self.sides)[1](y, t)
 
-    def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Return True if a margin is negative at a tested point of a step from (y, t) to ``new``.
+    def stopped(
+        self, y: Vector, t: Scalar, new: Vector, length: Scalar, advance: Advance
+    ) -> tuple[Scalar, Vector, float] | None:
+        """Return None if the field is smooth during a step from (y, t) to ``new``.
 
-        The end of the step is always tested. If the step is longer than twice the shortest permitted length,
-        the last :data:`SUBSTEPS` entries of ``points`` are tested, too.
+        Otherwise, return the time and the state at which the caller must continue, and the length of the next
+        step. This is the first event in the step, or the pair (t, y) with a shorter step.
+        Raises :class:`SceneError` if the first event cannot be found.
         """
-        inner, self.points = self.points[-SUBSTEPS:], []
-        if any(x < 0 for x in self.margins(new, t + length)):
-            return True
-        return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
+        field_series, margin_series = self.fields.series(self.sides)
+        try:
+            solution = StepPolynomial(field_series, y, t)
+            size = max(1.0, *(abs(float(x)) for x in new))
+            # The polynomial does not represent the solution if the step is too long.
+            if not all(abs(a - b) < VANISHING * size for a, b in zip(solution.at(length), new, strict=True)):
+                return t, y, float(length) / 2
+            bracket = solution.first_exit(self.fields.on(self.sides)[1], margin_series, length)
+        except (ArithmeticError, ValueError) as failure:
+            raise self._unknown(t, str(failure)) from failure
+        return None if bracket is None else (*self._cross(y, t, bracket, advance), float(length))
 
-    def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Find the first event in a step from (y, t), and set ``sides`` to the cases that apply after the
-        event.
+    def _unknown(self, t: Scalar, reason: str) -> SceneError:
+        return SceneError(
+            f"no reference solution beyond t = {float(t):.6g}: {reason}",
+            where=self.fields.scene.name,
+            expected="a solution for which every point where the field is not smooth can be found",
+            hint="choose a span that ends before this time, or replace the operation that is not smooth, "
+            "for example abs(x) by sqrt(x**2 + w**2) for a small width w",
+        )
 
-        At an event, a margin is zero (:meth:`margins`). The result is the time and the state of the event, or
-        None if the caller must try a shorter step.
+    def _cross(
+        self, y: Vector, t: Scalar, bracket: tuple[Scalar, Scalar], advance: Advance
+    ) -> tuple[Scalar, Vector]:
+        """Find the event in the part ``bracket`` of a step from (y, t), and set ``sides`` to the cases that
+        apply after the event.
+
+        At an event, a margin is zero (:meth:`margins`). ``bracket`` is the result of
+        :meth:`StepPolynomial.first_exit`. The result is the time and the state of the event.
         """
-        start = self.margins(y, t)
-        end = self.margins(advance(self, y, t, length)[0], t + length)
+        low, high = bracket
+        start, end = (self.margins(advance(self, y, t, tau)[0], t + tau) for tau in bracket)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # ``_root`` needs a function with a positive value at 0 and a negative value at ``length``.
-        if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
-            return None
+        if not crossed:
+            raise self._unknown(t, "an operation with several cases changes its case too briefly")
 
         def margin(tau: Scalar) -> Scalar:
             values = self.margins(advance(self, y, t, tau)[0], t + tau)
             return min((values[k].mid() for k in crossed), key=float)
 
-        tau = _root(margin, min((start[k].mid() for k in crossed), key=float), margin(length), length)
+        first, last = (min((values[k].mid() for k in crossed), key=float) for values in (start, end))
+        # The margin can already be zero, or negative by a rounding error, at the start of the bracket.
+        tau = _root(margin, low, high, first, last) if first > 0 else low
         place = advance(self, y, t, tau)[0]
         now = (t + tau).mid()
-        self.sides, smooth = self.fields.beyond(self.sides, place, now)
+        sides, smooth = self.fields.beyond(self.sides, place, now)
+        if sides == self.sides:
+            raise self._unknown(now, "the program cannot decide which case of an operation applies")
+        self.sides = sides
         self.kinks.append(smooth)
         if len(self.kinks) > MOST_EVENTS:
             raise SceneError(
@@ -222,17 +246,16 @@ class Sided:
                 expected="a solution with fewer of these points",
                 hint="shorten the span",
             )
-        self.points = []
         return now, place
 
 
-def _root(margin: Callable[[Scalar], Scalar], low: Scalar, high: Scalar, length: Scalar) -> Scalar:
-    """Return a zero of ``margin`` between 0 and ``length``, by the Illinois variant of the false position
+def _root(margin: Callable[[Scalar], Scalar], a: Scalar, b: Scalar, low: Scalar, high: Scalar) -> Scalar:
+    """Return a zero of ``margin`` between ``a`` and ``b``, by the Illinois variant of the false position
     method.
 
-    ``margin`` must have the value ``low`` > 0 at 0, and the value ``high`` < 0 at ``length``.
+    ``margin`` must have the value ``low`` > 0 at ``a``, and the value ``high`` < 0 at ``b``.
     """
-    a, b, moved = arb(0), length, 0
+    moved = 0
     for _ in range(MOST_SECANTS):
         tau = ((a * high - b * low) / (high - low)).mid()
         value = margin(tau)

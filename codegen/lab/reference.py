@@ -21,6 +21,7 @@ from codegen.lab.ambient_field import ambient_field
 from codegen.lab.measurement_cache import MeasurementCache, user_cache
 from codegen.lab.number_types import Evaluate, Scalar, Vector
 from codegen.lab.piecewise_field import PiecewiseField, Sided
+from codegen.lab.step_polynomial import MOST_INTERVALS
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
@@ -126,7 +127,7 @@ def _key(scene: Problem) -> tuple[object, ...]:
         [x.text() for x in field.constants],
         [str(x) for x in start],
         [str(x) for x in scene.span],
-        (AGREEMENT, BITS, DIGITS, RUNS),
+        (AGREEMENT, BITS, DIGITS, RUNS, MOST_INTERVALS),
     )
 
 
@@ -179,7 +180,7 @@ def _integrate(
     reason = "extrapolation does not converge"
     sided = field if isinstance(field, Sided) else None
     if sided is not None:
-        sided.begin(y, t, whole * LEAST_STEP)
+        sided.begin(y, t)
     for _ in range(MOST_STEPS):
         if step <= whole * LEAST_STEP:
             break
@@ -202,14 +203,11 @@ def _integrate(
             continue
         size = max(1.0, *(abs(float(x)) for x in new))
         if error <= tolerance * size:
-            if sided is not None and sided.leaves(y, t, new, length):
-                step = float(length)
-                moved = sided.cross(y, t, length, partial(_extrapolate, columns=columns))
-                if moved is None:
-                    step /= 2
-                else:
-                    t, y = moved
-                continue
+            if sided is not None:
+                stopped = sided.stopped(y, t, new, length, partial(_extrapolate, columns=columns))
+                if stopped is not None:
+                    t, y, step = stopped
+                    continue
             t, y = (t + step).mid(), new
             if last:
                 return y, () if sided is None else tuple(sided.kinks)

@@ -15,6 +15,7 @@ from codegen.groups.linear_algebra import Vector
 from codegen.ir.differentiate import gradient
 from codegen.ir.expr import Expr
 from codegen.scene.orbit import Orbit, orbit_of
+from codegen.scene.piecewise_invariants import check_cases
 from codegen.scene.problem import TIME, Problem
 
 if TYPE_CHECKING:
@@ -52,6 +53,7 @@ def check_problem(problem: Problem, stated: Stated) -> None:
         check_equal(orbit, formulas, what, derived)
     check_parts(orbit, problem)
     check_invariants(orbit, problem.invariants)
+    check_cases(orbit, problem)
 
 
 def check_parts(orbit: Orbit, problem: Problem) -> None:

@@ -1,0 +1,180 @@
+"""Checks of declared invariants whose formulas contain selections: operations with several cases, as abs(x).
+
+A selection that could change its case must satisfy two conditions. Every combination of cases gives smooth
+formulas for the field and the invariant, and this invariant must be constant along the solutions of this
+field. Where the case changes, the invariant must be continuous. If the argument of a selection is itself
+constant along solutions, its case never changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import product
+from math import prod
+from typing import TYPE_CHECKING
+
+from codegen.errors import SceneError
+from codegen.ir.differentiate import gradient
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr
+from codegen.ir.selection import selects
+from codegen.ir.smoothness import Sides, argument_text, on_sides, selections
+from codegen.ir.table import PiecewisePolynomial
+from codegen.scene.orbit import Orbit
+from codegen.scene.problem import TIME, Problem
+
+if TYPE_CHECKING:
+    import mpmath
+
+MOST_CASES = 256
+"""The largest number of combinations of cases that are checked. Each takes about a millisecond."""
+
+NEWTON_STEPS = 60
+"""The largest number of Newton steps to a zero. A simple zero takes about ten steps for 40 digits."""
+
+BESIDE = Fraction(1, 10**26)
+"""The distance from a zero of an argument at which the values on both sides are compared.
+
+It is much larger than rounding errors of 40 digits. Between the two points, a continuous function usually
+changes by much less than :data:`codegen.scene.orbit.TOLERANCE`.
+"""
+
+
+def check_cases(orbit: Orbit, problem: Problem) -> None:
+    """Raise :class:`SceneError` if a declared invariant with selections changes along a solution.
+
+    A Hamiltonian is not checked here, because the field is derived from it.
+    """
+    for name, declared in problem.invariants.items():
+        if declared is problem.hamiltonian or not selections([declared]):
+            continue
+        domain = ExprDomain()
+        state = tuple(domain.space.sym(s) for s in problem.symbols)
+        time = domain.space.sym(TIME)
+        check = _Check(orbit, name, problem.velocity(domain, state, time))
+        check.run(problem.invariant(domain, name, state, time))
+
+
+class _Check:
+    """The check of one invariant. ``velocity`` are the time derivatives of the coordinates."""
+
+    def __init__(self, orbit: Orbit, name: str, velocity: Sequence[Expr]) -> None:
+        self.orbit, self.name, self.velocity = orbit, name, tuple(velocity)
+        self.symbols = (*orbit.symbols, TIME)
+
+    def run(self, root: Expr) -> None:
+        changing = [n for n in selections([root]) if not self.constant(n.args[0], self.velocity)]
+        if not changing:
+            return
+        for node in changing:
+            self.check_continuous(root, node)
+        nodes = selections((*self.velocity, root))
+        for sides in self.combinations(nodes):
+            formulas, margins = on_sides((*self.velocity, root), nodes, sides)
+            if any(map(_negative, margins)):
+                continue  # The cases of nested selections contradict each other.
+            if not self.constant(formulas[-1], formulas[:-1]):
+                raise self.error("changes along solutions in one of its cases")
+
+    def constant(self, root: Expr, velocity: Sequence[Expr]) -> bool:
+        """Return True if the derivative of ``root`` along the solutions is zero at all sample points."""
+        slopes = gradient(root, self.symbols)
+        for point in self.orbit.points:
+            values = self.orbit.values((*slopes, *velocity), point)
+            if values is None:
+                continue
+            rates = (*values[len(slopes) :], 1)
+            terms = [a * b for a, b in zip(values, rates, strict=False)]
+            if not self.orbit.sized(sum(terms[1:], terms[0]), terms):
+                return False
+        return True
+
+    def combinations(self, nodes: Sequence[Expr]) -> Iterator[Sides]:
+        """Return all combinations of cases. Selections with the same argument, up to its sign, agree."""
+        keys = [_key(node) for node in nodes]
+        counts: dict[object, int] = {
+            key: len(node.payload.knots) + 1 if isinstance(node.payload, PiecewisePolynomial) else 2
+            for (key, _), node in zip(keys, nodes, strict=True)
+        }
+        if prod(counts.values()) > MOST_CASES:
+            raise self.error(f"has more than {MOST_CASES} combinations of cases")
+        for choice in product(*map(range, counts.values())):
+            side = dict(zip(counts, choice, strict=True))
+            yield tuple(1 - side[key] if flipped else side[key] for key, flipped in keys)
+
+    def check_continuous(self, root: Expr, node: Expr) -> None:
+        """Raise SceneError if ``root`` jumps where the selection ``node`` changes its case."""
+        x = node.args[0]
+        table = node.payload
+        if isinstance(table, PiecewisePolynomial):
+            if not all(_joined(table, k) for k in range(len(table.knots))):
+                raise self.error("contains a table with jumps")
+            return
+        if x.op == "call" and selects(x.payload):
+            return  # The case changes only where the case of the inner selection changes.
+        compared = False
+        for point in self.orbit.points:
+            sides = self.beside(x, point)
+            values = [self.orbit.values((root,), place) for place in sides]
+            pairs = [v[0] for v in values if v is not None]
+            if len(pairs) < 2:
+                continue
+            compared = True
+            if not self.orbit.sized(pairs[0] - pairs[1], (*pairs, 1)):
+                raise self.error(f"jumps where {argument_text(node)} = 0")
+        if not compared:
+            raise self.error(f"cannot be compared on both sides of {argument_text(node)} = 0")
+
+    def beside(self, x: Expr, start: dict[str, mpmath.mpf]) -> list[dict[str, mpmath.mpf]]:
+        """Return two points on the two sides of a zero of ``x``, or nothing if Newton's method fails."""
+        point, formulas = dict(start), (x, *gradient(x, self.symbols))
+        distance = self.orbit.domain.rational(*BESIDE.as_integer_ratio())
+        for _ in range(NEWTON_STEPS):
+            values = self.orbit.values(formulas, point)
+            size = sum(s * s for s in values[1:]) if values else 0
+            if values is None or not size > 0:
+                return []
+            value, *slopes = values
+            if abs(value) < distance * size**0.5 / 1000:
+                steps = [distance * s / size**0.5 for s in slopes]
+                return [self.moved(point, [sign * s for s in steps]) for sign in (1, -1)]
+            point = self.moved(point, [-value * s / size for s in slopes])
+        return []
+
+    def moved(self, point: dict[str, mpmath.mpf], steps: Sequence[mpmath.mpf]) -> dict[str, mpmath.mpf]:
+        return point | {s: point[s] + d for s, d in zip(self.symbols, steps, strict=True)}
+
+    def error(self, what: str) -> SceneError:
+        return SceneError(
+            f"the invariant {self.name} {what}",
+            where=self.orbit.name,
+            expected="a function that is constant along the solutions",
+            hint=f"correct the formula of {self.name}, or remove {self.name} from the invariants",
+        )
+
+
+def _negative(margin: Expr) -> bool:
+    return margin.op == "const" and margin.payload.is_rational and margin.payload.fraction() < 0
+
+
+def _key(node: Expr) -> tuple[object, bool]:
+    """Return a key for the argument of a selection, and True if the key belongs to its negative."""
+    x, flipped = node.args[0], False
+    if isinstance(node.payload, PiecewisePolynomial):
+        return (x.id, node.payload.knots), False
+    if x.op == "neg":
+        (x,), flipped = x.args, True
+    if x.op == "sub":
+        a, b = x.args
+        return tuple(sorted((a.id, b.id))), flipped != (a.id > b.id)
+    return x.id, flipped
+
+
+def _joined(table: PiecewisePolynomial, k: int) -> bool:
+    """Return True if the polynomials on both sides of the knot ``k`` have the same value there."""
+    left, right = (
+        sum((c * (table.knots[k] - table.bases[i]) ** j for j, c in enumerate(table.rows[i])), Fraction(0))
+        for i in (k, k + 1)
+    )
+    return left == right
