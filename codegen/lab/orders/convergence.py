@@ -18,11 +18,13 @@ from codegen.lab.orders.short_steps import order_of_short_steps
 from codegen.lab.orders.step_sizes import CLEAR, TOLERANCE, Refinement, Run, refine, rounding
 from codegen.lab.reference import Reference
 from codegen.lab.runner import RunFailed, Runner
+from codegen.method import Method
 from codegen.scene.classical_forms import ClassicalForm
 from codegen.scene.problem import Problem
+from orderconds.tableau.uncertainty import largest_radius
 
 ROUNDING = "rounding"
-UNPROVED = ("stated", "claimed")
+UNPROVED = ("stated", "claimed", "decimal", "double", "none")
 """The values of ``certificate`` for an order that is not proved by order conditions.
 
 If the observed order agrees with an unproved order, the order is tested again with very short steps.
@@ -30,6 +32,13 @@ If the observed order agrees with an unproved order, the order is tested again w
 
 FEWEST = 4
 """The smallest number of usable runs. Four runs give the three slopes for :attr:`Refinement.settled`."""
+
+
+SPREAD = CLEAR * 2.0**-52
+"""Errors of the coefficients up to SPREAD are negligible.
+
+In a run with doubles, their effect is comparable to that of rounding, so that no usable run shows it.
+"""
 
 
 @dataclass(frozen=True, repr=False)
@@ -41,6 +50,7 @@ class Convergence:
     - ``refinement``: the runs, from long to short steps.
     - ``kinks``: for each kink (point where the field is not smooth), how many derivatives of the field are
       continuous at the kink.
+    - ``spread``: the uncertainty of the coefficients if it exceeds :data:`SPREAD`, and otherwise 0.
     """
 
     scene: str
@@ -49,6 +59,7 @@ class Convergence:
     stated: CertifiedOrder
     refinement: Refinement
     kinks: tuple[int, ...] = ()
+    spread: float = 0.0
 
     def __repr__(self) -> str:
         return f"<{self.method} on {self.scene}: {self.sentence()}>"
@@ -72,10 +83,14 @@ class Convergence:
         """The comparison of the observed order with the stated order: ``holds``, ``fails`` or ``undecided``.
 
         If kinks (points where the field is not smooth) limit the observed order to less than the stated
-        order, the result is ``undecided``.
+        order, the result is ``undecided``. If the coefficients are rounded so much that runs can show it, the
+        method that is run has the order of very short steps, and a lower order than the stated one is a failure.
         """
         if self.limit < self.stated.order:
             return "undecided"
+        short = self.refinement.short
+        if self.spread and short is not None and short < self.stated.order - TOLERANCE:
+            return "fails"
         return self.refinement.verdict(self.stated.order)
 
     @property
@@ -140,7 +155,11 @@ class Convergence:
         """Return a text that compares the order at very short steps with the order at the usual steps."""
         text = f"very short steps, computed with 100 digits, show order {self.refinement.short:.2f}"
         if not self.refinement.settled:
-            return f"the slopes do not settle, but {text}"
+            text = f"the slopes do not settle, but {text}"
+        if self.spread:
+            return f"{text}; the coefficients are rounded (uncertainty {self.spread:.1e})"
+        if not self.refinement.settled:
+            return text
         return f"{text}; at longer steps, the leading term does not dominate the error"
 
     def _unsettled(self) -> str:
@@ -221,14 +240,27 @@ def converge(
         if steps
         else refine(run, runner.most_steps, to_rounding)
     )
-    result = Convergence(scene.name, label, runner.target, stated, refinement, exact.kinks)
+    spread = uncertainty(runner.compiled.method)
+    visible = visible_uncertainty(runner.compiled.method)
+    result = Convergence(scene.name, label, runner.target, stated, refinement, exact.kinks, visible)
     proved = stated.certificate not in UNPROVED
     if result.limit < stated.order:
         return result
     if result.observed is None or (result.verdict == "holds" and proved):
         return result
-    short = order_of_short_steps(runner.compiled, stated.order)
+    short = order_of_short_steps(runner.compiled, stated.order, 0.0 if visible else spread)
     return replace(result, refinement=replace(refinement, short=short))
+
+
+def uncertainty(method: Method) -> float:
+    """Return the largest uncertainty of a coefficient of a method, or 0 if all coefficients are exact."""
+    return 0.0 if method.coefficients is None else largest_radius(method.tableau)
+
+
+def visible_uncertainty(method: Method) -> float:
+    """Return the attribute ``spread`` of :class:`Convergence` for a method."""
+    spread = uncertainty(method)
+    return spread if spread > SPREAD else 0.0
 
 
 def _rung(
