@@ -161,7 +161,9 @@ def unreached(result: Recommendation) -> str:
         return f"{asked.scene}: {missed}; no method has the required properties; relax --need or --stack"
     best = result.best
     if result.lost:
-        missed = f"every measured method{needs} that reaches the error {asked.error:g} loses a conserved quantity"
+        missed = (
+            f"every measured method{needs} that reaches the error {asked.error:g} loses a conserved quantity"
+        )
         return f"{asked.scene}: {missed} in a long run; relax --need or --error\n{searched(result)}"
     by = f"reached by {best.entry.recipe.label} ({control(asked, best)})"
     least = f"the smallest measured error is {best.error:.1e}, {by}"

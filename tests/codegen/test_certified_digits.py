@@ -49,7 +49,9 @@ def test_emitted_code_has_the_solution(tmp_path: Path) -> None:
     assert "1.3512 " not in text
 
 
-def test_coefficients_known_to_less_than_a_double_have_the_certificate_of_check_and_their_uncertainty(tmp_path: Path) -> None:
+def test_coefficients_known_to_less_than_a_double_have_the_certificate_of_check_and_their_uncertainty(
+    tmp_path: Path,
+) -> None:
     method = parse(written(tmp_path, "1.351207191959", proof=""), ("cg",))
     order = certified_order(method)
     known = next(f for f in check(method.tableau).orders if f.family == "cg")

@@ -14,8 +14,9 @@ from fractions import Fraction
 
 from codegen.certify import CertifiedOrder
 from codegen.lab.distance import distance
+from codegen.lab.orders.run_noise import LATE, Noise
 from codegen.lab.orders.short_steps import order_of_short_steps
-from codegen.lab.orders.step_sizes import CLEAR, TOLERANCE, Refinement, Run, refine, rounding
+from codegen.lab.orders.step_sizes import CLEAR, TOLERANCE, Refinement, Run, refine
 from codegen.lab.reference import Reference
 from codegen.lab.runner import RunFailed, Runner
 from codegen.method import Method
@@ -24,6 +25,9 @@ from codegen.scene.problem import Problem
 from orderconds.tableau.uncertainty import largest_radius
 
 ROUNDING = "rounding"
+EARLIER = "shift the time so that the span begins near 0, or use --target interpreter --digits 40"
+"""The advice if rounding of the time hides the errors."""
+
 UNPROVED = ("stated", "claimed", "decimal", "double", "none")
 """The values of ``certificate`` for an order that is not proved by order conditions.
 
@@ -132,7 +136,9 @@ class Convergence:
         """Return the verdict and its reason in one line."""
         if self.observed is None:
             reasons = sorted({r.excluded for r in self.refinement.runs if r.excluded})
-            return f"undecided: no two consecutive runs are usable ({'; '.join(reasons) or 'too few steps'})"
+            why = "; ".join(reasons) or "too few steps"
+            advice = f"; {EARLIER}" if any(reason.startswith(LATE) for reason in reasons) else ""
+            return f"undecided: no two consecutive runs are usable ({why}){advice}"
         about = f"observed order {self.observed:.2f}, stated {self.stated.order} ({self.stated.certificate})"
         if self.limit < self.stated.order:
             return f"undecided: {about}; {self._crossed()}"
@@ -164,6 +170,8 @@ class Convergence:
 
     def _unsettled(self) -> str:
         """Return the reason why the slopes do not determine the order, and a hint to the user."""
+        if any(r.excluded.startswith(LATE) for r in self.refinement.runs):
+            return f"{LATE} dominates before the slopes settle; {EARLIER}"
         if self.refinement.settled:
             return f"{self._short()}; try finer steps"
         if any(r.excluded == ROUNDING for r in self.refinement.runs):
@@ -230,10 +238,10 @@ def converge(
     """
     scene = runner.compiled.scene if form is None else form.scene
     label = runner.compiled.method.label if form is None else f"{runner.compiled.method.label} ({form.name})"
-    size = math.hypot(*(float(x) for x in exact.state))
+    noise = Noise.of(scene, exact, runner.epsilon)
 
     def run(n: int) -> Run:
-        return _rung(scene, runner, exact, n, size, form)
+        return _rung(scene, runner, exact, n, noise, form)
 
     refinement = (
         Refinement(tuple(run(n) for n in sorted(steps)))
@@ -268,7 +276,7 @@ def _rung(
     runner: Runner,
     exact: Reference,
     steps: int,
-    size: float,
+    noise: Noise,
     form: ClassicalForm | None,
 ) -> Run:
     h = float(Fraction(scene.span[1] - scene.span[0]) / steps)
@@ -281,8 +289,11 @@ def _rung(
         return Run(steps, h, math.inf, f"the run failed: {failure}")
     if not math.isfinite(error):
         return Run(steps, h, math.inf, "the final state is not finite")
-    if error <= CLEAR * rounding(steps, runner.epsilon, size):
+    gaps = [abs(float(b - a)) for a, b in zip(state, exact.state, strict=True)]
+    if error <= CLEAR * noise.of_state(steps, gaps):
         return Run(steps, h, error, ROUNDING)
+    if error <= CLEAR * noise.of_time(gaps):
+        return Run(steps, h, error, noise.late)
     if error <= CLEAR * exact.uncertainty:
         return Run(steps, h, error, "the reference solution is not accurate enough to measure the error")
     return Run(steps, h, error)

@@ -72,9 +72,7 @@ def order_of_short_steps(compiled: Optimised, stated: int, negligible: float = 0
     return slopes[0] if max(slopes) - min(slopes) <= AGREEMENT else None
 
 
-def _gap(
-    compiled: Optimised, state: Sequence[Scalar], first: float, size: float
-) -> tuple[Scalar, Scalar]:
+def _gap(compiled: Optimised, state: Sequence[Scalar], first: float, size: float) -> tuple[Scalar, Scalar]:
     """Return the largest difference of a coordinate between a step of length ``size`` and two half steps.
 
     The second result is the largest change of a coordinate in the step.

@@ -109,14 +109,20 @@ def missed(needs: tuple[str, ...] = (), lost: tuple[str, ...] = (), error: float
 
 def test_a_small_error_of_a_single_run_is_not_called_larger_than_the_requested_error() -> None:
     text = unreached(missed())
-    assert "no method reaches the error 1e-06 in two consecutive runs; the smallest measured error is 2.5e-07" in text
+    assert (
+        "no method reaches the error 1e-06 in two consecutive runs; the smallest measured error is 2.5e-07"
+        in text
+    )
     assert "no run with the next higher accuracy confirms it" in text
     assert "consecutive" not in unreached(missed(error=2.5e-6))
 
 
 def test_a_method_that_reaches_the_error_but_loses_a_conserved_quantity_is_the_reason() -> None:
     text = unreached(missed(("symplectic",), ("rk:rk4",)))
-    assert "every measured method with symplectic that reaches the error 1e-06 loses a conserved quantity" in text
+    assert (
+        "every measured method with symplectic that reaches the error 1e-06 loses a conserved quantity"
+        in text
+    )
     assert "no method" not in text
 
 

@@ -200,9 +200,9 @@ def test_a_scene_without_conserved_quantities_is_named_as_such(tmp_path: Path):
     assert "the scene has no conserved quantity" in done.output
     assert "slope per unit of time" not in done.output
     (run,) = json.loads(
-        CliRunner().invoke(
-            command, [str(path), "-m", "rk:rk4", "--steps", "200", "--json"], standalone_mode=False
-        ).output
+        CliRunner()
+        .invoke(command, [str(path), "-m", "rk:rk4", "--steps", "200", "--json"], standalone_mode=False)
+        .output
     )
     assert run["kept"] == []
 
