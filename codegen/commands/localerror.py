@@ -24,8 +24,9 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
 
     The command computes the state after one emitted step as a power series in the step size h. The power
     series is compared with the Taylor series of the solution. If all computed coefficients are zero at the
-    initial state, steps from later points of the solution are examined. The vector field must be a rational function of
-    the coordinates. Initial coordinates that are not rational are replaced by nearby rational numbers.
+    initial state, steps from later points of the solution are examined. The vector field must be a rational
+    function of the coordinates. Initial coordinates that are not rational are replaced by nearby rational
+    numbers.
 
     If the exact order is lower than predicted by the order conditions, the exit status is 1. If the exact
     order cannot be computed, the exit status is also 1.

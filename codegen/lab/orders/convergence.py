@@ -87,8 +87,9 @@ class Convergence:
         """The comparison of the observed order with the stated order: ``holds``, ``fails`` or ``undecided``.
 
         If kinks (points where the field is not smooth) limit the observed order to less than the stated
-        order, the result is ``undecided``. If the coefficients are rounded so much that runs can show it, the
-        method that is run has the order of very short steps, and a lower order than the stated one is a failure.
+        order, the result is ``undecided``. If the coefficients are rounded so much that runs can show it,
+        the method that is run has the order of very short steps, and a lower order than the stated one is a
+        failure.
         """
         if self.limit < self.stated.order:
             return "undecided"

@@ -5,8 +5,8 @@ numbers. The order is p if the coefficient of h^(p+1) is the first nonzero coeff
 size.
 
 The error of one step says nothing about other points of the solution. At a special point, for example where
-derivatives of the field vanish, the computed coefficients can all be zero although the method has no higher order.
-In this case, the steps that start at later points of the solution (:data:`LATER`) are examined, too.
+derivatives of the field vanish, the computed coefficients can all be zero although the method has no higher
+order. In this case, the steps that start at later points of the solution (:data:`LATER`) are examined, too.
 
 If exact arithmetic cannot represent an initial coordinate, a nearby rational number replaces the coordinate.
 The new initial point may be off the manifold. The equations, the group action and the order conditions are
@@ -39,7 +39,8 @@ from orderconds.ring.protocol import Ring
 LATER = (Fraction(1, 3), Fraction(5, 7))
 """The later points of the solution, as fractions of the time span.
 
-A point of symmetry of a solution is often the middle or the end of the span; these fractions avoid such points.
+A point of symmetry of a solution is often the middle or the end of the span; these fractions avoid such
+points.
 """
 
 STEPS = 64
@@ -59,8 +60,9 @@ class ExactLocalError:
     - ``symbols``: the names of the coordinates.
     - ``start``: the state before the step.
     - ``time``: the time before the step.
-    - ``points``: the number of points of the solution at which the local error was computed. It exceeds 1 only if
-      all coefficients are zero at the initial state. The coefficients are those of the last of these points.
+    - ``points``: the number of points of the solution at which the local error was computed. It exceeds 1
+      only if all coefficients are zero at the initial state. The coefficients are those of the last of
+      these points.
     - ``coefficients``: the coefficients of h^(``order`` + 1), one for each coordinate. If ``vanishes`` is
       True, ``coefficients`` is empty.
     """
@@ -86,7 +88,7 @@ class ExactLocalError:
 
     def sentence(self) -> str:
         """Return the verdict, the exact order and the order from the order conditions in one line."""
-        found = f"order {self.order} in exact arithmetic on this scene"
+        statement = f"order {self.order} in exact arithmetic on this scene"
         if self.vanishes:
             later = self.points - 1
             where = (
@@ -94,11 +96,13 @@ class ExactLocalError:
                 if later
                 else "the initial state"
             )
-            found = f"order at least {self.order} in exact arithmetic for steps from {where}"
+            statement = f"order at least {self.order} in exact arithmetic for steps from {where}"
         elif self.points > 1:
-            found += f" (at the initial state, the coefficients vanish up to h^{self.certified.order + 1})"
+            statement += (
+                f" (at the initial state, the coefficients vanish up to h^{self.certified.order + 1})"
+            )
         return (
-            f"{self.verdict}: {found}; "
+            f"{self.verdict}: {statement}; "
             f"the order conditions give {self.certified.order} (certificate: {self.certified.certificate})"
         )
 
@@ -165,8 +169,8 @@ def local_error_or_reason(scene: Problem, method: Method) -> ExactLocalError | N
 def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     """Return the leading term of the local error of one step, for a method on a scene.
 
-    The step starts at the initial state. If all computed coefficients are zero there, steps that start at later
-    points of the solution are examined until a coefficient is not zero.
+    The step starts at the initial state. If all computed coefficients are zero there, steps that start at
+    later points of the solution are examined until a coefficient is not zero.
 
     Raises :class:`codegen.errors.SceneError` if the field is not smooth at the initial state, or if exact
     Taylor coefficients cannot be computed. Raises :class:`codegen.errors.MethodError` if the coefficients of
@@ -180,22 +184,22 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
             expected="exact coefficients, because intervals cannot prove that a term of the error is zero",
         )
     certified = certified_order(method, scene)
-    found = _of_step(scene, method, certified)
+    leading = _of_step(scene, method, certified)
     for count, fraction in enumerate(LATER, start=2):
-        if not found.vanishes:
+        if not leading.vanishes:
             break
         later = _later(scene, method, fraction)
         if later is None:
             break
         try:
-            found = replace(_of_step(later, method, certified), points=count)
+            leading = replace(_of_step(later, method, certified), points=count)
         except SceneError:  # The field is not smooth at the later point.
             break
-    return found
+    return leading
 
 
 def _later(scene: Problem, method: Method, fraction: Fraction) -> Problem | None:
-    """Return the scene that starts later by a fraction of the time span, or None if no run reaches this time."""
+    """Return the scene that starts after a fraction of the time span, or None if a run fails before."""
     first, last = scene.span
     t = first + fraction * (last - first)
     try:

@@ -27,8 +27,8 @@ class Noise:
     - ``epsilon``: the machine epsilon.
     - ``time``: the largest absolute value of the time, or 0 if the field does not depend on the time.
     - ``sizes``: the size of each coordinate: the largest of its values at both ends of the span, and of its
-      velocities there times the length of the span. The velocities count because a coordinate that is 0 at both
-      ends can be large between them.
+      velocities there times the length of the span. The velocities count because a coordinate that is 0 at
+      both ends can be large between them.
     - ``speeds``: the largest absolute value of the velocity of each coordinate at both ends.
     """
 
@@ -60,8 +60,9 @@ class Noise:
     def of_state(self, steps: int, gaps: Sequence[float]) -> float:
         """Return an estimate of the rounding errors of the state after ``steps`` steps.
 
-        ``gaps`` contains the error of each coordinate. The error of a coordinate bounds the rounding error that
-        is contained in it. Hence an exact large coordinate does not hide the errors of small coordinates.
+        ``gaps`` contains the error of each coordinate. The error of a coordinate bounds the rounding error
+        that is contained in it. Hence an exact large coordinate does not hide the errors of small
+        coordinates.
         """
         return math.hypot(
             *(min(gap, rounding(steps, self.epsilon, x)) for gap, x in zip(gaps, self.sizes, strict=True))

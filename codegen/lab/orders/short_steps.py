@@ -5,8 +5,8 @@ be e h^p + h^(p+1), where h is the step size. If h is much larger than e, the ob
 p. If h is much smaller than e, the observed order is p. The steps are computed with 100 decimal digits,
 because the error of such short steps is tiny.
 
-If the coefficients of a method are rounded, very short steps can show the effect of the rounding instead of the
-order of the method. A caller states which rounding is negligible.
+If the coefficients of a method are rounded, very short steps can show the effect of the rounding instead of
+the order of the method. A caller states which rounding is negligible.
 
 No reference solution is needed. Let the error of one step of size h be C h^(p+1) to leading order. The error
 of two steps of size h/2 is then 2 C (h/2)^(p+1). Therefore the slope of log(difference of the two computed
@@ -45,9 +45,9 @@ SWEEPS = 400
 def order_of_short_steps(compiled: Optimised, stated: int, negligible: float = 0.0) -> float | None:
     """Return the order of a method, measured with very short steps from the initial state of the scene.
 
-    ``stated`` is the expected order. Errors of the coefficients up to ``negligible`` are not shown: they change
-    the state of a step by about ``negligible`` times the change of the state in the step. The result is None in
-    four cases:
+    ``stated`` is the expected order. Errors of the coefficients up to ``negligible`` are not shown: they
+    change the state of a step by about ``negligible`` times the change of the state in the step. The result
+    is None in four cases:
 
     - A step cannot be computed.
     - For some step size h, one step of size h and two steps of size h/2 give the same state.

@@ -77,7 +77,7 @@ def test_the_refusal_of_a_hidden_kink_names_a_possible_reason() -> None:
 
 def test_two_solutions_that_disagree_name_a_possible_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(references, "AGREEMENT", 0.0)
-    with pytest.raises(SceneError, match="differ by .* perhaps the field is not smooth"):
+    with pytest.raises(SceneError, match=r"differ by .* perhaps the field is not smooth"):
         reference(scene(lambda y: Matrix([-y[0]]), [1], (0, 1)))
 
 

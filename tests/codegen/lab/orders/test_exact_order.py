@@ -93,7 +93,8 @@ def test_a_field_whose_derivatives_vanish_at_the_start_shows_its_order_later(met
     (chosen,) = methods_for(problem, (method,))
     found = exact_local_error(problem, chosen)
     assert (found.order, found.vanishes, found.verdict, found.points) == (4, False, "holds", 2)
-    assert (found.time, Fraction(found.coefficients[0])) != ("0", 0)
+    assert Fraction(found.time) > 0
+    assert Fraction(found.coefficients[0]) != 0
     assert "order 4 in exact arithmetic on this scene (at the initial state" in found.sentence()
 
 

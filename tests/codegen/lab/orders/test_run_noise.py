@@ -1,4 +1,4 @@
-"""Rounding errors are estimated relative to the size of each coordinate, and the rounding of the time is named."""
+"""Rounding errors are relative to the size of each coordinate, and the rounding of the time is named."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from codegen.method import parse
 from codegen.scene import FieldScene
 from codegen.scene.problem import Problem
 
-t, x, y = symbols("t", real=True), *symbols("x y", real=True)
+t, x, y = (symbols(name, real=True) for name in "txy")
 
 
 def scene(field: Sequence[object], start: Sequence[object], first: int = 0) -> Problem:
