@@ -90,12 +90,10 @@ class ExactLocalError:
         """Return the verdict, the exact order and the order from the order conditions in one line."""
         statement = f"order {self.order} in exact arithmetic on this scene"
         if self.vanishes:
-            later = self.points - 1
-            where = (
-                f"the initial state and {later} later points of the solution"
-                if later
-                else "the initial state"
-            )
+            where = "the initial state"
+            if self.points > 1:
+                later = self.points - 1
+                where += f" and {later} later point{'s' if later > 1 else ''} of the solution"
             statement = f"order at least {self.order} in exact arithmetic for steps from {where}"
         elif self.points > 1:
             statement += (
