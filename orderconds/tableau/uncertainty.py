@@ -58,7 +58,8 @@ def largest_radius(tableau: Tableau) -> float:
     >>> from orderconds.tableau import find
     >>> largest_radius(Tableau.load(find("rk4")))
     0.0
-    >>> largest_radius(Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], ["0.5~"]]\\nb = ["0", "1"]'))
+    >>> text = 'name = "t"\\nfamily = "rk"\\nA = [[], ["0.5~"]]\\nb = ["0", "1"]'
+    >>> round(largest_radius(Tableau.loads(text)), 6)
     0.1
     """
     if not isinstance(tableau.ring, Balls):
