@@ -36,7 +36,7 @@ class CertifiedOrder:
     - ``classical`` is the name of the classical family whose conditions were checked, or ''. These
       conditions are used only on abelian groups.
     - ``radius`` is '' if the coefficients are accurate to the rounding error of a double. Otherwise,
-      ``radius`` is the uncertainty of the coefficients, and the certificate is "none".
+      ``radius`` is the uncertainty of the coefficients.
     """
 
     order: int
@@ -56,11 +56,15 @@ class CertifiedOrder:
             "coefficients differ from the decimals of the tableau by at most one unit in the last digit",
             "double": "the order conditions hold up to the rounding of the coefficients, which are doubles",
             "decimal": "the order conditions hold up to the rounding of the coefficients, which are decimals",
-            "none": f"the uncertainty of the coefficients is {self.radius}, "
-            "which is larger than the rounding error of a double",
         }
         least = "at least " if self.bound else ""
-        explained = f" ({how[self.certificate]})" if self.certificate in how else ""
+        spread = (
+            f"; the uncertainty of the coefficients is {self.radius}, "
+            "which is larger than the rounding error of a double"
+            if self.radius
+            else ""
+        )
+        explained = f" ({how[self.certificate]}{spread})" if self.certificate in how else ""
         where = (
             f"; the order conditions are those of the family {self.classical}, because the group is abelian"
             if self.classical
@@ -139,5 +143,5 @@ def _certified(method: Method, order: FamilyOrder, classical: str = "") -> Certi
     # Coefficients that are doubles are emitted exactly.
     known = method.coefficients is None or method.coefficients.doubles
     radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
-    certificate = "none" if radius else order.certificate
-    return CertifiedOrder(order.order, certificate, order.limit is not None, order.failing, classical, radius)
+    bound = order.limit is not None
+    return CertifiedOrder(order.order, order.certificate, bound, order.failing, classical, radius)

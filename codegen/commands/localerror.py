@@ -23,8 +23,10 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
     """Compute the leading term of the local error of one step on SCENE, with exact coefficients.
 
     The command computes the state after one emitted step as a power series in the step size h. The power
-    series is compared with the Taylor series of the solution. The vector field must be a rational function of
-    the coordinates. Initial coordinates that are not rational are replaced by nearby rational numbers.
+    series is compared with the Taylor series of the solution. If all computed coefficients are zero at the
+    initial state, steps from later points of the solution are examined. The vector field must be a rational
+    function of the coordinates. Initial coordinates that are not rational are replaced by nearby rational
+    numbers.
 
     If the exact order is lower than predicted by the order conditions, the exit status is 1. If the exact
     order cannot be computed, the exit status is also 1.
@@ -67,5 +69,6 @@ def show(result: ExactLocalError | NotExact, first: bool) -> None:
     if isinstance(result, ExactLocalError) and not result.vanishes:
         power = f"coefficient of h^{result.order + 1}"
         rows = [list(row) for row in zip(result.symbols, result.start, result.coefficients, strict=True)]
-        print_table(["coordinate", "initial value", power], rows, indent=2)
+        value = "initial value" if result.points == 1 else f"value at t = {result.time}"
+        print_table(["coordinate", value, power], rows, indent=2)
     click.echo(f"  {result.sentence()}")

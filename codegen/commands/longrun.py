@@ -138,7 +138,10 @@ def show(run: LongRun) -> None:
         ]
         for kept in run.kept
     ]
-    print_table(["quantity", "largest", "slope per unit of time", "t^p", "law"], rows, indent=2)
+    if rows or run.failure:
+        print_table(["quantity", "largest", "slope per unit of time", "t^p", "law"], rows, indent=2)
+    else:
+        click.echo("  the scene has no conserved quantity")
     for steps, distance in run.reversals:
         click.echo(f"    distance {distance:.2e} from the start after {steps} steps forward and as many back")
     if run.rounding:

@@ -148,7 +148,8 @@ def searched(result: Recommendation) -> str:
 def unreached(result: Recommendation) -> str:
     """Return a message for a search in which no method reaches the requested error.
 
-    The message contains the smallest measured error, or the reason why no error was measured.
+    The message contains the smallest measured error, or the reason why no error was measured. If the smallest
+    measured error is at most the requested error, the message says why this run does not count.
     """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""
@@ -159,8 +160,20 @@ def unreached(result: Recommendation) -> str:
     if result.best is None:
         return f"{asked.scene}: {missed}; no method has the required properties; relax --need or --stack"
     best = result.best
+    if result.lost:
+        missed = (
+            f"every measured method{needs} that reaches the error {asked.error:g} loses a conserved quantity"
+        )
+        return f"{asked.scene}: {missed} in a long run; relax --need or --error\n{searched(result)}"
     by = f"reached by {best.entry.recipe.label} ({control(asked, best)})"
     least = f"the smallest measured error is {best.error:.1e}, {by}"
+    if best.error <= asked.error:
+        # The error of a single run can be small by accident (codegen.lab.efficiency.race).
+        missed += " in two consecutive runs"
+        least += (
+            ", but no run with the next higher accuracy confirms it (such a run must have at most twice the "
+            "requested error)"
+        )
     return f"{asked.scene}: {missed}; {least}; relax --error\n{searched(result)}"
 
 

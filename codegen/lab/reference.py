@@ -147,7 +147,7 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
             f"two reference solutions of different order differ by {gap:.1e}",
             where=scene.name,
             expected=f"agreement to {AGREEMENT:g}",
-            hint="shorten the span, or remove discontinuities of the field",
+            hint="perhaps the field is not smooth; shorten the span, or remove discontinuities of the field",
         )
     return Reference(scene.name, answer, gap, kinks)
 
@@ -177,7 +177,7 @@ def _integrate(
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
     step = whole / 8
-    reason = "extrapolation does not converge"
+    reason = "extrapolation does not converge; perhaps the field is not smooth near this time"
     sided = field if isinstance(field, Sided) else None
     if sided is not None:
         sided.begin(y, t)

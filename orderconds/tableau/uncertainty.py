@@ -52,5 +52,29 @@ def uncertainty(tableau: Tableau, bits: int) -> str:
     return rational_decimal(widest, 2) if widest else ""
 
 
+def largest_radius(tableau: Tableau) -> float:
+    """Return the largest radius of a coefficient, or 0 if all coefficients are exact numbers.
+
+    >>> from orderconds.tableau import find
+    >>> largest_radius(Tableau.load(find("rk4")))
+    0.0
+    >>> text = 'name = "t"\\nfamily = "rk"\\nA = [[], ["0.5~"]]\\nb = ["0", "1"]'
+    >>> round(largest_radius(Tableau.loads(text)), 6)
+    0.1
+    """
+    if not isinstance(tableau.ring, Balls):
+        return 0.0
+    widest = fmpq(0)
+
+    def visit(x: Ball) -> Ball:
+        nonlocal widest
+        low, high = endpoints(x.value)
+        widest = max(widest, (high - low) / 2)
+        return x
+
+    tableau.method.map(visit)
+    return int(widest.p) / int(widest.q)
+
+
 def _rational(x: Fraction) -> fmpq:
     return fmpq(x.numerator, x.denominator)

@@ -9,6 +9,7 @@ import pytest
 import codegen
 from codegen.certify import certified_order
 from codegen.method import parse
+from orderconds.checking import check
 
 TRIPLE_JUMP = """name = "jump"
 family = "rk"
@@ -48,9 +49,13 @@ def test_emitted_code_has_the_solution(tmp_path: Path) -> None:
     assert "1.3512 " not in text
 
 
-def test_coefficients_known_to_less_than_a_double_have_no_certificate(tmp_path: Path) -> None:
-    order = certified_order(parse(written(tmp_path, "1.351207191959", proof=""), ("cg",)))
-    assert (order.order, order.certificate) == (4, "none")
+def test_coefficients_known_to_less_than_a_double_have_the_certificate_of_check_and_their_uncertainty(
+    tmp_path: Path,
+) -> None:
+    method = parse(written(tmp_path, "1.351207191959", proof=""), ("cg",))
+    order = certified_order(method)
+    known = next(f for f in check(method.tableau).orders if f.family == "cg")
+    assert (order.order, order.certificate) == (known.order, known.certificate) == (4, "decimal")
     assert any(f"the coefficients is {r}" in order.text() for r in ("1.0e-12", "2.0e-12"))
 
 

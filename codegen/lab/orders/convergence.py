@@ -14,15 +14,21 @@ from fractions import Fraction
 
 from codegen.certify import CertifiedOrder
 from codegen.lab.distance import distance
+from codegen.lab.orders.run_noise import LATE, Noise
 from codegen.lab.orders.short_steps import order_of_short_steps
-from codegen.lab.orders.step_sizes import CLEAR, TOLERANCE, Refinement, Run, refine, rounding
+from codegen.lab.orders.step_sizes import CLEAR, TOLERANCE, Refinement, Run, refine
 from codegen.lab.reference import Reference
 from codegen.lab.runner import RunFailed, Runner
+from codegen.method import Method
 from codegen.scene.classical_forms import ClassicalForm
 from codegen.scene.problem import Problem
+from orderconds.tableau.uncertainty import largest_radius
 
 ROUNDING = "rounding"
-UNPROVED = ("stated", "claimed")
+EARLIER = "shift the time so that the span begins near 0, or use --target interpreter --digits 40"
+"""The advice if rounding of the time hides the errors."""
+
+UNPROVED = ("stated", "claimed", "decimal", "double", "none")
 """The values of ``certificate`` for an order that is not proved by order conditions.
 
 If the observed order agrees with an unproved order, the order is tested again with very short steps.
@@ -30,6 +36,13 @@ If the observed order agrees with an unproved order, the order is tested again w
 
 FEWEST = 4
 """The smallest number of usable runs. Four runs give the three slopes for :attr:`Refinement.settled`."""
+
+
+SPREAD = CLEAR * 2.0**-52
+"""Errors of the coefficients up to SPREAD are negligible.
+
+In a run with doubles, their effect is comparable to that of rounding, so that no usable run shows it.
+"""
 
 
 @dataclass(frozen=True, repr=False)
@@ -41,6 +54,7 @@ class Convergence:
     - ``refinement``: the runs, from long to short steps.
     - ``kinks``: for each kink (point where the field is not smooth), how many derivatives of the field are
       continuous at the kink.
+    - ``spread``: the uncertainty of the coefficients if it exceeds :data:`SPREAD`, and otherwise 0.
     """
 
     scene: str
@@ -49,6 +63,7 @@ class Convergence:
     stated: CertifiedOrder
     refinement: Refinement
     kinks: tuple[int, ...] = ()
+    spread: float = 0.0
 
     def __repr__(self) -> str:
         return f"<{self.method} on {self.scene}: {self.sentence()}>"
@@ -72,10 +87,15 @@ class Convergence:
         """The comparison of the observed order with the stated order: ``holds``, ``fails`` or ``undecided``.
 
         If kinks (points where the field is not smooth) limit the observed order to less than the stated
-        order, the result is ``undecided``.
+        order, the result is ``undecided``. If the coefficients are rounded so much that runs can show it,
+        the method that is run has the order of very short steps, and a lower order than the stated one is a
+        failure.
         """
         if self.limit < self.stated.order:
             return "undecided"
+        short = self.refinement.short
+        if self.spread and short is not None and short < self.stated.order - TOLERANCE:
+            return "fails"
         return self.refinement.verdict(self.stated.order)
 
     @property
@@ -117,7 +137,9 @@ class Convergence:
         """Return the verdict and its reason in one line."""
         if self.observed is None:
             reasons = sorted({r.excluded for r in self.refinement.runs if r.excluded})
-            return f"undecided: no two consecutive runs are usable ({'; '.join(reasons) or 'too few steps'})"
+            why = "; ".join(reasons) or "too few steps"
+            advice = f"; {EARLIER}" if any(reason.startswith(LATE) for reason in reasons) else ""
+            return f"undecided: no two consecutive runs are usable ({why}){advice}"
         about = f"observed order {self.observed:.2f}, stated {self.stated.order} ({self.stated.certificate})"
         if self.limit < self.stated.order:
             return f"undecided: {about}; {self._crossed()}"
@@ -140,11 +162,17 @@ class Convergence:
         """Return a text that compares the order at very short steps with the order at the usual steps."""
         text = f"very short steps, computed with 100 digits, show order {self.refinement.short:.2f}"
         if not self.refinement.settled:
-            return f"the slopes do not settle, but {text}"
+            text = f"the slopes do not settle, but {text}"
+        if self.spread:
+            return f"{text}; the coefficients are rounded (uncertainty {self.spread:.1e})"
+        if not self.refinement.settled:
+            return text
         return f"{text}; at longer steps, the leading term does not dominate the error"
 
     def _unsettled(self) -> str:
         """Return the reason why the slopes do not determine the order, and a hint to the user."""
+        if any(r.excluded.startswith(LATE) for r in self.refinement.runs):
+            return f"{LATE} dominates before the slopes settle; {EARLIER}"
         if self.refinement.settled:
             return f"{self._short()}; try finer steps"
         if any(r.excluded == ROUNDING for r in self.refinement.runs):
@@ -211,24 +239,37 @@ def converge(
     """
     scene = runner.compiled.scene if form is None else form.scene
     label = runner.compiled.method.label if form is None else f"{runner.compiled.method.label} ({form.name})"
-    size = math.hypot(*(float(x) for x in exact.state))
+    noise = Noise.of(scene, exact, runner.epsilon)
 
     def run(n: int) -> Run:
-        return _rung(scene, runner, exact, n, size, form)
+        return _rung(scene, runner, exact, n, noise, form)
 
     refinement = (
         Refinement(tuple(run(n) for n in sorted(steps)))
         if steps
         else refine(run, runner.most_steps, to_rounding)
     )
-    result = Convergence(scene.name, label, runner.target, stated, refinement, exact.kinks)
+    spread = uncertainty(runner.compiled.method)
+    visible = visible_uncertainty(runner.compiled.method)
+    result = Convergence(scene.name, label, runner.target, stated, refinement, exact.kinks, visible)
     proved = stated.certificate not in UNPROVED
     if result.limit < stated.order:
         return result
     if result.observed is None or (result.verdict == "holds" and proved):
         return result
-    short = order_of_short_steps(runner.compiled, stated.order)
+    short = order_of_short_steps(runner.compiled, stated.order, 0.0 if visible else spread)
     return replace(result, refinement=replace(refinement, short=short))
+
+
+def uncertainty(method: Method) -> float:
+    """Return the largest uncertainty of a coefficient of a method, or 0 if all coefficients are exact."""
+    return 0.0 if method.coefficients is None else largest_radius(method.tableau)
+
+
+def visible_uncertainty(method: Method) -> float:
+    """Return the attribute ``spread`` of :class:`Convergence` for a method."""
+    spread = uncertainty(method)
+    return spread if spread > SPREAD else 0.0
 
 
 def _rung(
@@ -236,7 +277,7 @@ def _rung(
     runner: Runner,
     exact: Reference,
     steps: int,
-    size: float,
+    noise: Noise,
     form: ClassicalForm | None,
 ) -> Run:
     h = float(Fraction(scene.span[1] - scene.span[0]) / steps)
@@ -249,8 +290,11 @@ def _rung(
         return Run(steps, h, math.inf, f"the run failed: {failure}")
     if not math.isfinite(error):
         return Run(steps, h, math.inf, "the final state is not finite")
-    if error <= CLEAR * rounding(steps, runner.epsilon, size):
+    gaps = [abs(float(b - a)) for a, b in zip(state, exact.state, strict=True)]
+    if error <= CLEAR * noise.of_state(steps, gaps):
         return Run(steps, h, error, ROUNDING)
+    if error <= CLEAR * noise.of_time(gaps):
+        return Run(steps, h, error, noise.late)
     if error <= CLEAR * exact.uncertainty:
         return Run(steps, h, error, "the reference solution is not accurate enough to measure the error")
     return Run(steps, h, error)

@@ -4,6 +4,10 @@ If the field of a scene is polynomial or rational, the Taylor coefficients of th
 numbers. The order is p if the coefficient of h^(p+1) is the first nonzero coefficient, where h is the step
 size.
 
+The error of one step says nothing about other points of the solution. At a special point, for example where
+derivatives of the field vanish, the computed coefficients can all be zero although the method has no higher
+order. In this case, the steps that start at later points of the solution (:data:`LATER`) are examined, too.
+
 If exact arithmetic cannot represent an initial coordinate, a nearby rational number replaces the coordinate.
 The new initial point may be off the manifold. The equations, the group action and the order conditions are
 valid off the manifold, too.
@@ -11,6 +15,7 @@ valid off the manifold, too.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -24,11 +29,22 @@ from codegen.ir.number import Number
 from codegen.ir.selection import Kink
 from codegen.lab.number_types import Vector
 from codegen.lab.orders.local_error import local_error
+from codegen.lab.runner import Interpreted
 from codegen.lower import problem_for
 from codegen.method import Method
 from codegen.scene.problem import Problem, StateField
 from orderconds.errors import InputError
 from orderconds.ring.protocol import Ring
+
+LATER = (Fraction(1, 3), Fraction(5, 7))
+"""The later points of the solution, as fractions of the time span.
+
+A point of symmetry of a solution is often the middle or the end of the span; these fractions avoid such
+points.
+"""
+
+STEPS = 64
+"""The number of steps with which a later point of the solution is computed. A rough value is enough."""
 
 DENOMINATOR = 64
 """The largest denominator of the rational initial coordinates that :func:`with_exact_start` chooses."""
@@ -42,7 +58,11 @@ class ExactLocalError:
     - ``vanishes``: True if all computed coefficients of the local error are zero.
     - ``order``: the exact order, or a lower bound of the exact order if ``vanishes`` is True.
     - ``symbols``: the names of the coordinates.
-    - ``start``: the initial state.
+    - ``start``: the state before the step.
+    - ``time``: the time before the step.
+    - ``points``: the number of points of the solution at which the local error was computed. It exceeds 1
+      only if all coefficients are zero at the initial state. The coefficients are those of the last of
+      these points.
     - ``coefficients``: the coefficients of h^(``order`` + 1), one for each coordinate. If ``vanishes`` is
       True, ``coefficients`` is empty.
     """
@@ -55,6 +75,8 @@ class ExactLocalError:
     symbols: tuple[str, ...]
     start: tuple[str, ...]
     coefficients: tuple[str, ...]
+    time: str = "0"
+    points: int = 1
 
     @property
     def verdict(self) -> str:
@@ -66,9 +88,19 @@ class ExactLocalError:
 
     def sentence(self) -> str:
         """Return the verdict, the exact order and the order from the order conditions in one line."""
-        least = "at least " if self.vanishes else ""
+        statement = f"order {self.order} in exact arithmetic on this scene"
+        if self.vanishes:
+            where = "the initial state"
+            if self.points > 1:
+                later = self.points - 1
+                where += f" and {later} later point{'s' if later > 1 else ''} of the solution"
+            statement = f"order at least {self.order} in exact arithmetic for steps from {where}"
+        elif self.points > 1:
+            statement += (
+                f" (at the initial state, the coefficients vanish up to h^{self.certified.order + 1})"
+            )
         return (
-            f"{self.verdict}: order {least}{self.order} in exact arithmetic on this scene; "
+            f"{self.verdict}: {statement}; "
             f"the order conditions give {self.certified.order} (certificate: {self.certified.certificate})"
         )
 
@@ -81,6 +113,8 @@ class ExactLocalError:
             "certificate": self.certified.certificate,
             "order": self.order,
             "at_least": self.vanishes,
+            "initial_time": self.time,
+            "points": self.points,
             "initial_state": dict(zip(self.symbols, self.start, strict=True)),
             "leading_coefficients": dict(zip(self.symbols, self.coefficients, strict=False)),
             "verdict": self.verdict,
@@ -110,6 +144,8 @@ class NotExact:
             "certificate": "none",
             "order": None,
             "at_least": False,
+            "initial_time": None,
+            "points": 0,
             "initial_state": {},
             "leading_coefficients": {},
             "verdict": self.verdict,
@@ -131,6 +167,9 @@ def local_error_or_reason(scene: Problem, method: Method) -> ExactLocalError | N
 def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     """Return the leading term of the local error of one step, for a method on a scene.
 
+    The step starts at the initial state. If all computed coefficients are zero there, steps that start at
+    later points of the solution are examined until a coefficient is not zero.
+
     Raises :class:`codegen.errors.SceneError` if the field is not smooth at the initial state, or if exact
     Taylor coefficients cannot be computed. Raises :class:`codegen.errors.MethodError` if the coefficients of
     the method are balls (intervals), because a ball cannot prove that a number is zero.
@@ -143,6 +182,44 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
             expected="exact coefficients, because intervals cannot prove that a term of the error is zero",
         )
     certified = certified_order(method, scene)
+    leading = _of_step(scene, method, certified)
+    for count, fraction in enumerate(LATER, start=2):
+        if not leading.vanishes:
+            break
+        later = _later(scene, method, fraction)
+        if later is None:
+            break
+        try:
+            leading = replace(_of_step(later, method, certified), points=count)
+        except SceneError:  # The field is not smooth at the later point.
+            break
+    return leading
+
+
+def _later(scene: Problem, method: Method, fraction: Fraction) -> Problem | None:
+    """Return the scene that starts after a fraction of the time span, or None if a run fails before."""
+    first, last = scene.span
+    t = first + fraction * (last - first)
+    try:
+        state = Interpreted(optimise_method(replace(scene, span=(first, t)), method)).final(STEPS)
+    except (ArithmeticError, ValueError, InputError):
+        return None
+    if not all(map(math.isfinite, state)):
+        return None
+    values = iter(state)
+
+    def moved(block: StateField) -> StateField:
+        near = [Fraction(next(values)).limit_denominator(DENOMINATOR) for _ in block.initial]
+        numbers = [Number.rational(x.numerator, x.denominator) for x in near]
+        pairs = zip(block.initial, numbers, strict=True)
+        return replace(block, initial=tuple(e.space.const(x) for e, x in pairs))
+
+    return replace(scene, span=(t, last), state=tuple(map(moved, scene.state)))
+
+
+def _of_step(scene: Problem, method: Method, certified: CertifiedOrder) -> ExactLocalError:
+    """Return the leading term of the local error of the step that starts at the initial state of a scene."""
+    ring = method.ring
     start = with_exact_start(scene, ring)
     optimised = optimise_method(start, method)
     problem = problem_for(start, method)
@@ -176,6 +253,7 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
         problem.symbols,
         initial,
         () if vanishes else _texts(ring, error, power),
+        str(start.span[0]),
     )
 
 

@@ -13,7 +13,7 @@ from codegen.artifact import Artifact
 from codegen.certify import CertifiedOrder, certified_order
 from codegen.emitter import Compiled
 from codegen.lab.measurement_cache import MeasurementCache
-from codegen.lab.orders.convergence import Convergence, converge
+from codegen.lab.orders.convergence import Convergence, converge, visible_uncertainty
 from codegen.lab.orders.step_sizes import FIRST, Refinement
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference
@@ -112,8 +112,9 @@ def order_study(
     files = [(target, *sorted(runner.artifact.files.items())) for target, runner in runners.items()]
     key = ("orders", *files, exact.digits())
     measured = (cache or MeasurementCache(None)).get(key, _Measured, measure)
+    spread = visible_uncertainty(method)
     convergences = {
-        target: Convergence(scene.name, method.label, target, order, refinement, exact.kinks)
+        target: Convergence(scene.name, method.label, target, order, refinement, exact.kinks, spread)
         for target, refinement in measured.refinements.items()
     }
     return OrderStudy(method, order, convergences, measured.times, measured.spread, main.artifact)

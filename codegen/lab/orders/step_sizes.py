@@ -190,7 +190,6 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
 def rounding(steps: int, epsilon: float, size: float) -> float:
     """Return an estimate of the largest accumulated rounding error of a run.
 
-    ``epsilon`` is the machine epsilon, and ``size`` is the size of the state. A ``size`` below 1
-    is replaced by 1.
+    ``epsilon`` is the machine epsilon, and ``size`` is the size of the state.
     """
-    return steps * epsilon * max(1.0, size)
+    return steps * epsilon * size

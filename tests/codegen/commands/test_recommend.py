@@ -8,7 +8,8 @@ import shlex
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 from click.testing import CliRunner, Result
@@ -18,6 +19,7 @@ from codegen.commands.recommend import unreached
 from codegen.lab import timing
 from codegen.lab.distance import distance
 from codegen.lab.efficiency import race
+from codegen.lab.efficiency.candidates import Recipe
 from codegen.lab.efficiency.recommend import Recommendation, Request
 from codegen.lab.reference import cached_reference
 from codegen.loader import load
@@ -95,6 +97,33 @@ def test_an_error_that_nothing_reaches_exits_1_with_the_best_error() -> None:
     result = run("duffing", "--error", "1e-30", "--tableau", "rk4")
     assert result.exit_code == 1
     assert "no method reaches the error 1e-30; the smallest measured error is" in result.stdout
+
+
+def missed(needs: tuple[str, ...] = (), lost: tuple[str, ...] = (), error: float = 2.5e-7) -> Recommendation:
+    """A search for the error 1e-6 without a result, in which one run has the given error."""
+    recipe = Recipe("rk:rk4", 4, 4, "rk4")
+    alone = race.Result(cast(race.Entry, SimpleNamespace(recipe=recipe)), 8.0, 8, error, math.inf, False)
+    request = Request("duffing", 1e-6, needs, tableaux=("rk4",))
+    return Recommendation(request, (), alone, 1, 1, 0.0, lost=lost)
+
+
+def test_a_small_error_of_a_single_run_is_not_called_larger_than_the_requested_error() -> None:
+    text = unreached(missed())
+    assert (
+        "no method reaches the error 1e-06 in two consecutive runs; the smallest measured error is 2.5e-07"
+        in text
+    )
+    assert "no run with the next higher accuracy confirms it" in text
+    assert "consecutive" not in unreached(missed(error=2.5e-6))
+
+
+def test_a_method_that_reaches_the_error_but_loses_a_conserved_quantity_is_the_reason() -> None:
+    text = unreached(missed(("symplectic",), ("rk:rk4",)))
+    assert (
+        "every measured method with symplectic that reaches the error 1e-06 loses a conserved quantity"
+        in text
+    )
+    assert "no method" not in text
 
 
 def test_needs_that_nothing_meets_exit_1() -> None:

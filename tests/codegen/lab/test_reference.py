@@ -10,6 +10,7 @@ from sympy import Matrix, Rational, exp, sqrt, symbols
 
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
+from codegen.lab import reference as references
 from codegen.lab.reference import Reference, reference
 from codegen.scene import FieldScene
 from codegen.scene.problem import Problem
@@ -65,6 +66,19 @@ def test_a_rotation_with_time_dependent_speed_has_its_closed_form() -> None:
 def test_a_solution_that_blows_up_within_the_span_is_an_error_of_the_scene() -> None:
     with pytest.raises(SceneError, match=r"beyond t = (1|0\.99)"):
         reference(scene(lambda y: Matrix([y[0] ** 2]), [1], (0, 2)))
+
+
+def test_the_refusal_of_a_hidden_kink_names_a_possible_reason() -> None:
+    """The formula is smooth for SymPy, but its value is |y - 1|."""
+    hidden = scene(lambda y: Matrix([1 + sqrt(y[0] ** 2 - 2 * y[0] + 1)]), [0], (0, 2))
+    with pytest.raises(SceneError, match=r"beyond t = 0\.69.*; perhaps the field is not smooth"):
+        reference(hidden)
+
+
+def test_two_solutions_that_disagree_name_a_possible_reason(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(references, "AGREEMENT", 0.0)
+    with pytest.raises(SceneError, match=r"differ by .* perhaps the field is not smooth"):
+        reference(scene(lambda y: Matrix([-y[0]]), [1], (0, 1)))
 
 
 def test_a_field_with_a_pole_on_the_way_is_an_error_of_the_scene() -> None:

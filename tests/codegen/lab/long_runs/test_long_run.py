@@ -188,6 +188,25 @@ def test_the_manifold_is_kept_by_a_scene_without_invariants():
     assert kept.drift.largest < 1e-13
 
 
+def test_a_scene_without_conserved_quantities_is_named_as_such(tmp_path: Path):
+    path = tmp_path / "decay.py"
+    path.write_text(
+        "from sympy import symbols\nfrom codegen.groups import LeftMultiplication, Rn\n"
+        "from codegen.scene import FieldScene\nx = symbols('x', real=True)\n"
+        "scene = FieldScene(group=Rn(1), action=LeftMultiplication(), y=[x], f=[-x], y0=[1], span=(0, 1))\n"
+    )
+    done = CliRunner().invoke(command, [str(path), "-m", "rk:rk4", "--steps", "200"], standalone_mode=False)
+    assert done.return_value == 0
+    assert "the scene has no conserved quantity" in done.output
+    assert "slope per unit of time" not in done.output
+    (run,) = json.loads(
+        CliRunner()
+        .invoke(command, [str(path), "-m", "rk:rk4", "--steps", "200", "--json"], standalone_mode=False)
+        .output
+    )
+    assert run["kept"] == []
+
+
 def test_the_command_prints_every_kept_quantity():
     done = CliRunner().invoke(
         command, ["fast_heavy_top", "-m", "splitting:strang", "--steps", "1000"], standalone_mode=False

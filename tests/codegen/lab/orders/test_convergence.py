@@ -6,12 +6,13 @@ import json
 import re
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 from sympy import Matrix, Rational, cos, sin, symbols
 
-from codegen.certify import CertifiedOrder
+from codegen.certify import CertifiedOrder, certified_order
 from codegen.commands.converge import command
 from codegen.emitter import Compiled, compile_method
 from codegen.errors import MethodError
@@ -140,7 +141,7 @@ def test_thirty_digits_decide_what_rounding_hides_from_doubles(exact: Exact) -> 
 def test_an_order_that_rounding_hides_is_undecided_and_says_how_to_see_it(
     exact: Exact, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(convergence, "order_of_short_steps", lambda compiled, stated: None)
+    monkeypatch.setattr(convergence, "order_of_short_steps", lambda *_: None)
     found = measure(exact, "free_rigid_body", "rkmk(4):gauss3", 6)
     assert found.verdict == "undecided"
     assert "--digits 40" in found.sentence()
@@ -261,6 +262,43 @@ def test_a_weight_off_by_5e_11_is_beyond_any_slope_and_left_to_check(exact: Exac
     )
     assert deep.observed is not None
     assert deep.observed < 3.5
+
+
+RK4 = """name = "rounded"
+family = "rk"
+A = [[], ["1/2"], ["0", "1/2"], ["0", "0", "1"]]
+b = ["{sixth}{mark}", "{third}{mark}", "{third}{mark}", "{sixth}{mark}"]
+"""
+
+
+@pytest.mark.parametrize(
+    ("digits", "mark", "verdict"),
+    [(8, "~", "fails"), (15, "~", "holds"), (17, "~", "holds"), (24, "~", "holds"), (17, "d", "holds")],
+)
+def test_an_order_of_rounded_coefficients_has_one_verdict_whoever_states_it(
+    digits: int, mark: str, verdict: str, exact: Exact, tmp_path: Path
+) -> None:
+    """Coefficients with few digits have order 2 in very short steps. More digits are as good as doubles."""
+    sixth, third = "0." + "1" + "6" * (digits - 2) + "7", "0." + "3" * digits
+    path = tmp_path / "rounded.toml"
+    path.write_text(RK4.format(sixth=sixth, third=third, mark=mark))
+    problem = load("free_rigid_body")
+    method = parse(f"ambient:{path}", ("ambient",))
+    known = certified_order(method, problem)
+    assert (known.order, known.certificate) == (4, {"~": "decimal", "d": "double"}[mark])
+    results = [
+        converge(runner(problem, method, "c", order=order), order, exact("free_rigid_body"))
+        for order in (known, CertifiedOrder(4, "stated"))
+    ]
+    assert [result.verdict for result in results] == [verdict, verdict], results
+    if verdict == "fails":
+        assert all("show order 2.00; the coefficients are rounded" in r.sentence() for r in results)
+
+
+def test_a_library_method_with_decimals_of_many_digits_holds(exact: Exact) -> None:
+    method, steps = "magnus:cf_magnus8_11", (8, 12, 16, 24)
+    found = measure(exact, "linear_oscillator_sl2", method, 8, "interpreter", 40, steps)
+    assert (found.spread, found.verdict) == (0.0, "holds"), found.sentence()
 
 
 def test_the_json_has_the_documented_fields(exact: Exact) -> None:

@@ -7,13 +7,17 @@ from fractions import Fraction
 
 import pytest
 from click.testing import CliRunner
+from sympy import symbols
 
 from codegen import scenes
 from codegen.certify import CertifiedOrder
 from codegen.errors import MethodError, SceneError
+from codegen.groups import LeftMultiplication, Rn
 from codegen.lab.default_methods import methods_for
 from codegen.lab.orders import exact_order
 from codegen.lab.orders.exact_order import exact_local_error
+from codegen.scene import FieldScene
+from codegen.scene.problem import Problem
 from orderconds.cli import program
 from tests.codegen.commands.conftest import registered
 
@@ -72,6 +76,36 @@ def test_a_local_error_that_vanishes_gives_a_lower_bound(monkeypatch: pytest.Mon
     found = error_of("free_rigid_body", "rkmk(2):rk4")
     assert (found.order, found.vanishes, found.coefficients) == (3, True, ())
     assert "at least 3" in found.sentence()
+
+
+def polynomial(degree: int) -> Problem:
+    """The solution is x = 1 + t + t^(degree + 1); derivatives of orders 2 to degree vanish at t = 0."""
+    x, t = symbols("x t", real=True)
+    field = (degree + 1) * t**degree + 1
+    return FieldScene(
+        group=Rn(1), action=LeftMultiplication(), y=[x], f=[field + 0 * x], y0=[1], span=(0, 1), name="s"
+    )
+
+
+@pytest.mark.parametrize("method", ["ambient:rk4", "rkmk:rk4"])
+def test_a_field_whose_derivatives_vanish_at_the_start_shows_its_order_later(method: str) -> None:
+    problem = polynomial(6)
+    (chosen,) = methods_for(problem, (method,))
+    found = exact_local_error(problem, chosen)
+    assert (found.order, found.vanishes, found.verdict, found.points) == (4, False, "holds", 2)
+    assert Fraction(found.time) > 0
+    assert Fraction(found.coefficients[0]) != 0
+    assert "order 4 in exact arithmetic on this scene (at the initial state" in found.sentence()
+
+
+def test_an_order_that_no_point_bounds_is_stated_for_the_points_only() -> None:
+    """Simpson's rule integrates t^3 exactly."""
+    problem = polynomial(3)
+    (chosen,) = methods_for(problem, ("ambient:rk4",))
+    found = exact_local_error(problem, chosen)
+    assert (found.order, found.vanishes, found.points) == (5, True, 3)
+    assert "steps from the initial state and 2 later points of the solution" in found.sentence()
+    assert "on this scene" not in found.sentence()
 
 
 def test_a_field_that_is_not_rational_has_no_exact_local_error() -> None:

@@ -1,0 +1,86 @@
+"""Estimates of the rounding errors of a run, relative to the size of each coordinate.
+
+A run is used to measure an order only if its error is much larger than these estimates.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from codegen.ir.domain import FloatDomain
+from codegen.lab.number_types import Vector
+from codegen.lab.orders.step_sizes import rounding
+from codegen.lab.reference import Reference
+from codegen.scene.problem import Problem
+from orderconds.errors import InputError
+
+LATE = "rounding of the time"
+"""The reason to exclude a run whose error can come from the rounding of the time (:attr:`Noise.late`)."""
+
+
+@dataclass(frozen=True)
+class Noise:
+    """The data that determine the rounding errors of runs of a scene.
+
+    - ``epsilon``: the machine epsilon.
+    - ``time``: the largest absolute value of the time, or 0 if the field does not depend on the time.
+    - ``sizes``: the size of each coordinate: the largest of its values at both ends of the span, and of its
+      velocities there times the length of the span. The velocities count because a coordinate that is 0 at
+      both ends can be large between them.
+    - ``speeds``: the largest absolute value of the velocity of each coordinate at both ends.
+    """
+
+    epsilon: float
+    time: float
+    sizes: tuple[float, ...]
+    speeds: tuple[float, ...]
+
+    @classmethod
+    def of(cls, scene: Problem, exact: Reference, epsilon: float) -> Noise:
+        """Return the data for runs of ``scene`` with the reference solution ``exact``."""
+        first, last = map(float, scene.span)
+        ends = [(tuple(scene.initial(FloatDomain(0.0))), first), (tuple(map(float, exact.state)), last)]
+        values = [max(abs(state[k]) for state, _ in ends) for k in range(len(exact.state))]
+        speeds = [0.0] * len(values)
+        for state, t in ends:
+            speeds = [max(a, b) for a, b in zip(speeds, _speeds(scene, state, t), strict=True)]
+        sizes = [max(x, v * abs(last - first)) for x, v in zip(values, speeds, strict=True)]
+        time = 0.0 if scene.autonomous else max(abs(first), abs(last))
+        return cls(epsilon, time, tuple(sizes), tuple(speeds))
+
+    @property
+    def late(self) -> str:
+        """The reason to exclude a run whose error can come from the rounding of the time."""
+        return (
+            f"{LATE}: near t = {self.time:g}, neighbouring numbers differ by {self.epsilon * self.time:.1e}"
+        )
+
+    def of_state(self, steps: int, gaps: Sequence[float]) -> float:
+        """Return an estimate of the rounding errors of the state after ``steps`` steps.
+
+        ``gaps`` contains the error of each coordinate. The error of a coordinate bounds the rounding error
+        that is contained in it. Hence an exact large coordinate does not hide the errors of small
+        coordinates.
+        """
+        return math.hypot(
+            *(min(gap, rounding(steps, self.epsilon, x)) for gap, x in zip(gaps, self.sizes, strict=True))
+        )
+
+    def of_time(self, gaps: Sequence[float]) -> float:
+        """Return an estimate of the errors that the rounding of the time causes.
+
+        A field that is evaluated at a wrong time gives a solution that is shifted by this time.
+        """
+        shift = self.epsilon * self.time
+        return math.hypot(*(min(gap, shift * v) for gap, v in zip(gaps, self.speeds, strict=True)))
+
+
+def _speeds(scene: Problem, state: Vector, t: float) -> list[float]:
+    """Return the absolute values of the velocities of the coordinates, or 0 where they are not defined."""
+    try:
+        velocity = [abs(float(v)) for v in scene.velocity(FloatDomain(0.0), state, t)]
+    except (ArithmeticError, ValueError, InputError):
+        return [0.0] * len(state)
+    return [v if math.isfinite(v) else 0.0 for v in velocity]
