@@ -50,7 +50,7 @@ def result(integrator, *arguments):
 def test_the_sine_of_an_infinity_is_a_failed_step(tmp_path: Path, options, h) -> None:
     path = tmp_path / "pendulum.py"
     path.write_text(PENDULUM)
-    in_c, in_python = (result(x, [1.0, 0.0], h, 3) for x in both(str(path), "ambient:rk4", **options))
+    in_c, in_python = (result(x, x.initial, h, 3) for x in both(str(path), "ambient:rk4", **options))
     assert in_c == in_python
     assert in_c[0] is Status.TOO_FAR
 
