@@ -12,7 +12,7 @@ OVERFLOWING = ("cosh", "exp", "log", "sinh")
 """Functions whose result may be infinite at a finite argument. The formula 1/cosh(x) hides the infinity."""
 
 UNDEFINED = ("acos", "asin", "cos", "sin", "sqrt", "tan")
-"""Functions whose result may be NaN at a number that is not NaN. Only ``choose`` hides a NaN."""
+"""Functions whose result may be NaN at a number that is not NaN. Only ``choose`` and solvers hide a NaN."""
 
 
 def ieee(function: str, *args: float) -> float:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Unpack
 
 import pytest
 
 import codegen
 from codegen.emitter import compile_method
-from codegen.integrator import Status, StepFailed
+from codegen.integrator import Integrator, Status, StepFailed
 from codegen.lab.runner import Interpreted
+from codegen.run_options import RunOptions
 
 VECTORS = """
 from sympy import Matrix, Piecewise, atan, cosh, exp, sin, symbols
@@ -33,21 +36,25 @@ scene = HamiltonianScene(
 """
 
 
-def both(scene, method, **options):
-    return [codegen.load(codegen.emit(scene, method, target=t, **options)) for t in ("c", "python")]
+def both(scene: str, method: str, solver: str = "auto", **options: Unpack[RunOptions]) -> list[Integrator]:
+    return [
+        codegen.load(codegen.emit(scene, method, target=t, solver=solver, **options)) for t in ("c", "python")
+    ]
 
 
-def result(integrator, *arguments):
+def result(
+    integrator: Integrator, state: Sequence[float], h: float, steps: int
+) -> tuple[Status, int, tuple[float, ...]]:
     """Return the status, the number of completed steps and the last state of a run."""
     try:
-        return Status.OK, arguments[2], tuple(integrator.run(*arguments))
+        return Status.OK, steps, tuple(integrator.run(state, h, steps))
     except StepFailed as failure:
         return failure.status, failure.step, tuple(failure.state)
 
 
 @pytest.mark.parametrize("options", [{}, {"events": 1}, {"compensate": True}, {"jacobian": True}], ids=str)
 @pytest.mark.parametrize("h", [1e160, 1e200])
-def test_the_sine_of_an_infinity_is_a_failed_step(tmp_path: Path, options, h) -> None:
+def test_the_sine_of_an_infinity_is_a_failed_step(tmp_path: Path, options: RunOptions, h: float) -> None:
     path = tmp_path / "pendulum.py"
     path.write_text(PENDULUM)
     in_c, in_python = (result(x, x.initial, h, 3) for x in both(str(path), "ambient:rk4", **options))
@@ -87,3 +94,12 @@ def test_an_overflow_that_a_formula_hides_is_no_failure(tmp_path: Path, field: s
     assert in_c[2] == pytest.approx(in_python[2], rel=1e-14)
     interpreted = Interpreted(compile_method(str(path), "rkmk:rk4"), 16).final(8)
     assert in_c[2] == pytest.approx(tuple(map(float, interpreted)), rel=1e-13)
+
+
+@pytest.mark.parametrize("solver", ["newton", "simplified-newton"])
+def test_a_solver_reports_the_sine_of_an_infinity_as_in_c(tmp_path: Path, solver: str) -> None:
+    path = tmp_path / "pendulum.py"
+    path.write_text(PENDULUM)
+    start = [float("inf"), 0.0]
+    in_c, in_python = (result(x, start, 0.1, 3) for x in both(str(path), "rkmk:gauss2", solver=solver))
+    assert in_c == in_python

@@ -121,7 +121,9 @@ class _Module:
         if self.single:
             return {}
         called = functions_of(self.unit)
-        hidden = {*OVERFLOWING, *(UNDEFINED if CHOOSE in called else ())}
+        # A solver of implicit equations also hides a NaN, because it may replace NaNs by a status of its own.
+        undefined = CHOOSE in called or bool(self.interface.blocks)
+        hidden = {*OVERFLOWING, *(UNDEFINED if undefined else ())}
         return {name: f"_{name}" for name in called if name in hidden}
 
     @cached_property
