@@ -14,6 +14,7 @@ from typing import Any, Protocol, TypeAlias
 
 from codegen.ir.elementary import ANGLE
 from codegen.ir.expr import Expr, Space
+from codegen.ir.ieee import ieee
 from codegen.ir.number import Number
 from codegen.ir.selection import Kink, selected, selects, sign_of_number
 from codegen.ir.vector_calls import named
@@ -83,12 +84,12 @@ def stumpff(k: int, z: float) -> float:
     if z < 0 and (k < 3 or z < -4):
         root = math.sqrt(-z)
         if k == 0:
-            return math.cosh(root)
+            return ieee("cosh", root)
         if k == 2:
             # The identity cosh r - 1 = 2 sinh^2(r/2) avoids a cancellation for small r.
-            ratio = math.sinh(root / 2) / (root / 2)
+            ratio = ieee("sinh", root / 2) / (root / 2)
             return ratio * ratio / 2
-        ratio = math.sinh(root) / root
+        ratio = ieee("sinh", root) / root
         return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
@@ -164,7 +165,7 @@ class FloatDomain:
         return float(Fraction(p, q))
 
     def call(self, function: str, *args: float) -> float:
-        """Evaluate a function with the math library. Stumpff functions are evaluated by :func:`stumpff`."""
+        """Evaluate a function. As in C, an overflow gives an infinity, and a domain error gives NaN."""
         if "stumpff" in function:
             return stumpff(int(function[-1]), args[0])
         if "slope" in function:
@@ -175,8 +176,7 @@ class FloatDomain:
             return args[0] / args[1] if args[1] else 0.0
         if selects(function):
             return float(selected(self, function, args, sign_of_number))
-        result: float = getattr(math, function)(*args)
-        return result
+        return ieee(function, *args)
 
     def vector(self, function: str, args: Sequence[float]) -> tuple[float, ...]:
         """Evaluate a vector function in doubles. Emitted code executes the same operations."""
@@ -184,9 +184,10 @@ class FloatDomain:
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Return the pair (converged, change), see :meth:`Domain.settled`."""
-        change = max(abs(a - b) for a, b in zip(old, new, strict=True))
-        # Without this test, a NaN would not end the iteration.
-        if not math.isfinite(change):
+        changes = [abs(a - b) for a, b in zip(old, new, strict=True)]
+        change = max(changes)
+        # Without this test, a NaN would not end the iteration. ``max`` may skip a NaN.
+        if not all(map(math.isfinite, changes)):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
         # ``scale`` is the largest absolute value of an unknown.
         scale = max(map(abs, old), default=0.0)

@@ -5,6 +5,7 @@ A :data:`Runner` computes the final state after a given number of steps.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -81,7 +82,10 @@ class Interpreted:
         start, end = self.problem.span
         h = (end - start) / steps if steps else end - start
         if self.digits <= DOUBLE:
-            return self._run(FloatDomain(float(h)), steps)
+            final = self._run(FloatDomain(float(h)), steps)
+            if not all(map(math.isfinite, final)):
+                raise RunFailed("the run computes a number that is not finite")
+            return final
         # Arb balls are several times faster than mpmath numbers.
         domain = BallDomain(h, self.digits)
         with domain.precision():

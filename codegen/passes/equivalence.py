@@ -327,11 +327,12 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
     domain = FloatDomain(0.0)
     coordinates = tuple(x for block in scene.state for x in state[block.name])
     try:
-        # If the evaluation overflows or divides by zero, the result is infinity.
+        # If a value is not finite, the result is infinity.
         values = evaluate(scene.roots, domain, scene.values(domain, coordinates, state["t"]))
     except (ArithmeticError, ValueError):
         return math.inf
-    return max(map(abs, map(float, values)))
+    # ``max`` may skip a NaN.
+    return max(map(abs, map(float, values))) if all(map(math.isfinite, values)) else math.inf
 
 
 def _no_step(scene: Problem) -> SceneError:

@@ -27,6 +27,7 @@ from typing import Any
 from codegen.ir.domain import Domain
 from codegen.ir.expr import Expr, power
 from codegen.ir.vector_calls import vector_function
+from codegen.run.elimination import inverted
 from codegen.run.identifiers import Identifiers, identify
 from codegen.run.language import (
     LANGUAGE,
@@ -230,6 +231,18 @@ class _Compiler:
                     return True
                 again = test(env)
             return False
+
+        return run if loop.guard is None else self.caught(run, self.store(loop.guard))
+
+    def caught(self, loop: Action, store: Callable[[Environment, Any], None]) -> Action:
+        """Return the action of a loop that ends with the status NOT_FINITE after an arithmetic error."""
+
+        def run(env: Environment) -> bool:
+            try:
+                return loop(env)
+            except (ArithmeticError, ValueError):
+                store(env, STATUSES.index(NOT_FINITE))
+                return False
 
         return run
 
@@ -456,7 +469,7 @@ def _power(x: Any, exponent: Any) -> Any:
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
     """Return a Python version of ``function`` if it is a library function, otherwise None."""
     if function == "invert":
-        return lambda n, matrix: [_inverted(n, matrix)]
+        return lambda n, matrix: [inverted(n, matrix)]
     if vector_function(function) is not None:
         # The method ``domain.vector`` is faster than the execution of the emitted statements.
         return lambda *x: x[-1].__setitem__(slice(None), domain.vector(function, [*chain(*x[:-1])])) or ()
@@ -467,34 +480,3 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
             return lambda z: together(orders, z)
         return lambda z: [domain.call(f"stumpff{k}", z) for k in orders]
     return None
-
-
-def _inverted(n: int, matrix: list[Any]) -> int:
-    """Replace a matrix (a flat list) by its inverse and return 1, or return 0 if the matrix is singular."""
-    import numpy
-
-    # For doubles, the result equals that of the emitted code, because the operations have the same order.
-    rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
-    rows = rows.reshape(n, n)
-    order = []
-    # The emitted code gives no warning of overflow or NaN, so the warnings of numpy are switched off.
-    with numpy.errstate(all="ignore"):
-        for k in range(n):
-            sizes = abs(rows[k:, k])
-            pivot = k + max(range(n - k), key=sizes.__getitem__)
-            if not sizes[pivot - k] > 0:
-                matrix[:] = rows.ravel().tolist()
-                return 0
-            order.append(pivot)
-            rows[[k, pivot]] = rows[[pivot, k]]
-            factor = 1 / rows[k, k]
-            rows[k] *= factor
-            rows[k, k] = factor
-            multiples, others = rows[:, k].copy(), numpy.arange(n) != k
-            rows[others] -= numpy.outer(multiples[others], rows[k])
-            rows[others, k] = -(multiples[others] * factor)
-        # If rows i and j of the matrix were exchanged, columns i and j of the inverse must be exchanged.
-        for k in reversed(range(n)):
-            rows[:, [k, order[k]]] = rows[:, [order[k], k]]
-    matrix[:] = rows.ravel().tolist()
-    return 1

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from codegen.ir.domain import FloatDomain
+from codegen.ir.ieee import ieee
 from codegen.ir.precision import DOUBLE
 from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures, economised, limit, slopes
 
@@ -108,15 +109,15 @@ def _hyperbolic(k: int, z: float) -> float:
     """Return the Stumpff function c_k(z) for z < 0."""
     r = math.sqrt(-z)
     if k == 0:
-        return math.cosh(r)
+        return ieee("cosh", r)
     if k == 2:
         # For small r, the formula c_2 = (cosh(r) - 1)/r^2 would lose digits.
         half = 0.5 * r
-        ratio = math.sinh(half) / half
+        ratio = ieee("sinh", half) / half
         return 0.5 * (ratio * ratio)
     if k == 3 and z >= -SWITCH[3]:
         return _series(3, z)
-    ratio = math.sinh(r) / r
+    ratio = ieee("sinh", r) / r
     return ratio if k == 1 else (1.0 - ratio) / z
 
 

@@ -10,7 +10,7 @@ translation to array languages. Array languages express a loop by ``while_loop``
   arrays in its arguments.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
 - Where C computes an infinity or a NaN, Python may raise an exception. Then ``Function.guard`` determines the
-  result of the Python function.
+  result of the Python function, or ``While.guard`` ends the loop.
 """
 
 from __future__ import annotations
@@ -73,12 +73,16 @@ class While:
     """A loop: the body is executed as long as the test holds.
 
     If ``at_least_once`` is True, the test is evaluated after the body, so the body is executed at least once.
+    If ``guard`` is a variable for a status, an arithmetic error in Python ends the loop, and the variable
+    becomes NOT_FINITE. Assignments before the error remain. Such a loop must not call functions of the
+    caller, because their errors would be lost.
     """
 
     test: Term
     body: tuple[Statement, ...]
     # If ``at_least_once`` is True, ``test`` may read variables that are assigned only in the body.
     at_least_once: bool = False
+    guard: Term | None = None
 
 
 @dataclass(frozen=True)

@@ -71,10 +71,22 @@ def is_looped(plan: Plan) -> bool:
 
 
 def _may_raise(kernel: Kernel) -> bool:
-    """Return True if emitted Python may raise an exception where emitted C computes an infinity or a NaN."""
-    # In emitted Python, the function for one step catches the exceptions of the kernel. A kernel that is
-    # inlined in the loop over the steps is outside this function, so an exception would not be caught.
+    """Return True if emitted Python may raise an exception at finite arguments of a function."""
+    # These kernels have a function for one step, which catches the exceptions. All other kernels may still
+    # raise an exception, but only at extreme values, such as the sine of an infinity. The loop over the steps
+    # catches these exceptions.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
+
+
+def _calls_library(kernel: Kernel) -> bool:
+    """Return True if a kernel calls other functions than the Stumpff functions.
+
+    The Stumpff functions of emitted Python return an infinity or a NaN, and raise no exception.
+    """
+    arithmetic = ("const", "sym", "neg", "add", "sub", "mul", "pow")
+    return bool(kernel.outlined) or any(
+        n.op not in arithmetic and "stumpff" not in str(n.payload) for n in walk(kernel.expressions())
+    )
 
 
 @dataclass(frozen=True)
@@ -259,11 +271,14 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
         If(all_finite(*new, *unread), tuple(taken), (Assign(STATUS, code(NOT_FINITE)),)),
     ]
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
+    guard = STATUS if _calls_library(plan.kernel) else None
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
         # The compiler must assume that the arrays ``trajectory`` and ``state`` overlap. Without local copies,
         # the compiler would therefore store ``state`` to memory in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
-        While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
+        # The new state is assigned after all computations. So after an arithmetic error, the variables
+        # contain the last good state and the number of completed steps.
+        While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner), guard=guard),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),
     ]

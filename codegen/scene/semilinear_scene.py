@@ -264,12 +264,15 @@ def _check(
         try:
             plus = evaluate(list(symbol), domain, {**values, parser.k: k})
             minus = evaluate(list(symbol), domain, {**values, parser.k: -k})
+            finite = all(map(math.isfinite, (*plus, *minus)))
         except (ArithmeticError, ValueError):
+            finite = False
+        if not finite:
             raise SceneError(
                 f"L is not finite at k = {k:g}",
                 where=reader.name,
                 expected="a formula L that is finite for all wave numbers k",
-            ) from None
+            )
         expected = [plus[0], *(-y for y in plus[1:])]
         if any(abs(a - b) > 1e-9 * (1 + abs(a)) for a, b in zip(expected, minus, strict=True)):
             raise SceneError(

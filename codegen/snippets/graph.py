@@ -14,6 +14,7 @@ from typing import Any
 import networkx as nx
 
 from codegen.ir.elementary import ANGLE, MATHEMATICAL
+from codegen.ir.ieee import OVERFLOWING, UNDEFINED
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.table import PiecewisePolynomial
 from codegen.snippets import lane_angles, stumpff
@@ -44,6 +45,9 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
     listed.append(Snippet("choose", "choose"))
     listed.append(Snippet("largest", "largest", ("fabs",)))
     listed.append(Snippet("power", "power"))
+    # In single precision, Python modules call functions of NumPy, which raise no exceptions.
+    if precision is DOUBLE:
+        listed += [_without_exceptions(name) for name in (*OVERFLOWING, *UNDEFINED)]
     listed.append(Snippet("all_finite", "all_finite", ("isfinite",)))
     listed.append(Snippet("invert", "invert", ("fabs",)))
     for k in (2, 3):
@@ -71,6 +75,12 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
     for orders in stumpff.SETS:
         listed += _shared_angle(orders, switch, precision, batch)
     return (*listed, *(trigonometric(precision) if batch else ()))
+
+
+def _without_exceptions(name: str) -> Snippet:
+    """Return the helper ``ieee_NAME`` of a Python module, with the results of :mod:`codegen.ir.ieee`."""
+    overflows = name in OVERFLOWING and name != "log"
+    return Snippet(f"ieee_{name}", "ieee", (name,), {"name": name, "overflows": overflows})
 
 
 def _shared_angle(

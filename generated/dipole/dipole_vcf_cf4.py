@@ -283,6 +283,14 @@ def invert(n, matrix):
     return 1
 
 
+def _sqrt(x):
+    """Return sqrt(x), or the NaN of IEEE arithmetic."""
+    try:
+        return sqrt(x)
+    except ValueError:
+        return float("nan")
+
+
 # Row k: coefficients of the backward difference of order k, latest solution first.
 differences = (
     (
@@ -529,11 +537,11 @@ def _advance(state, h, memory, statistics):
         w61 = 3.26 - w60
         w62 = 0.3 * g21
         w63 = w61 - w62
-        w64 = sqrt(w63)
+        w64 = _sqrt(w63)
         w65 = w63 * w64
         w66 = 1.5 / w65
         w67 = w61 + w62
-        w68 = sqrt(w67)
+        w68 = _sqrt(w67)
         w69 = w67 * w68
         w70 = 1.5 / w69
         w71 = w66 - w70
@@ -620,9 +628,9 @@ def _advance(state, h, memory, statistics):
             w31 = 3.26 - 3.0 * Q4_8
             w32 = 0.3 * Q4_7
             w33 = w31 - w32
-            w34 = 1.5 / (w33 * sqrt(w33))
+            w34 = 1.5 / (w33 * _sqrt(w33))
             w35 = w31 + w32
-            w36 = 1.5 / (w35 * sqrt(w35))
+            w36 = 1.5 / (w35 * _sqrt(w35))
             w37 = -1.0 - (w34 - w36)
             w38 = 0.1 * (w34 + w36)
             Nr4_0 = Q4_7 * w37 + Q4_8 * w38 + 0.99 * (a_5_1 * a_5_2)
@@ -636,9 +644,9 @@ def _advance(state, h, memory, statistics):
             w42 = 3.26 - 3.0 * Q2_8
             w43 = 0.3 * Q2_7
             w44 = w42 - w43
-            w45 = 1.5 / (w44 * sqrt(w44))
+            w45 = 1.5 / (w44 * _sqrt(w44))
             w46 = w42 + w43
-            w47 = 1.5 / (w46 * sqrt(w46))
+            w47 = 1.5 / (w46 * _sqrt(w46))
             w48 = -1.0 - (w45 - w47)
             w49 = 0.1 * (w45 + w47)
             sum_Nr4_0 = Nr4_0 + 2.0 * (Q2_7 * w48 + Q2_8 * w49 + 0.99 * (a_1 * a_2))
@@ -703,9 +711,9 @@ def _advance(state, h, memory, statistics):
             w95 = 3.26 - 3.0 * Q3_8
             w96 = 0.3 * Q3_7
             w97 = w95 - w96
-            w98 = 1.5 / (w97 * sqrt(w97))
+            w98 = 1.5 / (w97 * _sqrt(w97))
             w99 = w95 + w96
-            w100 = 1.5 / (w99 * sqrt(w99))
+            w100 = 1.5 / (w99 * _sqrt(w99))
             w101 = -1.0 - (w98 - w100)
             w102 = 0.1 * (w98 + w100)
             Nr3_0 = Q3_7 * w101 + Q3_8 * w102 + 0.99 * (a_3_1 * a_3_2)

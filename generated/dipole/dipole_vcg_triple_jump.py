@@ -229,6 +229,14 @@ def _stumpff_12(z):
     return _stumpff_12_far(z)
 
 
+def _sqrt(x):
+    """Return sqrt(x), or the NaN of IEEE arithmetic."""
+    try:
+        return sqrt(x)
+    except ValueError:
+        return float("nan")
+
+
 # Row k: coefficients of the backward difference of order k, latest solution first.
 differences = (
     (
@@ -432,9 +440,9 @@ def _substep(state, h, memory, statistics):
             w8 = 3.26 - 3.0 * Q1_8
             w9 = 0.3 * Q1_7
             w10 = w8 - w9
-            w11 = 1.5 / (w10 * sqrt(w10))
+            w11 = 1.5 / (w10 * _sqrt(w10))
             w12 = w8 + w9
-            w13 = 1.5 / (w12 * sqrt(w12))
+            w13 = 1.5 / (w12 * _sqrt(w12))
             w14 = -1.0 - (w11 - w13)
             w15 = 0.1 * (w11 + w13)
             Nr1_0 = Q1_7 * w14 + Q1_8 * w15 + 0.99 * (xi1_1 * xi1_2)

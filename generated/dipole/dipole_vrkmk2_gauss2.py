@@ -281,6 +281,14 @@ def invert(n, matrix):
     return 1
 
 
+def _sqrt(x):
+    """Return sqrt(x), or the NaN of IEEE arithmetic."""
+    try:
+        return sqrt(x)
+    except ValueError:
+        return float("nan")
+
+
 # Row k: coefficients of the backward difference of order k, latest solution first.
 differences = (
     (
@@ -520,9 +528,9 @@ def _advance(state, h, memory, statistics):
             w21 = 3.26 - 3.0 * Q2_8
             w22 = 0.3 * Q2_7
             w23 = w21 - w22
-            w24 = 1.5 / (w23 * sqrt(w23))
+            w24 = 1.5 / (w23 * _sqrt(w23))
             w25 = w21 + w22
-            w26 = 1.5 / (w25 * sqrt(w25))
+            w26 = 1.5 / (w25 * _sqrt(w25))
             w27 = -1.0 - (w24 - w26)
             w28 = 0.1 * (w24 + w26)
             Nn2_0 = Q2_7 * w27 + Q2_8 * w28 + 0.99 * (a_6_1 * a_6_2)
@@ -552,9 +560,9 @@ def _advance(state, h, memory, statistics):
             w47 = 3.26 - 3.0 * Q1_8
             w48 = 0.3 * Q1_7
             w49 = w47 - w48
-            w50 = 1.5 / (w49 * sqrt(w49))
+            w50 = 1.5 / (w49 * _sqrt(w49))
             w51 = w47 + w48
-            w52 = 1.5 / (w51 * sqrt(w51))
+            w52 = 1.5 / (w51 * _sqrt(w51))
             w53 = -1.0 - (w50 - w52)
             w54 = 0.1 * (w50 + w52)
             Nn1_0 = Q1_7 * w53 + Q1_8 * w54 + 0.99 * (a_2_1 * a_2_2)

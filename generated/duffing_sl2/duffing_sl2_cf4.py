@@ -153,7 +153,10 @@ def signed_stumpff1(z):
     if z >= 0.0:
         return _stumpff_1(z)
     r = sqrt(-z)
-    return sinh(r) / r
+    try:
+        return sinh(r) / r
+    except OverflowError:
+        return float("inf")
 
 
 def signed_stumpff0(z):
@@ -161,7 +164,10 @@ def signed_stumpff0(z):
     if z >= 0.0:
         return _stumpff_0(z)
     r = sqrt(-z)
-    return cosh(r)
+    try:
+        return cosh(r)
+    except OverflowError:
+        return float("inf")
 
 
 def _loop(state, h, steps, trajectory, stride, completed):

@@ -8,6 +8,7 @@ from codegen.errors import SceneError
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
 from codegen.ir.precision import DOUBLE
+from codegen.ir.table import PiecewisePolynomial
 from codegen.kernel.operations import costs
 from codegen.printers.c.functions import FunctionPrinter
 from codegen.printers.c.lattice import lattice_usage
@@ -192,11 +193,16 @@ def _forms(unit: Unit) -> set[str]:
 
     A name may be the name of a variant, for example ``sin_near``.
     """
-    names: set[str] = set()
+    # ``called_by`` returns plain texts. A table is also a function, and its helper needs the knots and
+    # coefficients, so the tables themselves are collected.
+    tables = {name for name in functions_of(unit) if isinstance(name, PiecewisePolynomial)}
+    names: set[str] = set(tables)
     for function in unit.functions:
         form = near if function.near else complete
         names |= {
-            form(name) for name in called_by(function.body) if name not in unit.parts and name not in LANGUAGE
+            form(name)
+            for name in called_by(function.body) - tables
+            if name not in unit.parts and name not in LANGUAGE
         }
     return names
 

@@ -9,6 +9,7 @@ catches this error in a printed function. After an error, the result of the func
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import prod
 
 from codegen.printers.python.terms import Constants, Terms
@@ -262,6 +263,14 @@ class _Body:
 
     def loop(self, statement: While, depth: int) -> Iterator[str]:
         """Yield the lines of a loop."""
+        if statement.guard is not None:
+            space, inner = "    " * depth, replace(statement, guard=None)
+            yield f"{space}try:"
+            yield from self.loop(inner, depth + 1)
+            # Functions of ``math`` raise ValueError for an invalid argument.
+            yield f"{space}except (ArithmeticError, ValueError):"
+            yield f"{space}    {self.identifiers.of(statement.guard)} = NOT_FINITE"
+            return
         if not statement.at_least_once:
             yield from self.condition("while", statement.test, depth)
             yield from self.block(statement.body, depth + 1)

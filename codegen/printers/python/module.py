@@ -10,8 +10,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from codegen.ir.angle_depth import chain
+from codegen.ir.ieee import OVERFLOWING, UNDEFINED
 from codegen.ir.kernel import Kernel
 from codegen.ir.precision import DOUBLE
+from codegen.ir.selection import CHOOSE
 from codegen.kernel.operations import costs
 from codegen.printers.interface import Interface
 from codegen.printers.needs import functions_of
@@ -73,7 +75,7 @@ class _Module:
         """The floating-point constants of the module."""
         # A local variable with the name of a constant would hide the global constant.
         taken = {name for of in self.identifiers.values() for name in of.by_name.values()}
-        return Constants(self.interface.format, frozenset(taken))
+        return Constants(self.interface.format, frozenset(taken), lambda name: self.replaced.get(name, name))
 
     @cached_property
     def printer(self) -> FunctionPrinter:
@@ -104,9 +106,25 @@ class _Module:
         return names | ({"nan"} if guards else set())
 
     @cached_property
+    def replaced(self) -> dict[str, str]:
+        """Maps the names of functions in formulas to helpers that return an infinity or a NaN as C does.
+
+        The functions of ``math`` raise an exception instead, and the step would fail although the formula may
+        have a finite value. Helpers are slower, so they are used only if a formula can hide the infinity or
+        the NaN. In single precision, the functions of NumPy raise no exceptions.
+        """
+        if self.single:
+            return {}
+        called = functions_of(self.unit)
+        # A solver of implicit equations also hides a NaN, because it may replace NaNs by a status of its own.
+        undefined = CHOOSE in called or bool(self.interface.blocks)
+        hidden = {*OVERFLOWING, *(UNDEFINED if undefined else ())}
+        return {name: f"_{name}" for name in called if name in hidden}
+
+    @cached_property
     def needed(self) -> Needed:
         """The library functions and the helper functions that the module needs."""
-        wanted = {*functions_of(self.unit)}
+        wanted = {f"ieee{self.replaced[f]}" if f in self.replaced else f for f in functions_of(self.unit)}
         # ``functions_of`` does not find the calls of ``power`` and ``sqrt`` in the step control.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))

@@ -8,6 +8,7 @@ number and a literal is a double.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import ClassVar
 
 from codegen.ir.number import Number
@@ -23,13 +24,17 @@ class Constants:
 
     In single precision, ``digits`` maps the name of each constant to the text of its value. In double
     precision, ``digits`` is empty.
+
+    ``called`` maps the name of a function in an expression to the name that is printed.
     """
 
-    def __init__(self, precision: Precision, taken: frozenset[str]) -> None:
+    def __init__(
+        self, precision: Precision, taken: frozenset[str], called: Callable[[str], str] = str
+    ) -> None:
         self.precision, self.taken = precision, taken
         self.digits: dict[str, str] = {}
         self._names: dict[str, str] = {}
-        self.style = Style() if precision is DOUBLE else Style(self._rounded)
+        self.style = Style(function=called) if precision is DOUBLE else Style(self._rounded)
 
     def _rounded(self, value: Number) -> str:
         return self.text(self.precision.round(value))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import keyword
 
+from codegen.ir.ieee import OVERFLOWING, UNDEFINED
 from codegen.snippets.graph import LIBRARY
 
 _WORDS = """
@@ -14,8 +15,10 @@ _WORDS = """
     SINGULAR TOO_SHORT StepFailed Statistics step run run_adaptive jacobian index
 """
 
+_HELPERS = frozenset(f"_{name}" for name in (*OVERFLOWING, *UNDEFINED))
+
 # Builtins are reserved, because a parameter ``max`` would hide the builtin function ``max``.
-RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split()) | frozenset(LIBRARY)
+RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split()) | frozenset(LIBRARY) | _HELPERS
 """Keywords, and names that a module imports or defines."""
 
 _PUBLIC = """

@@ -298,3 +298,22 @@ def test_sine_and_cosine_without_branches_have_an_error_of_two_ulp(precision, mo
 def test_a_batch_compiles_under_the_flags_of_the_project():
     artifact = emitted("driven_spin", "cf:cf4", ("nu",))
     assert build(artifact.files, FLAGS).exists()
+
+
+def test_a_batch_of_a_scene_with_a_table_makes_the_steps_of_the_scalar_module(tmp_path):
+    path = tmp_path / "thrust.py"
+    path.write_text(
+        "from sympy import Matrix, Symbol, symbols\n"
+        "from codegen.groups import SO3, Rotation\n"
+        "from codegen.scene import FieldScene, table\n"
+        "t, m = Symbol('t'), Matrix(symbols('x y z', real=True))\n"
+        "a, b = table([0, 1, 2], [0, 1, -1], t, 'linear'), table([-1, 0, 1], [1, 0, 2], m[2])\n"
+        "f = Matrix([a, m[0] * b, 1])\n"
+        "y0 = Matrix([1, 0, 0])\n"
+        "scene = FieldScene(group=SO3(), action=Rotation(), y=m, f=f, y0=y0, span=(0, 2))\n"
+    )
+    integrator = codegen.load(emitted(str(path), "cf:cf4"))
+    states = starts(integrator, 5)
+    batch = integrator.run_batch(states, 0.1, 7, t=0.0)
+    for before, after in zip(states, batch.states, strict=True):
+        assert after.tolist() == list(integrator.run(before, 0.1, 7, 0.0))

@@ -35,9 +35,14 @@ from codegen.run.language import (
 from codegen.run.plan import Plan
 from codegen.run.scope import declarations
 from codegen.run.terms import (
+    NOT_FINITE,
+    OK,
+    STATUSES,
     Kind,
+    Term,
     both,
     call,
+    code,
     count,
     either,
     flag,
@@ -63,6 +68,7 @@ def one(*body, name="probe", parameters=(X,), **more):
 def in_python(unit, *arguments):
     printer = InPython(unit, identify(unit, WORDS_OF_PYTHON), Constants(DOUBLE, frozenset()))
     namespace = {"nan": math.nan, "isfinite": math.isfinite, "sqrt": math.sqrt, "inf": math.inf}
+    namespace |= {name: k for k, name in enumerate(STATUSES)}
     exec((files("codegen") / "snippets/python/power.j2").read_text(encoding="utf-8"), namespace)
     for function in unit.functions:
         exec("\n".join(printer.definition(function)), namespace)
@@ -170,6 +176,15 @@ def test_an_arithmetic_error_is_what_the_guard_says():
     assert math.isnan(by_executor(unit, 0.0))
     assert math.isnan(in_python(unit, 0.0))
     assert math.isinf(in_c(unit, 0.0))  # C computes on
+
+
+def test_an_arithmetic_error_ends_a_loop_with_a_guard():
+    status = Term("name", (), Kind.STATUS, "status")
+    body = (Assign(TOTAL, TOTAL + 1.0 / (X - TOTAL)),)
+    loop = While(status.equals(code(OK)), body, guard=status)
+    ended = select(status.equals(code(NOT_FINITE)), TOTAL, number(-1.0))
+    unit = one(Assign(status, code(OK)), Assign(TOTAL, X - 1.0), loop, Return(ended))
+    assert by_executor(unit, 3.0) == in_python(unit, 3.0) == 3.0
 
 
 def test_what_side_by_side_loops_assign_first_belongs_to_each_and_is_constant():

@@ -17,7 +17,7 @@ from codegen.integrator import StepFailed
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.loader import load
 from codegen.run import solver_choice
-from codegen.run.execute import _inverted
+from codegen.run.elimination import inverted
 from codegen.run.solver_choice import CHOICES, FEW_STEPS, LARGE, STEPS, Candidate, is_linear
 from codegen.run.step_cost import Amounts, StepCost
 from codegen.scene import FieldScene
@@ -256,11 +256,11 @@ def test_the_inverse_of_the_executor_is_that_of_emitted_code_in_every_bit():
     for n in (1, 3, 7):
         matrix = [draw.gauss(0, 10.0 ** draw.randint(-3, 3)) for _ in range(n * n)]
         given, objects = list(matrix), [Fraction(x) for x in matrix]
-        assert _inverted(n, given) == _inverted(n, objects) == 1
+        assert inverted(n, given) == inverted(n, objects) == 1
         assert all(isinstance(x, float) for x in given)
         exact = max(abs(float(x) - y) / max(1.0, abs(y)) for x, y in zip(objects, given, strict=True))
         assert exact < 1e-9
-    assert _inverted(2, [0.0] * 4) == 0
+    assert inverted(2, [0.0] * 4) == 0
 
 
 def test_linear_equations_are_recognised():

@@ -8,13 +8,17 @@ import re
 import networkx as nx
 import pytest
 
+from codegen.ir.ieee import OVERFLOWING, UNDEFINED
 from codegen.snippets.graph import LIBRARY, graph, needed, snippets
 from codegen.snippets.stumpff import SETS
 
 TARGETS = ("c", "python")
 
 
-ONE_TARGET = ("greater", "largest", "all_finite", "power")
+EXCEPTIONS = tuple(f"ieee_{name}" for name in (*OVERFLOWING, *UNDEFINED))
+"""Helpers for Python. The functions of C raise no exceptions."""
+
+ONE_TARGET = ("greater", "largest", "all_finite", "power", *EXCEPTIONS)
 """Helpers that the other target has built in."""
 
 

@@ -1,0 +1,31 @@
+"""Functions of doubles with the results of IEEE arithmetic.
+
+The functions of the module :mod:`math` raise an exception if a result is infinite or NaN. C returns the
+infinity or the NaN, and a formula such as 1/cosh(x) or atan(exp(x)) may still have a finite value.
+"""
+
+from __future__ import annotations
+
+import math
+
+OVERFLOWING = ("cosh", "exp", "log", "sinh")
+"""Functions whose result may be infinite at a finite argument. The formula 1/cosh(x) hides the infinity."""
+
+UNDEFINED = ("acos", "asin", "cos", "sin", "sqrt", "tan")
+"""Functions whose result may be NaN at a number that is not NaN. Only ``choose`` and solvers hide a NaN."""
+
+
+def ieee(function: str, *args: float) -> float:
+    """Return the value of a function of the module :mod:`math`, or the infinity or NaN that C returns.
+
+    >>> ieee("exp", 1000.0), ieee("sinh", -1000.0), ieee("log", 0.0), ieee("sin", math.inf)
+    (inf, -inf, -inf, nan)
+    """
+    try:
+        result: float = getattr(math, function)(*args)
+    except OverflowError:
+        # exp and cosh are positive. sinh has the sign of its argument.
+        return math.copysign(math.inf, args[0]) if function == "sinh" else math.inf
+    except ValueError:
+        return -math.inf if function == "log" and args[0] == 0.0 else math.nan
+    return result

@@ -1,0 +1,38 @@
+"""Invert a matrix by elimination, with the operations of emitted code in the same order."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def inverted(n: int, matrix: list[Any]) -> int:
+    """Replace a matrix (a flat list) by its inverse and return 1, or return 0 if the matrix is singular."""
+    import numpy
+
+    # For doubles, the result equals that of the emitted code, because the operations have the same order.
+    rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
+    rows = rows.reshape(n, n)
+    order = []
+    # The emitted code gives no warning of overflow or NaN, so the warnings of numpy are switched off.
+    with numpy.errstate(all="ignore"):
+        for k in range(n):
+            sizes = abs(rows[k:, k])
+            pivot = k + max(range(n - k), key=sizes.__getitem__)
+            if not sizes[pivot - k] > 0:
+                # The stopping rule tests whether the rest of the matrix is finite.
+                matrix[:] = rows.ravel().tolist()
+                return 0
+            order.append(pivot)
+            rows[[k, pivot]] = rows[[pivot, k]]
+            factor = 1 / rows[k, k]
+            rows[k] *= factor
+            rows[k, k] = factor
+            multiples = rows[:, k].copy()
+            others = numpy.arange(n) != k
+            rows[others] -= numpy.outer(multiples[others], rows[k])
+            rows[others, k] = -(multiples[others] * factor)
+        # If rows i and j of the matrix were exchanged, columns i and j of the inverse must be exchanged.
+        for k in reversed(range(n)):
+            rows[:, [k, order[k]]] = rows[:, [order[k], k]]
+    matrix[:] = rows.ravel().tolist()
+    return 1
