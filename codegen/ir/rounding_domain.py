@@ -44,6 +44,7 @@ class Sized:
 
     def __sub__(self, other: Scalar) -> Sized:
         b = _sized(other)
+        # The sizes are added, so the size remains if the values cancel.
         return Sized(self.value - b.value, self.size + b.size)
 
     def __rsub__(self, other: Scalar) -> Sized:
@@ -51,6 +52,7 @@ class Sized:
 
     def __mul__(self, other: Scalar) -> Sized:
         b = _sized(other)
+        # Terms of second order are neglected.
         return Sized(self.value * b.value, abs(self.value) * b.size + self.size * abs(b.value))
 
     __rmul__ = __mul__
@@ -113,6 +115,7 @@ class RoundingDomain:
         value = self.plain.call(function, *values)
         size = abs(value)
         for k, x in enumerate(args):
+            # An exact zero is not moved, because a function such as sqrt changes fast near zero.
             if x.size:
 
                 def along(step: Scalar, k: int = k, x: Sized = x) -> tuple[Scalar, ...]:
@@ -133,6 +136,7 @@ class RoundingDomain:
         results = self.plain.vector(function, values)
 
         def along(step: Scalar) -> tuple[Scalar, ...]:
+            # The factors are between 1 and 7/4 and have no simple pattern.
             factors = (step * (16 + 7 * k % 13) / 16 for k in range(len(args)))
             return self.plain.vector(
                 function, [x.value + t * x.size for x, t in zip(args, factors, strict=True)]
@@ -155,4 +159,5 @@ class RoundingDomain:
                 continue
             if all(isinstance(x, self.context.mpf) and self.context.isfinite(x) for x in moved):
                 return [abs(a - b) / self._shift for a, b in zip(moved, values, strict=True)]
+        # No value could be computed nearby, so only the rounding error of the function itself is known.
         return [abs(x) for x in values]

@@ -59,13 +59,13 @@ def check_parts(orbit: Orbit, problem: Problem) -> None:
     """
     if not problem.parts or problem.hamiltonian is None:
         return
-    parts = tuple(problem.parts.values())
+    parts, zero = tuple(problem.parts.values()), orbit.domain.rational(0)
     for point in orbit.points:
         values = orbit.values((problem.hamiltonian, *parts), point)
-        if values is not None and not orbit.sized(values[0] - sum(values[1:]), values):
+        if values is not None and not orbit.sized(values[0] - sum(values[1:], zero), values):
             names = ", ".join(problem.parts)
             raise SceneError(
-                f"the parts {names} add up to {orbit.text(sum(values[1:]))} {_place(orbit, point)}",
+                f"the parts {names} add up to {orbit.text(sum(values[1:], zero))} {_place(orbit, point)}",
                 where=orbit.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
                 hint='list all summands of H in the argument "parts", and no other terms',

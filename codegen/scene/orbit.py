@@ -28,7 +28,9 @@ Both bounds are proportional to the terms, so that the test does not depend on t
 """
 
 POINTS = 4
-"""The largest number of sample points of an :class:`Orbit` at distances of about 1, with the initial state."""
+"""The largest number of sample points of an :class:`Orbit` at distances of about 1 from the initial state,
+including the initial state.
+"""
 
 NEAR, NEAR_STEPS = 2, 100
 """The largest number of sample points near the initial state, and the time span of the scene divided by the
