@@ -277,7 +277,7 @@ def test_the_unknown_is_one_velocity():
 
 
 @pytest.mark.parametrize("target", ["c", "python"])
-@pytest.mark.parametrize("mass", [Fraction(1), Fraction(1, 10**16), Fraction(91, 10**32)])
+@pytest.mark.parametrize("mass", [Fraction(1, 10**16), Fraction(91, 10**32)])
 def test_newtons_matrix_is_right_for_tiny_momenta(mass, target):
     group, m = Rn(1), Rational(mass.numerator, mass.denominator)
     q, p = group.point("q"), group.dual("p")
@@ -285,7 +285,8 @@ def test_newtons_matrix_is_right_for_tiny_momenta(mass, target):
     scene = HamiltonianScene(group=group, q=q, mu=p, H=H, q0=Matrix([1]), mu0=Matrix([0]), span=(0, 1))
     module = load(emit(scene, "discrete_gradient:midpoint", target=target, solver="newton"))
     position, momentum = module.run([1.0, 0.0], h=0.1, steps=10)
-    # The position does not depend on the unit of the mass, and the energy keeps its initial value 3/4.
+    # The displacement of the position is much larger than that of the momentum, so the position does not
+    # depend on the mass. The energy keeps its initial value, 3/4 times the mass.
     assert position == pytest.approx(0.236397280748, rel=1e-11)
     speed = math.sqrt(2 * (0.75 - position**2 / 2 - position**4 / 4))
     assert momentum / float(mass) == pytest.approx(-speed, rel=1e-12)
