@@ -14,11 +14,19 @@ from codegen.ir.domain import ExprDomain
 from codegen.ir.elementary import ELEMENTARY
 from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.jacobian import jacobian
+from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE
 
 SMALL = 3
 """The largest number of rows of a matrix whose inverse is computed from cofactors.
 
 For larger matrices, Gaussian elimination takes fewer operations.
+"""
+
+LEAST_NUMERATOR = 2**50
+"""A numerator consists of rounding errors only if it is below 1/LEAST_NUMERATOR times the sum of its terms.
+
+The unit roundoff is 2^-53, and a numerator is a sum of few terms, so its rounding error is several units.
 """
 
 Rows = tuple[tuple[Expr, ...], ...]
@@ -46,7 +54,7 @@ def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     ``unknowns`` are the names of the components of u. The expressions ``images`` are the components of g(u).
     """
     space = images[0].space
-    rows = jacobian(images, unknowns)
+    rows = jacobian(_regular(images), unknowns)
     units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
     return tuple(tuple(e - x for e, x in zip(*pair, strict=True)) for pair in zip(units, rows, strict=True))
 
@@ -75,6 +83,38 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     # Higher powers of h are dropped, because Newton's method needs only an approximate matrix.
     n = len(images)
     return [a + h * b for a, b in zip(values[:n], values[n:], strict=True)]
+
+
+class _Regular(ExprDomain):
+    def call(self, function: str, *args: Expr) -> Expr:
+        """Return the expression function(args). See :func:`_regular` for quotients."""
+        if function == "quotient" and _at_zero(self.space, args[1:])[0].is_zero:
+            bound = self.space.const(Number.rational(1, LEAST_NUMERATOR)) * _size(args[0])
+            excess = self.space.call(ABSOLUTE, args[0]) - bound
+            args = (self.space.call(CHOOSE, excess, args[0], self.space.zero), *args[1:])
+        return super().call(function, *args)
+
+
+def _size(root: Expr) -> Expr:
+    """Return the sum of the absolute values of the terms of a sum."""
+    if root.op in ("add", "sub"):
+        return _size(root.args[0]) + _size(root.args[1])
+    return _size(root.args[0]) if root.op == "neg" else root.space.call(ABSOLUTE, root)
+
+
+def _regular(images: Sequence[Expr]) -> Sequence[Expr]:
+    """Return ``images`` with zero for a numerator that consists of rounding errors only.
+
+    This applies to quotients that are 0/0 at h = 0. For a short displacement, the divisor is tiny, so that
+    the rounding errors of the numerator give huge entries of the matrix without a correct digit. The inverse
+    of such a matrix is tiny. The changes of the unknowns are then tiny far from the solution, and the
+    iteration would end there.
+    """
+    space = images[0].space
+    if not any(n.op == "call" and n.payload == "quotient" for n in walk(images)):
+        return images
+    names = sorted({n.payload for n in walk(images) if n.op == "sym"})
+    return evaluate(images, _Regular(space), {name: space.sym(name) for name in names})
 
 
 class _AtZero(ExprDomain):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cache
 from itertools import combinations
 
@@ -18,6 +19,11 @@ from codegen.ir.scene_operations import FlowOf
 from codegen.ir.values import Coefficient, Kind, Var
 from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem
+
+TYPICAL_STEPS = 16
+"""The flows of two parts are compared over durations of about the time span of the scene divided by this
+number. The number only sets a scale: flows that commute over one duration commute over all durations.
+"""
 
 
 @dataclass(frozen=True)
@@ -110,6 +116,10 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     """
     orbit = orbit_of(scene)
     d = orbit.domain
+    # The durations are proportional to the time unit of the scene. In a duration that is tiny in this unit,
+    # the order of two flows would change the state by less than the rounding errors.
+    first, last = scene.span
+    unit = abs(last - first) / TYPICAL_STEPS or Fraction(1)
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
@@ -121,8 +131,10 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     def same(pair: tuple[str, str]) -> bool:
         # The flows of the two parts are applied in both orders, and ``ends`` contains the two resulting
         # states. The two states are compared to test if the flows commute. The durations of the two flows are
-        # 2/7 and 3/7.
-        first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
+        # 2/7 and 3/7 of ``unit``.
+        first, second = (
+            (part, d.rational(*(unit * (k + 2) / 7).as_integer_ratio())) for k, part in enumerate(pair)
+        )
         for point in orbit.points:
             try:
                 ends = moved(point, (first, second)), moved(point, (second, first))

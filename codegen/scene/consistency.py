@@ -6,20 +6,18 @@ Formulas and their derivatives are compared at sample points of the manifold
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
 from codegen.groups.capabilities import Inverse
 from codegen.groups.linear_algebra import Vector
 from codegen.ir.differentiate import gradient
 from codegen.ir.expr import Expr
-from codegen.scene.orbit import Orbit, orbit_of
+from codegen.ir.rounding_domain import RoundingDomain, Sized
+from codegen.scene.orbit import DIGITS, Orbit, orbit_of
 from codegen.scene.piecewise_invariants import check_cases
 from codegen.scene.problem import TIME, Problem
-
-if TYPE_CHECKING:
-    import mpmath
 
 ROUNDING = 1e-12
 ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1, 10)) in place of cos(0.1)"
@@ -63,13 +61,13 @@ def check_parts(orbit: Orbit, problem: Problem) -> None:
     """
     if not problem.parts or problem.hamiltonian is None:
         return
-    parts = tuple(problem.parts.values())
+    parts, zero = tuple(problem.parts.values()), orbit.domain.rational(0)
     for point in orbit.points:
         values = orbit.values((problem.hamiltonian, *parts), point)
-        if values is not None and not orbit.sized(values[0] - sum(values[1:]), values):
+        if values is not None and not orbit.sized(values[0] - sum(values[1:], zero), values):
             names = ", ".join(problem.parts)
             raise SceneError(
-                f"the parts {names} add up to {orbit.text(sum(values[1:]))} {_place(orbit, point)}",
+                f"the parts {names} add up to {orbit.text(sum(values[1:], zero))} {_place(orbit, point)}",
                 where=orbit.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
                 hint='list all summands of H in the argument "parts", and no other terms',
@@ -80,19 +78,19 @@ def check_start(orbit: Orbit) -> None:
     """Raise :class:`SceneError` if the initial state is not on the manifold on which the group acts."""
     start = tuple(orbit.points[0][s] for s in orbit.symbols)
     for law, defect in orbit.action.laws(orbit.domain, orbit.group, start):
-        if not orbit.sized(defect, (1,)):
+        if not orbit.sized(defect, (orbit.domain.rational(1),)):
             raise SceneError(
                 f"the initial state violates {law} by {orbit.text(defect)}",
                 where=orbit.name,
                 expected=f"an element of {orbit.group.name}"
                 if orbit.action.on_itself
                 else f"a point of the manifold on which {orbit.group.name} acts by {orbit.action.name}",
-                hint=ROUNDED if abs(defect) < ROUNDING else "",
+                hint=ROUNDED if abs(defect.value) < ROUNDING else "",
             )
     _check_invertible(orbit, start)
 
 
-def _check_invertible(orbit: Orbit, start: Vector[mpmath.mpf]) -> None:
+def _check_invertible(orbit: Orbit, start: Vector[Sized]) -> None:
     group = orbit.group.offers(Inverse) if orbit.action.on_itself else None
     if group is None:
         return
@@ -113,8 +111,9 @@ def check_action(orbit: Orbit) -> None:
     The identity of the group must map a point y to itself. For an element x of the Lie algebra, the velocity
     of the action must be the derivative of exp(eps x).y with respect to eps at eps = 0.
     """
-    d, group, action = orbit.domain, orbit.group, orbit.action
-    y = tuple(orbit.points[-1][s] for s in orbit.symbols)
+    group, action = orbit.group, orbit.action
+    d = RoundingDomain(0, _digits(orbit))
+    y = tuple(d.scalar(orbit.points[-1][s].value) for s in orbit.symbols)
     x = tuple(d.rational(7 * k % 11 - 5, 8) for k in range(1, group.dim + 1))
     eps = d.rational(1, 10**STEP_DIGITS)
     ends = [action.actexp(d, group, tuple(e * a for a in x), y) for e in (eps, -eps)]
@@ -129,13 +128,25 @@ def check_action(orbit: Orbit) -> None:
         ("velocity", action.velocity(d, group, x, y), slope, "d/deps act(exp(eps x), y) at eps = 0"),
     ):
         for k, (a, b) in enumerate(zip(left, right, strict=True)):
-            if abs(a - b) > d.rational(1, 10**SLOPE_DIGITS) * (1 + abs(a) + abs(b)):
+            tolerance = d.rational(1, 10**SLOPE_DIGITS) * (abs(a) + abs(b))
+            if abs((a - b).value) > tolerance.value + d.rounding(a - b):
                 raise SceneError(
                     f"{what}[{k}] of the action {action.name} is {orbit.text(a)}",
                     where=orbit.name,
                     expected=f"{orbit.text(b)}, {expected}",
                     hint=f"correct the class {type(action).__name__}",
                 )
+
+
+def _digits(orbit: Orbit) -> int:
+    """Return the number of digits for the central differences in :func:`check_action`.
+
+    A difference exp(eps x).y - exp(-eps x).y can be as small as eps, but it is computed from numbers of the
+    size of y. The digits of y in front of the decimal point are therefore added.
+    """
+    context = orbit.domain.context
+    bits = max((context.mag(orbit.points[-1][s].value) for s in orbit.symbols), default=0)
+    return DIGITS + max(0, math.ceil(bits * math.log10(2)))
 
 
 def check_equal(
@@ -183,7 +194,7 @@ def check_flow(
                 pairs.insert(0, ("has the value", moved, tuple(point[s] for s in orbit.symbols)))
             for verb, left, right in pairs:
                 for k, (x, y) in enumerate(zip(left or (), right or (), strict=True)):
-                    if not orbit.sized(x - y, (x, y, 1)):
+                    if not orbit.sized(x - y, (x, y)):
                         raise SceneError(
                             f"the coordinate {orbit.symbols[k]} of the flow of {name} {verb} {orbit.text(x)} "
                             f"at {elapsed} = {orbit.text(there[elapsed])}",
@@ -216,6 +227,6 @@ def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
                 )
 
 
-def _place(orbit: Orbit, point: dict[str, mpmath.mpf]) -> str:
+def _place(orbit: Orbit, point: dict[str, Sized]) -> str:
     shown = [f"{s} = {orbit.text(point[s])}" for s in (*orbit.symbols[:3], TIME)]
     return "where " + ", ".join(shown)

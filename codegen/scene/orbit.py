@@ -10,31 +10,33 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
-from codegen.ir.domain import PreciseDomain
 from codegen.ir.expr import Expr, evaluate
 from codegen.ir.number import Number
+from codegen.ir.rounding_domain import RoundingDomain, Sized
 from codegen.scene.problem import TIME, Problem
-
-if TYPE_CHECKING:
-    import mpmath
 
 DIGITS = 40
 TOLERANCE = Fraction(1, 10**20)
-"""The relative tolerance of the test whether a sum is zero: |sum| <= TOLERANCE * (sum of |terms|) + FLOOR.
-"""
+"""The relative tolerance of the test whether a sum is zero: |sum| is at most TOLERANCE * (sum of |terms|), or
+|sum| is as small as the rounding errors of the terms (:mod:`codegen.ir.rounding_domain`).
 
-FLOOR = Fraction(1, 10**28)
-"""The absolute tolerance of the test whether a sum is zero. A relative tolerance is not enough if all terms
-of the sum are rounding errors.
+Both bounds are proportional to the terms, so that the test does not depend on the units of the scene.
 """
 
 POINTS = 4
-"""The largest number of sample points of an :class:`Orbit`."""
+"""The largest number of sample points of an :class:`Orbit` at distances of about 1 from the initial state,
+including the initial state.
+"""
+
+NEAR, NEAR_STEPS = 2, 100
+"""The largest number of sample points near the initial state, and the time span of the scene divided by the
+time between these points. After the first of two points, a force that is zero at the initial state may differ
+from zero.
+"""
 
 
 @dataclass(frozen=True)
@@ -55,12 +57,13 @@ class Orbit:
     parameters: Mapping[str, Number]
 
     @cached_property
-    def domain(self) -> PreciseDomain:
-        """The number domain of all computations: floating-point numbers with 40 digits."""
-        return PreciseDomain(0, DIGITS)
+    def domain(self) -> RoundingDomain:
+        """The number domain of all computations: floating-point numbers with 40 digits, and with the sizes of
+        their rounding errors."""
+        return RoundingDomain(0, DIGITS)
 
     @cached_property
-    def points(self) -> tuple[dict[str, mpmath.mpf], ...]:
+    def points(self) -> tuple[dict[str, Sized], ...]:
         """The values of all symbols at the initial state and at random points of its orbit.
 
         Points where f is not finite are omitted. :class:`SceneError` is raised if f is not finite at the
@@ -69,13 +72,11 @@ class Orbit:
         d, rng = self.domain, random.Random("orbit")
         constants = {name: d.number(x) for name, x in self.parameters.items()}
         y0 = self._start(constants)
-        points: list[dict[str, mpmath.mpf]] = []
-        first, last = (d.rational(*x.as_integer_ratio()) for x in self.span)
+        points: list[dict[str, Sized]] = []
         for k in range(POINTS):
             x = tuple(d.rational(rng.randint(-99, 99), 100) for _ in range(self.group.dim))
             y = self.action.act(d, self.group, self.group.exp(d, x), y0) if k else y0
-            t = first + (last - first) * d.rational(k, POINTS)
-            values = {**dict(zip(self.symbols, y, strict=True)), **constants, TIME: t}
+            values = self._at(y, Fraction(k, POINTS), constants)
             if self._finite(self.values(self.roots, values)):
                 points.append(values)
             elif not k:
@@ -84,9 +85,39 @@ class Orbit:
                     where=self.name,
                     expected="an initial state where f is smooth",
                 )
-        return tuple(points)
+        return (*points, *self._near(points[0], constants, rng))
 
-    def _start(self, constants: dict[str, mpmath.mpf]) -> tuple[mpmath.mpf, ...]:
+    def _near(
+        self, start: dict[str, Sized], constants: dict[str, Sized], rng: random.Random
+    ) -> list[dict[str, Sized]]:
+        """Return points that differ from the initial state by typical amounts in the units of the scene.
+
+        The other points are at distances of about 1 from the initial state, whatever the units are. If 1 is
+        far too large for one coordinate, some terms of a formula are lost in the rounding errors of others.
+        """
+        d, points, point = self.domain, [], start
+        for k in range(1, NEAR + 1):
+            share = (self.span[1] - self.span[0]) / NEAR_STEPS
+            factors = [d.rational(*(share * rng.randint(1, 99) / 100).as_integer_ratio()) for _ in self.roots]
+            f, y = self.values(self.roots, point) or (), tuple(point[s] for s in self.symbols)
+            try:
+                x = tuple(r * a for r, a in zip(factors, f, strict=True))
+                y = self.action.act(d, self.group, self.group.exp(d, x), y)
+            except (ArithmeticError, ValueError):
+                break
+            point = self._at(y, Fraction(k, NEAR_STEPS), constants)
+            if not self._finite(self.values(self.roots, point)):
+                break
+            points.append(point)
+        return points
+
+    def _at(self, y: tuple[Sized, ...], share: Fraction, constants: dict[str, Sized]) -> dict[str, Sized]:
+        """Return the values of all symbols at the state y, after this share of the time span."""
+        first, last = self.span
+        t = self.domain.rational(*(first + (last - first) * share).as_integer_ratio())
+        return {**dict(zip(self.symbols, y, strict=True)), **constants, TIME: t}
+
+    def _start(self, constants: dict[str, Sized]) -> tuple[Sized, ...]:
         start = self.values(self.start, constants)
         if start is None or not self._finite(start):
             raise SceneError(
@@ -96,28 +127,36 @@ class Orbit:
             )
         return start
 
-    def values(self, roots: Sequence[Expr], values: dict[str, mpmath.mpf]) -> tuple[mpmath.mpf, ...] | None:
+    def values(self, roots: Sequence[Expr], values: dict[str, Sized]) -> tuple[Sized, ...] | None:
         """Return the values of the formulas ``roots``, or None if a formula cannot be evaluated."""
         try:
             return tuple(evaluate(roots, self.domain, values))
         except (ArithmeticError, ValueError):
             return None
 
-    def _finite(self, values: Sequence[mpmath.mpf] | None) -> bool:
+    def _finite(self, values: Sequence[Sized] | None) -> bool:
         context = self.domain.context
-        return values is not None and all(isinstance(x, context.mpf) and context.isfinite(x) for x in values)
+        return values is not None and all(
+            isinstance(x.value, context.mpf) and context.isfinite(x.value) for x in values
+        )
 
-    def velocity(self, point: dict[str, mpmath.mpf]) -> tuple[mpmath.mpf, ...]:
+    def velocity(self, point: dict[str, Sized]) -> tuple[Sized, ...]:
         """Return the time derivatives of the coordinates at a sample point."""
         f = tuple(evaluate(self.roots, self.domain, point))
         y = tuple(point[s] for s in self.symbols)
         return self.action.velocity(self.domain, self.group, f, y)
 
-    def sized(self, total: mpmath.mpf, terms: Sequence[mpmath.mpf]) -> bool:
-        """Return True if the sum ``total`` of ``terms`` is zero up to rounding errors."""
-        size = sum((abs(x) for x in terms), self.domain.rational(0))
-        relative, absolute = (self.domain.rational(*x.as_integer_ratio()) for x in (TOLERANCE, FLOOR))
-        return bool(abs(total) <= relative * size + absolute)
+    def sized(self, total: Sized, terms: Sequence[Sized] = ()) -> bool:
+        """Return True if the sum ``total`` of ``terms`` is zero up to rounding errors.
+
+        Without ``terms``, only the rounding errors in the computation of ``total`` are permitted.
+        """
+        d = self.domain
+        bound = (
+            sum((abs(x.value) for x in terms), d.context.mpf(0))
+            * d.rational(*TOLERANCE.as_integer_ratio()).value
+        )
+        return bool(abs(total.value) <= bound + d.rounding(total))
 
     def vanish(self, roots: Sequence[Expr]) -> bool:
         """Return True if all formulas in ``roots`` are zero, up to rounding, at all sample points.
@@ -125,11 +164,11 @@ class Orbit:
         If a formula cannot be evaluated at one of the points, the result is False.
         """
         values = [self.values(roots, point) for point in self.points]
-        return all(row is not None and all(self.sized(x, (1,)) for x in row) for row in values)
+        return all(row is not None and all(self.sized(x) for x in row) for row in values)
 
-    def text(self, x: mpmath.mpf) -> str:
+    def text(self, x: Sized) -> str:
         """Return a number as text for a message."""
-        return str(self.domain.context.nstr(x, 6))
+        return str(self.domain.context.nstr(x.value, 6))
 
 
 def orbit_of(problem: Problem) -> Orbit:

@@ -19,13 +19,13 @@ from codegen.errors import SceneError
 from codegen.ir.differentiate import gradient
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.rounding_domain import Sized
 from codegen.scene.formulas import Reader
 from codegen.scene.orbit import Orbit
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Offset, SitePart, Sites, neighbour
 
 if TYPE_CHECKING:
-    import mpmath
     import sympy
 
 
@@ -122,7 +122,7 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
         terms = [a * b for a, b in zip(gradient(root, symbols), slopes, strict=True)]
         for number in range(len(orbit.points)):
             values = orbit.values(terms, _two(scene, orbit, part.symbols, number))
-            if values is not None and not orbit.sized(sum(values[1:], values[0]), (*values, 1)):
+            if values is not None and not orbit.sized(sum(values[1:], values[0]), values):
                 raise SceneError(
                     f"generator {k} of the part {part.name} is not constant along the flow of the part",
                     where=scene.name,
@@ -133,7 +133,7 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
                 )
 
 
-def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, mpmath.mpf]:
+def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, Sized]:
     """Return the values of the symbols of a site and its neighbour.
 
     The state of the site is point ``number`` of ``orbit``. The state of the neighbour is the next point.
@@ -164,7 +164,7 @@ def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
             expected = orbit.velocity(given)
             total = _summed(scene, orbit, sites, point, {o: x for o, x in states.items() if o not in absent})
             for x, y in zip(total, expected, strict=True):
-                if not orbit.sized(x - y, (x, y, 1)):
+                if not orbit.sized(x - y, (x, y)):
                     where = f" at a site without neighbours at the offsets {sorted(absent)}" if absent else ""
                     raise SceneError(
                         f"the velocities of all parts do not add up to the velocity of the field f: the sum "
@@ -183,10 +183,10 @@ def _step(sites: Sites, axis: int, length: int) -> Offset:
 def _with_outside(
     orbit: Orbit,
     sites: Sites,
-    point: Mapping[str, mpmath.mpf],
-    states: Mapping[Offset, Mapping[str, mpmath.mpf]],
+    point: Mapping[str, Sized],
+    states: Mapping[Offset, Mapping[str, Sized]],
     absent: frozenset[Offset],
-) -> dict[str, mpmath.mpf]:
+) -> dict[str, Sized]:
     """Return ``point``, extended by the coordinates of the neighbours of a site.
 
     ``point`` contains the coordinates of the site. ``states`` contains the coordinates of the neighbour at
@@ -205,9 +205,9 @@ def _summed(
     scene: Problem,
     orbit: Orbit,
     sites: Sites,
-    point: Mapping[str, mpmath.mpf],
-    states: Mapping[Offset, Mapping[str, mpmath.mpf]],
-) -> list[mpmath.mpf]:
+    point: Mapping[str, Sized],
+    states: Mapping[Offset, Mapping[str, Sized]],
+) -> list[Sized]:
     """Return the velocity of a site as the sum of the velocities of all parts.
 
     ``states`` contains the states of the neighbours inside the lattice.

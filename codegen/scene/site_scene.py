@@ -145,7 +145,7 @@ def _check_energy(problem: Problem) -> None:
         gamma = differential(whole, orbit.domain, y)
         f = whole.apply(orbit.domain, "field", None, (y,))[0]
         terms = [a * b for a, b in zip(gamma, f, strict=True)]
-        if not orbit.sized(sum(terms), (*terms, 1)):
+        if not orbit.sized(sum(terms), terms):
             raise SceneError(
                 f"the total energy of {len(whole.state[0].symbols) // len(problem.symbols)} sites is not "
                 f"constant: the time derivative is {orbit.text(sum(terms))}",

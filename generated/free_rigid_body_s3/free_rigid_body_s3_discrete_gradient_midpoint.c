@@ -17,11 +17,11 @@
  *             the time is not needed: no formula depends on the time
  * operations: 34 add, 59 mul, 1 stumpff_01 a step
  *             21 add, 42 mul for an initial guess, in the first step of a run
- *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 for each matrix of the equations
- *             of xi
+ *             633 add, 839 mul, 1 div, 2 choose, 10 fabs, 5 quotient, 2 stumpff_23 for each matrix
+ *             of the equations of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 for each sweep of the equations of xi
- * stack:      at most 8000 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
- *             margin of 1408 bytes; the stack of mathematical library functions is not included
+ * stack:      at most 8192 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
+ *             margin of 1480 bytes; the stack of mathematical library functions is not included
  * command:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
  *             .
  * version:    orderconds 0.1.0
@@ -254,6 +254,12 @@ static inline double free_rigid_body_s3_discrete_gradient_midpoint_greater(doubl
     return a > b ? a : b;
 }
 
+/* a if x > 0, b if x <= 0, NaN if x is NaN */
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_choose(double x, double a, double b)
+{
+    return x > 0.0 ? a : x <= 0.0 ? b : x;
+}
+
 /* Whether n numbers are all finite */
 static int free_rigid_body_s3_discrete_gradient_midpoint_all_finite(const double *x, size_t n)
 {
@@ -458,26 +464,26 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
         xi_2 = w17 - 0.008333333333333333 * q2 * w1 - 0.5 * q2 * w13;
     }
     const double w18 = 0.5 * h;
-    const double w94 = w7 * w7;
-    const double w95 = 0.5 * w94;
-    const double w96 = q1 * w3;
-    const double w97 = q0 * w5;
-    const double w98 = -60.0 - w97;
-    const double w99 = w96 + w98;
-    const double w100 = q2 * w1;
-    const double w101 = w99 - w100;
-    const double w102 = 0.5 * w101;
-    const double w103 = w6 * w102;
-    const double w104 = q3 * w1;
-    const double w105 = q0 * w3;
-    const double w106 = 2.5 - w105;
-    const double w107 = q1 * w5;
-    const double w108 = w106 - w107;
-    const double w109 = w104 + w108;
-    const double w110 = 0.5 * w109;
-    const double w111 = w8 * w110;
-    const double w112 = w103 + w111;
-    const double H0 = w95 + w112;
+    const double w97 = w7 * w7;
+    const double w98 = 0.5 * w97;
+    const double w99 = q1 * w3;
+    const double w100 = q0 * w5;
+    const double w101 = -60.0 - w100;
+    const double w102 = w99 + w101;
+    const double w103 = q2 * w1;
+    const double w104 = w102 - w103;
+    const double w105 = 0.5 * w104;
+    const double w106 = w6 * w105;
+    const double w107 = q3 * w1;
+    const double w108 = q0 * w3;
+    const double w109 = 2.5 - w108;
+    const double w110 = q1 * w5;
+    const double w111 = w109 - w110;
+    const double w112 = w107 + w111;
+    const double w113 = 0.5 * w112;
+    const double w114 = w8 * w113;
+    const double w115 = w106 + w114;
+    const double H0 = w98 + w115;
     /* the equations of xi: Newton's method, 3 unknowns */
     double previous_1 = 0.0;
     double rate_1 = memory->known > 0 ? memory->rate_1 : 1.0;
@@ -570,432 +576,449 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
         const double w81 = -120.0 * Y_2 - 5.0 * Y_3;
         const double w82 = 120.0 * Y_1 + 2.0 * Y_3;
         const double w83 = 1.0 - Y_0 * w81 + Y_2 * w80 - Y_3 * w82;
-        const double w84 = -0.016666666666666666 * Y_2;
-        const double w85 = 0.016666666666666666 * Y_1;
-        const double w86 = -0.016666666666666666 * Y_0;
-        const double w87 = w80 * w86 - 1.0 + w82 * w85 + w81 * w84;
-        const double w88 = 0.5 * (-60.0 - w80 * Y_0 + Y_1 * w82 - Y_2 * w81);
-        const double w89 = 0.2 * Y_3;
-        const double w90 = -0.2 * Y_1;
-        const double w91 = -0.2 * Y_0;
-        const double w92 = 0.5 + w82 * w91 + w80 * w90 + w81 * w89;
-        const double w93 = 0.5 * (2.5 - Y_0 * w82 - Y_1 * w80 + Y_3 * w81);
-        const double w113 = Y1_3 * w69 - Y1_2 * w70 + Y1_0 * w72;
-        const double w114 = Y1_1 * w73;
-        const double d1_1 = w113 - w114;
+        const double w84 = 0.5 * (w83 * w83);
+        const double w85 = -0.016666666666666666 * Y_2;
+        const double w86 = 0.016666666666666666 * Y_1;
+        const double w87 = -0.016666666666666666 * Y_0;
+        const double w88 = w80 * w87 - 1.0 + w82 * w86 + w81 * w85;
+        const double w89 = 0.5 * (-60.0 - w80 * Y_0 + Y_1 * w82 - Y_2 * w81);
+        const double w90 = w88 * w89;
+        const double w91 = 0.2 * Y_3;
+        const double w92 = -0.2 * Y_1;
+        const double w93 = -0.2 * Y_0;
+        const double w94 = 0.5 + w82 * w93 + w80 * w92 + w81 * w91;
+        const double w95 = 0.5 * (2.5 - Y_0 * w82 - Y_1 * w80 + Y_3 * w81);
+        const double w96 = w94 * w95;
+        const double w116 = d1_0 * x_0;
+        const double w117 = Y1_3 * w69 - Y1_2 * w70 + Y1_0 * w72;
+        const double w118 = Y1_1 * w73;
+        const double d1_1 = w117 - w118;
+        const double w119 = x_1 * d1_1;
         const double d1_2 = Y1_1 * w72 - (Y1_3 * w70 + Y1_2 * w69) + Y1_0 * w73;
-        const double w115 = w87 * w88 + w92 * w93 + 0.5 * (w83 * w83) - H0
-            - (d1_0 * x_0 + x_1 * d1_1 + x_2 * d1_2);
-        const double w116 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(w115, w74);
-        const double D_0 = d1_0 + x_0 * w116;
-        const double D_1 = d1_1 + x_1 * w116;
-        const double D_2 = d1_2 + x_2 * w116;
-        const double w117 = d1_0 * d1_0 + d1_1 * d1_1 + d1_2 * d1_2;
-        const double w118 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(d1_0 * D_0 + d1_1 * D_1 + d1_2 * D_2, w117);
-        const double w119 = 0.5 * Y1_3;
-        const double w120 = 0.1 * Y1_3;
-        const double w121 = -0.5 * Y1_1;
-        const double w122 = -0.1 * Y1_1;
-        const double w123 = -0.1 * Y1_0;
-        const double w124 = 0.25 + w29 * w123 + w41 * w52 + w32 * w122 + w48 * w121 + w26 * w120;
-        const double w125 = w51 * w119 + w124;
-        const double w126 = -0.5 * Y1_2;
-        const double w127 = -0.008333333333333333 * Y1_2;
-        const double w128 = 0.5 * Y1_1;
-        const double w129 = 0.008333333333333333 * Y1_1;
-        const double w130 = -0.008333333333333333 * Y1_0;
-        const double w131 = w32 * w130 - 0.5 + w48 * w52 + w29 * w129 + w41 * w128 + w26 * w127;
-        const double w132 = w51 * w126 + w131;
-        const double w133 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(D_1 * w125 + w55 * D_0 + D_2 * w132, w117);
-        const double next_xi_0 = w55 * w118 - d1_0 * w133;
-        const double next_xi_1 = w118 * w125 - d1_1 * w133;
-        const double next_xi_2 = w118 * w132 - d1_2 * w133;
+        const double w120 = x_2 * d1_2;
+        const double w121 = w90 + w96 + w84 - H0 - (w116 + w119 + w120);
+        const double w122 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(w121, w74);
+        const double D_0 = d1_0 + x_0 * w122;
+        const double D_1 = d1_1 + x_1 * w122;
+        const double D_2 = d1_2 + x_2 * w122;
+        const double w123 = d1_0 * d1_0 + d1_1 * d1_1 + d1_2 * d1_2;
+        const double w124 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(d1_0 * D_0 + d1_1 * D_1 + d1_2 * D_2, w123);
+        const double w125 = 0.5 * Y1_3;
+        const double w126 = 0.1 * Y1_3;
+        const double w127 = -0.5 * Y1_1;
+        const double w128 = -0.1 * Y1_1;
+        const double w129 = -0.1 * Y1_0;
+        const double w130 = 0.25 + w29 * w129 + w41 * w52 + w32 * w128 + w48 * w127 + w26 * w126;
+        const double w131 = w51 * w125 + w130;
+        const double w132 = -0.5 * Y1_2;
+        const double w133 = -0.008333333333333333 * Y1_2;
+        const double w134 = 0.5 * Y1_1;
+        const double w135 = 0.008333333333333333 * Y1_1;
+        const double w136 = -0.008333333333333333 * Y1_0;
+        const double w137 = w32 * w136 - 0.5 + w48 * w52 + w29 * w135 + w41 * w134 + w26 * w133;
+        const double w138 = w51 * w132 + w137;
+        const double w139 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(D_1 * w131 + w55 * D_0 + D_2 * w138, w123);
+        const double next_xi_0 = w55 * w124 - d1_0 * w139;
+        const double next_xi_1 = w124 * w131 - d1_1 * w139;
+        const double next_xi_2 = w124 * w138 - d1_2 * w139;
         const double residual_xi_0 = next_xi_0 - xi_0;
         const double residual_xi_1 = next_xi_1 - xi_1;
         const double residual_xi_2 = next_xi_2 - xi_2;
         if (make_1 && isfinite(residual_xi_0 + residual_xi_1 + residual_xi_2)) {
-            const double w134 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(1.0, w117);
-            const double w135 = d1_1 * w134;
-            const double w136 = h * w116;
-            const double w137 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(1.0, w74);
-            const double w138 = w88 * w137;
-            const double w139 = 0.5 * w87 * w137;
-            const double w140 = 0.5 * w92 * w137;
-            const double w141 = w93 * w137;
-            const double w142 = w83 * w137;
-            const double w143 = Y_3 * w140 + w89 * w141 - Y_2 * w139 + w84 * w138 - Y_0 * w142;
-            const double w144 = w90 * w141 - Y_1 * w140 - Y_0 * w139 + w86 * w138 + Y_2 * w142;
-            const double w145 = -0.016666666666666666 * w81 * w138 - w81 * w139 - 120.0 * w143
-                + w80 * w142 - 2.0 * w144;
-            const double w146 = w81 * w142;
-            const double w147 = -0.2 * w82 * w141 - w82 * w140 - w80 * w139
-                - 0.016666666666666666 * w80 * w138;
-            const double w148 = w146 - w147;
-            const double w149 = w91 * w141 - Y_0 * w140 + Y_1 * w139 + w85 * w138 - Y_3 * w142;
-            const double w150 = w81 * w140 + 0.2 * w81 * w141 - w82 * w142 + 2.0 * w149 - 5.0 * w143;
-            const double w151 = -0.2 * w80 * w141 - w80 * w140 + w82 * w139
-                + 0.016666666666666666 * w82 * w138 + 120.0 * w149;
-            const double w152 = w151 + 5.0 * w144;
-            const double w153 = q0 * w145 + q2 * w148 - q1 * w150 + q3 * w152;
-            const double w154 = q0 * w150 + q3 * w148 + q1 * w145 - q2 * w152;
-            const double w155 = q0 * w152 + q1 * w148 + q2 * w150 - q3 * w145;
+            const double w140 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(1.0, w123);
+            const double w141 = d1_1 * w140;
+            const double w142 = fabs(w90) + fabs(w96) + fabs(w84)
+                + (fabs(w106) + fabs(w114) + fabs(w98));
+            const double w143 = fabs(w121)
+                - 8.881784197001252e-16 * (fabs(w116) + fabs(w119) + fabs(w120) + w142);
+            const double w144 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(free_rigid_body_s3_discrete_gradient_midpoint_choose(w143, w121, 0.0), w74);
+            const double w145 = h * w144;
+            const double w146 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(1.0, w74);
+            const double w147 = free_rigid_body_s3_discrete_gradient_midpoint_choose(w143, 1.0, 0.0)
+                * w146;
+            const double w148 = w89 * w147;
+            const double w149 = 0.5 * w88 * w147;
+            const double w150 = 0.5 * w94 * w147;
+            const double w151 = w95 * w147;
+            const double w152 = w83 * w147;
+            const double w153 = Y_3 * w150 + w91 * w151 - Y_2 * w149 + w85 * w148 - Y_0 * w152;
+            const double w154 = w92 * w151 - Y_1 * w150 - Y_0 * w149 + w87 * w148 + Y_2 * w152;
+            const double w155 = -0.016666666666666666 * w81 * w148 - w81 * w149 - 120.0 * w153
+                + w80 * w152 - 2.0 * w154;
+            const double w156 = w81 * w152;
+            const double w157 = -0.2 * w82 * w151 - w82 * w150 - w80 * w149
+                - 0.016666666666666666 * w80 * w148;
+            const double w158 = w156 - w157;
+            const double w159 = w93 * w151 - Y_0 * w150 + Y_1 * w149 + w86 * w148 - Y_3 * w152;
+            const double w160 = w81 * w150 + 0.2 * w81 * w151 - w82 * w152 + 2.0 * w159 - 5.0 * w153;
+            const double w161 = -0.2 * w80 * w151 - w80 * w150 + w82 * w149
+                + 0.016666666666666666 * w82 * w148 + 120.0 * w159;
+            const double w162 = w161 + 5.0 * w154;
+            const double w163 = q0 * w155 + q2 * w158 - q1 * w160 + q3 * w162;
+            const double w164 = q0 * w160 + q3 * w158 + q1 * w155 - q2 * w162;
+            const double w165 = q0 * w162 + q1 * w158 + q2 * w160 - q3 * w155;
             double c2_1, c3_1;
             free_rigid_body_s3_discrete_gradient_midpoint_stumpff_23(w74, &c2_1, &c3_1);
-            const double w156 = (x_2 * w154 + x_1 * w153 + x_0 * w155) * (0.5 * (c3_1 - c2_1));
-            const double w157 = (q3 * w150 + q2 * w145 + q1 * w152 + q0 * (w147 - w146)) * (0.5 * c1_2);
-            const double w158 = w156 - (w116 * w137 + w157);
-            const double w159 = h * (w153 * c1_2 - d1_1 * w137 + 2.0 * x_1 * w158);
-            const double w160 = d1_2 * w134;
-            const double w161 = d1_0 * w134;
-            const double w162 = x_2 * w160 + x_1 * w135 + x_0 * w161;
-            const double w163 = w135 * w136 + w159 * w162;
-            const double w164 = 2.0 * x1_1 * w18;
+            const double w166 = (x_2 * w164 + x_1 * w163 + x_0 * w165) * (0.5 * (c3_1 - c2_1));
+            const double w167 = (q3 * w160 + q2 * w155 + q1 * w162 + q0 * (w157 - w156)) * (0.5 * c1_2);
+            const double w168 = w166 - (w144 * w146 + w167);
+            const double w169 = h * (w163 * c1_2 - d1_1 * w147 + 2.0 * x_1 * w168);
+            const double w170 = d1_2 * w140;
+            const double w171 = d1_0 * w140;
+            const double w172 = x_2 * w170 + x_1 * w141 + x_0 * w171;
+            const double w173 = w141 * w145 + w169 * w172;
+            const double w174 = 2.0 * x1_1 * w18;
             double c2_2, c3_2;
             free_rigid_body_s3_discrete_gradient_midpoint_stumpff_23(w19, &c2_2, &c3_2);
-            const double w165 = 0.5 * (c3_2 - c2_2);
-            const double w166 = x1_2 * w165;
-            const double w167 = 0.5 * c1_1;
-            const double w168 = x1_1 * w165;
-            const double w169 = x1_0 * w165;
-            const double w170 = q0 * w166 - q3 * w167 - q1 * w168 + q2 * w169;
-            const double w171 = w18 * c1_1;
-            const double w172 = q1 * w171;
-            const double w173 = w164 * w170 - w172;
-            const double w174 = 0.5 * w51;
-            const double w175 = -2.0 * w46;
-            const double w176 = 2.0 * w40;
-            const double w177 = 0.1 * w26 + w174 + w119 * w175 + w52 * w176;
-            const double w178 = w118 * w120;
-            const double w179 = w118 * w123;
-            const double w180 = D_2 * w134;
-            const double w181 = 2.0 * d1_2;
-            const double w182 = w118 * w134;
-            const double w183 = x_2 * w137;
-            const double w184 = w180 - w181 * w182 + w160 - w162 * w183;
-            const double w185 = w125 * w184;
-            const double w186 = w59 + 0.1 * w57;
-            const double w187 = 2.0 * w64 - 5.0 * w186;
-            const double w188 = 0.08333333333333333 * Y1_2 + 0.03333333333333333 * Y1_1;
-            const double w189 = w186 + w126 * w188;
-            const double w190 = -0.016666666666666666 * w32;
-            const double w191 = Y1_3 * w190;
-            const double w192 = Y1_0 * w189 - (w65 + w126 * w191);
-            const double w193 = w29 - 5.0 * Y1_0;
-            const double w194 = w28 + w193;
-            const double w195 = Y1_0 * w194 - w56;
-            const double w196 = 0.5 * w26 - 2.5 * Y1_3;
-            const double w197 = 0.2 * w26 - Y1_3 - 0.4 * Y1_0;
-            const double w198 = -0.2 * w29;
-            const double w199 = Y1_0 * w197 - Y1_3 * w198;
-            const double w200 = -0.008333333333333333 * w62 - w60;
-            const double w201 = -0.016666666666666666 * w26;
-            const double w202 = 0.03333333333333333 * Y1_0;
-            const double w203 = w49 + w201 + w202;
-            const double w204 = w200 + w126 * w203;
-            const double w205 = -120.0 * Y1_0;
-            const double w206 = 0.4 * Y1_1 - 24.0 * Y1_3;
-            const double w207 = -120.0 * w186 - 5.0 * w204 + w193 * w205 + w196 * w206;
-            const double w208 = Y1_0 * w187 - w70 - 5.0 * w192 + w193 * w195 + w196 * w199
-                + Y1_1 * w207;
-            const double w209 = w64 + w128 * w188;
-            const double w210 = -0.1 * w57 - w59;
-            const double w211 = w128 * w203 + Y1_3 * w205 + w53 * w206;
-            const double w212 = Y1_0 * w209 - (Y1_3 * w210 + w128 * w191) + Y1_3 * w195 + w53 * w199
-                + Y1_1 * w211;
-            const double w213 = 0.016666666666666666 * w29 - 0.08333333333333333 * Y1_0 + w47;
-            const double w214 = w126 * w213;
-            const double w215 = 120.0 * Y1_3;
-            const double w216 = -0.2 * w32 - Y1_1 - 24.0 * Y1_0;
-            const double w217 = w60 + 0.008333333333333333 * w62;
-            const double w218 = w217 + w128 * w213 + Y1_3 * w215 + w53 * w216;
-            const double w219 = 120.0 * w64 - 5.0 * w214 + w193 * w215 + w196 * w216 + 2.0 * w218;
-            const double w220 = w208 + 2.0 * w212 - Y1_2 * w219;
-            const double w221 = w34 - w33;
-            const double w222 = -5.0 * w221 - w29 + w50;
-            const double w223 = w31 * w121 + w28 * w52;
-            const double w224 = w31 + w32;
-            const double w225 = 5.0 * Y1_2;
-            const double w226 = Y1_1 * w224 - Y1_2 * w225;
-            const double w227 = w118 * w223 + w185 * w226;
-            const double w228 = D_1 * w134;
-            const double w229 = 2.0 * d1_1;
-            const double w230 = x_1 * w137;
-            const double w231 = w228 - w182 * w229 + w135 - w162 * w230;
-            const double w232 = w125 * w231 - w133;
-            const double w233 = Y1_2 * w190;
-            const double w234 = Y1_2 * w64 + w126 * w233 + Y1_1 * w189;
-            const double w235 = w61 + Y1_1 * w194;
-            const double w236 = Y1_2 * w198 + Y1_1 * w197;
-            const double w237 = w69 - Y1_1 * w187 + 5.0 * w234 - w193 * w235 - w196 * w236
-                + Y1_0 * w207;
-            const double w238 = Y1_0 * w211
-                - (Y1_2 * w210 + w128 * w233 + Y1_1 * w209 + Y1_3 * w235 + w53 * w236);
-            const double w239 = Y1_0 * w224 + Y1_3 * w225;
-            const double w240 = w237 + 2.0 * w238 + Y1_3 * w219 + w222 * w239;
-            const double w241 = w118 * w177 - 5.0 * w178 + 2.0 * w179 + w185 * w220 + w222 * w227
-                + w232 * w240;
-            const double w242 = w49 * w119 + w37 * w52;
-            const double w243 = Y1_1 + 2.5 * Y1_2;
-            const double w244 = -0.5 * w32;
-            const double w245 = -0.5 * w26;
-            const double w246 = w245 + 60.0 * Y1_2 + Y1_0;
-            const double w247 = 0.5 * w29;
-            const double w248 = w247 + 2.5 * w221 + 60.0 * Y1_1;
-            const double w249 = Y1_0 * w243 - Y1_3 * w244 + Y1_1 * w246 - Y1_2 * w248;
-            const double w250 = Y1_0 * w246 - (Y1_2 * w244 + Y1_1 * w243) + Y1_3 * w248;
-            const double w251 = w118 * w242 + w185 * w249 + w232 * w250;
-            const double w252 = w241 + w188 * w251;
-            const double w253 = q0 * w171;
-            const double w254 = q1 * w166 - q2 * w167 + q0 * w168 - q3 * w169;
-            const double w255 = w253 + w164 * w254;
-            const double w256 = 2.0 * w36;
-            const double w257 = -2.0 * w40;
-            const double w258 = w119 * w256 + w121 * w257;
-            const double w259 = w118 * w122;
-            const double w260 = Y1_3 * w200;
-            const double w261 = Y1_0 + w245;
-            const double w262 = w188 * w261 - 5.0 * w200;
-            const double w263 = w49 - w32 + w205;
-            const double w264 = 2.0 * w260 - w69 - w191 * w261 + Y1_0 * w262 - 120.0 * w192
-                + w195 * w263;
-            const double w265 = Y1_1 - 60.0 * Y1_3;
-            const double w266 = w257 - 120.0 * w200 + w257 + w203 * w261 - 120.0 * w204 + w205 * w263
-                + w206 * w265;
-            const double w267 = 5.0 * w40 - 2.0 * w210;
-            const double w268 = w267 + w213 * w261 - 120.0 * w214 + w215 * w263 + w216 * w265;
-            const double w269 = w264 + w199 * w265 + Y1_1 * w266 - Y1_2 * w268;
-            const double w270 = w224 - 120.0 * w221;
-            const double w271 = Y1_2 * w200;
-            const double w272 = 2.0 * w271 - w70 - w233 * w261 - Y1_1 * w262 + 120.0 * w234
-                - w235 * w263;
-            const double w273 = w272 - w236 * w265 + Y1_0 * w266 + Y1_3 * w268 + w239 * w270;
-            const double w274 = w118 * w258 - 2.0 * w259 - 120.0 * w178 + w185 * w269 + w227 * w270
-                + w232 * w273;
-            const double w275 = w201 + w202 + w49;
-            const double w276 = w274 + w251 * w275;
-            const double w277 = q3 * w171;
-            const double w278 = q3 * w168 - (q1 * w167 + q2 * w166) + q0 * w169;
-            const double w279 = w277 + w164 * w278;
-            const double w280 = 2.0 * w46;
-            const double w281 = -2.0 * w36;
-            const double w282 = -0.1 * w32 - 0.5 * w48 + w121 * w280 + w52 * w281;
-            const double w283 = w247 - 2.5 * Y1_0;
-            const double w284 = 2.0 * w217 + w188 * w283;
-            const double w285 = -5.0 * Y1_2;
-            const double w286 = w244 - 2.5 * Y1_1;
-            const double w287 = w72 - 5.0 * w260 - w191 * w283 + Y1_0 * w284 + w195 * w285
-                + w199 * w286;
-            const double w288 = w267 + w203 * w283 + w205 * w285 + w206 * w286;
-            const double w289 = 5.0 * w210;
-            const double w290 = w289 + 120.0 * w217 + w289 + w213 * w283 + w215 * w285 + w216 * w286
-                + 120.0 * w218;
-            const double w291 = w287 + Y1_1 * w288 + 120.0 * w212 - Y1_2 * w290;
-            const double w292 = w225 - 120.0 * Y1_3;
-            const double w293 = -5.0 * w271 - w73 - w233 * w283 - Y1_1 * w284 - w235 * w285
-                - w236 * w286;
-            const double w294 = w293 + Y1_0 * w288 + 120.0 * w238 + Y1_3 * w290 + w239 * w292;
-            const double w295 = w118 * w282 + 5.0 * w259 + 120.0 * w179 + w185 * w291 + w227 * w292
-                + w232 * w294;
-            const double w296 = w295 + w213 * w251;
-            const double w297 = w114 - w113;
-            const double w298 = w125 * w134;
-            const double w299 = w132 * w134;
-            const double w300 = w55 * w134;
-            const double w301 = x_2 * w299 + x_1 * w298 + x_0 * w300;
-            const double w302 = w126 * w175 + w128 * w176;
-            const double w303 = D_0 * w134;
-            const double w304 = w52 * w175 - 0.5 * (w29 + w41) + w25 * w176;
-            const double w305 = w127 * w180 + w120 * w228 + w53 * w303;
-            const double w306 = w129 * w180 + w123 * w228 + w25 * w303;
-            const double w307 = w133 * w134;
-            const double w308 = w299 - w181 * w307 - w183 * w301;
-            const double w309 = w180 * w302 + w177 * w228 + w303 * w304 - 5.0 * w305 + 2.0 * w306
-                + w220 * w308;
-            const double w310 = w31 * w52 + w28 * w128;
-            const double w311 = w31 * w42 + w25 * w28;
-            const double w312 = w180 * w310 + w223 * w228 + w303 * w311 + w226 * w308;
-            const double w313 = w298 - w229 * w307 - w230 * w301;
-            const double w314 = w49 * w126 + w37 * w128;
-            const double w315 = w49 * w52 + w25 * w37;
-            const double w316 = w180 * w314 + w228 * w242 + w303 * w315 + w249 * w308 + w250 * w313;
-            const double w317 = w309 + w222 * w312 + w240 * w313 + w188 * w316;
-            const double w318 = -0.008333333333333333 * w26 - 0.5 * w51 + w126 * w256 + w52 * w257;
-            const double w319 = 0.5 * (w32 + w48) + w52 * w256 + w42 * w257;
-            const double w320 = w130 * w180 + w122 * w228 + w42 * w303;
-            const double w321 = w180 * w318 + w228 * w258 + w303 * w319 - 2.0 * w320 - 120.0 * w305
-                + w269 * w308;
-            const double w322 = w321 + w270 * w312 + w273 * w313 + w275 * w316;
-            const double w323 = 0.5 * w41;
-            const double w324 = 0.008333333333333333 * w29 + w323 + w52 * w280 + w128 * w281;
-            const double w325 = w42 * w280 + w25 * w281;
-            const double w326 = w180 * w324 + w228 * w282 + w303 * w325 + 5.0 * w320 + 120.0 * w306
-                + w291 * w308;
-            const double w327 = w326 + w292 * w312 + w294 * w313 + w213 * w316;
-            const double w328 = w159 * w301 + w136 * w298 + w173 * w317 + w255 * w322 + w279 * w327;
-            const double w329 = Y1_1 * w190;
-            const double w330 = Y1_2 * w189 - (Y1_1 * w64 + w126 * w329);
-            const double w331 = Y1_2 * w194 - w26 * Y1_1;
-            const double w332 = Y1_2 * w197 - Y1_1 * w198;
-            const double w333 = Y1_2 * w187 - w72 - 5.0 * w330 + w193 * w331 + w196 * w332
-                - Y1_3 * w207;
-            const double w334 = Y1_2 * w209 - (Y1_1 * w210 + w128 * w329) + Y1_3 * w331 + w53 * w332
-                - Y1_3 * w211;
-            const double w335 = Y1_0 * w225 - Y1_3 * w224;
-            const double w336 = Y1_2 * w243 - Y1_1 * w244 - Y1_3 * w246 + Y1_0 * w248;
-            const double w337 = w333 + 2.0 * w334 + Y1_0 * w219 + w222 * w335 + w188 * w336;
-            const double w338 = Y1_1 * w200;
-            const double w339 = w73 + 2.0 * w338 - w261 * w329 + Y1_2 * w262 - 120.0 * w330
-                + w263 * w331;
-            const double w340 = w339 + w265 * w332 - Y1_3 * w266 + Y1_0 * w268 + w270 * w335
-                + w275 * w336;
-            const double w341 = -5.0 * w338 - w70 - w283 * w329 + Y1_2 * w284 + w285 * w331
-                + w286 * w332;
-            const double w342 = w341 - Y1_3 * w288 + 120.0 * w334 + Y1_0 * w290 + w292 * w335
-                + w213 * w336;
-            const double w343 = w173 * w337 + w255 * w340 + w279 * w342;
-            const double w344 = 2.0 * d1_0;
-            const double w345 = x_0 * w137;
-            const double w346 = w303 - w182 * w344 + w161 - w162 * w345;
-            const double w347 = w300 - w307 * w344 - w301 * w345;
-            const double w348 = w125 * w346 + w297 * w347;
-            const double w349 = w125 * w163 + w173 * w252 + w255 * w276 + w279 * w296 + w297 * w328
-                + w343 * w348;
-            const double w350 = w173 * w197 + w206 * w255 + w216 * w279;
-            const double w351 = w50 * w119 + w47 * w121;
-            const double w352 = w196 + w221;
-            const double w353 = -0.5 * w29;
-            const double w354 = w286 + 60.0 * w221;
-            const double w355 = Y1_0 * w352 - Y1_3 * w353 + Y1_1 * w265 - Y1_2 * w354;
-            const double w356 = Y1_0 * w265 - (Y1_2 * w353 + Y1_1 * w352) + Y1_3 * w354;
-            const double w357 = w50 * w126 + w47 * w52;
-            const double w358 = w50 * w52 + w42 * w47;
-            const double w359 = w180 * w357 + w228 * w351 + w303 * w358 + w308 * w355 + w313 * w356;
-            const double w360 = Y1_2 * w352 - Y1_1 * w353 - Y1_3 * w265 + Y1_0 * w354;
-            const double w361 = w118 * w351 + w185 * w355 + w232 * w356 + w297 * w359 + w348 * w360;
-            const double w362 = q2 * w171;
-            const double w363 = q0 * w167 + q3 * w166 + q2 * w168 + q1 * w169;
-            const double w364 = w362 + w164 * w363;
-            const double w365 = w323 - 0.1 * w29;
-            const double w366 = 2.0 * w210 - 5.0 * w64 + w188 * w244;
-            const double w367 = -120.0 * w64 - 2.0 * w200 + w203 * w244 + w26 * w205 + w206 * w353;
-            const double w368 = w73 - w191 * w244 + Y1_0 * w366 + w26 * w195 + w199 * w353
-                + Y1_1 * w367;
-            const double w369 = 5.0 * w200 + 120.0 * w210 + w213 * w244 + w26 * w215 + w216 * w353;
-            const double w370 = w368 - Y1_2 * w369;
-            const double w371 = w72 - w233 * w244 - Y1_1 * w366 - w26 * w235 - w236 * w353
-                + Y1_0 * w367;
-            const double w372 = w371 + Y1_3 * w369 - w26 * w239;
-            const double w373 = 0.5 * w48 - 0.008333333333333333 * w32;
-            const double w374 = w174 + w245;
-            const double w375 = w180 * w373 + w228 * w365 + w303 * w374 + w308 * w370 - w26 * w312
-                + w313 * w372;
-            const double w376 = w375 + w190 * w316;
-            const double w377 = w118 * w365 + w185 * w370 - w26 * w227 + w232 * w372 + w190 * w251
-                + w297 * w376;
-            const double w378 = w69 - w244 * w329 + Y1_2 * w366 + w26 * w331 + w332 * w353
-                - Y1_3 * w367;
-            const double w379 = w378 + Y1_0 * w369 - w26 * w335 + w190 * w336;
-            const double w380 = w377 + w348 * w379 + w198 * w361;
-            const double w381 = 1.0 - (w349 + w350 * w361 - w364 * w380);
-            const double w382 = h * (w154 * c1_2 - d1_2 * w137 + 2.0 * x_2 * w158);
-            const double w383 = w136 * w160 + w162 * w382;
-            const double w384 = 2.0 * x1_2 * w18;
-            const double w385 = w253 + w170 * w384;
-            const double w386 = w118 * w127;
-            const double w387 = w118 * w129;
-            const double w388 = w132 * w184 - w133;
-            const double w389 = w118 * w310 + w226 * w388;
-            const double w390 = w132 * w231;
-            const double w391 = w118 * w302 - 5.0 * w386 + 2.0 * w387 + w220 * w388 + w222 * w389
-                + w240 * w390;
-            const double w392 = w118 * w314 + w249 * w388 + w250 * w390;
-            const double w393 = w391 + w188 * w392;
-            const double w394 = w172 + w254 * w384;
-            const double w395 = w118 * w130;
-            const double w396 = w118 * w318 - 2.0 * w395 - 120.0 * w386 + w269 * w388 + w270 * w389
-                + w273 * w390;
-            const double w397 = w396 + w275 * w392;
-            const double w398 = w278 * w384 - w362;
-            const double w399 = w118 * w324 + 5.0 * w395 + 120.0 * w387 + w291 * w388 + w292 * w389
-                + w294 * w390;
-            const double w400 = w399 + w213 * w392;
-            const double w401 = w136 * w299 + w301 * w382 + w317 * w385 + w322 * w394 + w327 * w398;
-            const double w402 = w337 * w385 + w340 * w394 + w342 * w398;
-            const double w403 = w132 * w346 - d1_2 * w347;
-            const double w404 = w132 * w383 + w385 * w393 + w394 * w397 + w398 * w400 - d1_2 * w401
-                + w402 * w403;
-            const double w405 = w197 * w385 + w206 * w394 + w216 * w398;
-            const double w406 = w118 * w357 + w355 * w388 + w356 * w390 - d1_2 * w359 + w360 * w403;
-            const double w407 = w277 + w363 * w384;
-            const double w408 = w118 * w373 + w370 * w388 - w26 * w389 + w372 * w390 + w190 * w392
-                - d1_2 * w376;
-            const double w409 = w408 + w379 * w403 + w198 * w406;
-            const double w410 = 1.0 - (w404 + w405 * w406 - w407 * w409);
-            const double w411 = w125 * w383 + w252 * w385 + w276 * w394 + w296 * w398 + w297 * w401
-                + w348 * w402;
-            const double w412 = w380 * w407 - (w411 + w361 * w405);
-            const double w413 = w132 * w163 + w173 * w393 + w255 * w397 + w279 * w400 - d1_2 * w328
-                + w343 * w403;
-            const double w414 = w364 * w409 - (w413 + w350 * w406);
-            const double w415 = w381 * w410 - w412 * w414;
-            const double w416 = h * (w155 * c1_2 - d1_0 * w137 + 2.0 * x_0 * w158);
-            const double w417 = w136 * w161 + w162 * w416;
-            const double w418 = 2.0 * x1_0 * w18;
-            const double w419 = w362 + w170 * w418;
-            const double w420 = w53 * w118;
-            const double w421 = w25 * w118;
-            const double w422 = w55 * w184;
-            const double w423 = w118 * w311 + w226 * w422;
-            const double w424 = w55 * w231;
-            const double w425 = w118 * w304 - 5.0 * w420 + 2.0 * w421 + w220 * w422 + w222 * w423
-                + w240 * w424;
-            const double w426 = w118 * w315 + w249 * w422 + w250 * w424;
-            const double w427 = w425 + w188 * w426;
-            const double w428 = w254 * w418 - w277;
-            const double w429 = w42 * w118;
-            const double w430 = w118 * w319 - 2.0 * w429 - 120.0 * w420 + w269 * w422 + w270 * w423
-                + w273 * w424;
-            const double w431 = w430 + w275 * w426;
-            const double w432 = w253 + w278 * w418;
-            const double w433 = w118 * w325 + 5.0 * w429 + 120.0 * w421 + w291 * w422 + w292 * w423
-                + w294 * w424;
-            const double w434 = w433 + w213 * w426;
-            const double w435 = w136 * w300 + w301 * w416 + w317 * w419 + w322 * w428 + w327 * w432;
-            const double w436 = w337 * w419 + w340 * w428 + w342 * w432;
-            const double w437 = w55 * w346 - w133 - d1_0 * w347;
-            const double w438 = w55 * w417 + w419 * w427 + w428 * w431 + w432 * w434 - d1_0 * w435
-                + w436 * w437;
-            const double w439 = w197 * w419 + w206 * w428 + w216 * w432;
-            const double w440 = w118 * w358 + w355 * w422 + w356 * w424 - d1_0 * w359 + w360 * w437;
-            const double w441 = w172 + w363 * w418;
-            const double w442 = w118 * w374 + w370 * w422 - w26 * w423 + w372 * w424 + w190 * w426
-                - d1_0 * w376;
-            const double w443 = w442 + w379 * w437 + w198 * w440;
-            const double w444 = 1.0 - (w438 + w439 * w440 - w441 * w443);
-            const double w445 = w55 * w163 + w173 * w427 + w255 * w431 + w279 * w434 - d1_0 * w328
-                + w343 * w437;
-            const double w446 = w364 * w443 - (w445 + w350 * w440);
-            const double w447 = w132 * w417 + w393 * w419 + w397 * w428 + w400 * w432 - d1_2 * w435
-                + w403 * w436;
-            const double w448 = w409 * w441 - (w447 + w406 * w439);
-            const double w449 = w125 * w417 + w252 * w419 + w276 * w428 + w296 * w432 + w297 * w435
-                + w348 * w436;
-            const double w450 = w380 * w441 - (w449 + w361 * w439);
-            const double w451 = w412 * w448 - w410 * w450;
-            const double w452 = w55 * w383 + w385 * w427 + w394 * w431 + w398 * w434 - d1_0 * w401
-                + w402 * w437;
-            const double w453 = w407 * w443 - (w452 + w405 * w440);
-            const double w454 = w414 * w450 - w381 * w448;
-            const double w455 = 1.0 / (w446 * w451 + w415 * w444 + w453 * w454);
-            memory->inverse_1[0] = w415 * w455;
-            memory->inverse_1[1] = w455 * (w414 * w453 - w410 * w446);
-            memory->inverse_1[2] = w455 * (w412 * w446 - w381 * w453);
-            memory->inverse_1[3] = w451 * w455;
-            memory->inverse_1[4] = w455 * (w410 * w444 - w448 * w453);
-            memory->inverse_1[5] = w455 * (w450 * w453 - w412 * w444);
-            memory->inverse_1[6] = w454 * w455;
-            memory->inverse_1[7] = w455 * (w446 * w448 - w414 * w444);
-            memory->inverse_1[8] = w455 * (w381 * w444 - w446 * w450);
+            const double w175 = 0.5 * (c3_2 - c2_2);
+            const double w176 = x1_2 * w175;
+            const double w177 = 0.5 * c1_1;
+            const double w178 = x1_1 * w175;
+            const double w179 = x1_0 * w175;
+            const double w180 = q0 * w176 - q3 * w177 - q1 * w178 + q2 * w179;
+            const double w181 = w18 * c1_1;
+            const double w182 = q1 * w181;
+            const double w183 = w174 * w180 - w182;
+            const double w184 = d1_0 + x_0 * w144;
+            const double w185 = d1_1 + x_1 * w144;
+            const double w186 = d1_2 + x_2 * w144;
+            const double w187 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(d1_0 * w184 + d1_1 * w185 + d1_2 * w186, w123);
+            const double w188 = 0.5 * w51;
+            const double w189 = -2.0 * w46;
+            const double w190 = 2.0 * w40;
+            const double w191 = 0.1 * w26 + w188 + w125 * w189 + w52 * w190;
+            const double w192 = w126 * w187;
+            const double w193 = w129 * w187;
+            const double w194 = w140 * w186;
+            const double w195 = 2.0 * d1_2;
+            const double w196 = w140 * w187;
+            const double w197 = x_2 * w147;
+            const double w198 = w170 + w194 - w195 * w196 - w172 * w197;
+            const double w199 = w131 * w198;
+            const double w200 = w59 + 0.1 * w57;
+            const double w201 = 2.0 * w64 - 5.0 * w200;
+            const double w202 = 0.08333333333333333 * Y1_2 + 0.03333333333333333 * Y1_1;
+            const double w203 = w200 + w132 * w202;
+            const double w204 = -0.016666666666666666 * w32;
+            const double w205 = Y1_3 * w204;
+            const double w206 = Y1_0 * w203 - (w65 + w132 * w205);
+            const double w207 = w29 - 5.0 * Y1_0;
+            const double w208 = w28 + w207;
+            const double w209 = Y1_0 * w208 - w56;
+            const double w210 = 0.5 * w26 - 2.5 * Y1_3;
+            const double w211 = 0.2 * w26 - Y1_3 - 0.4 * Y1_0;
+            const double w212 = -0.2 * w29;
+            const double w213 = Y1_0 * w211 - Y1_3 * w212;
+            const double w214 = -0.008333333333333333 * w62 - w60;
+            const double w215 = -0.016666666666666666 * w26;
+            const double w216 = 0.03333333333333333 * Y1_0;
+            const double w217 = w49 + w215 + w216;
+            const double w218 = w214 + w132 * w217;
+            const double w219 = -120.0 * Y1_0;
+            const double w220 = 0.4 * Y1_1 - 24.0 * Y1_3;
+            const double w221 = -120.0 * w200 - 5.0 * w218 + w207 * w219 + w210 * w220;
+            const double w222 = Y1_0 * w201 - w70 - 5.0 * w206 + w207 * w209 + w210 * w213
+                + Y1_1 * w221;
+            const double w223 = w64 + w134 * w202;
+            const double w224 = -0.1 * w57 - w59;
+            const double w225 = w134 * w217 + Y1_3 * w219 + w53 * w220;
+            const double w226 = Y1_0 * w223 - (Y1_3 * w224 + w134 * w205) + Y1_3 * w209 + w53 * w213
+                + Y1_1 * w225;
+            const double w227 = 0.016666666666666666 * w29 - 0.08333333333333333 * Y1_0 + w47;
+            const double w228 = w132 * w227;
+            const double w229 = 120.0 * Y1_3;
+            const double w230 = -0.2 * w32 - Y1_1 - 24.0 * Y1_0;
+            const double w231 = w60 + 0.008333333333333333 * w62;
+            const double w232 = w231 + w134 * w227 + Y1_3 * w229 + w53 * w230;
+            const double w233 = 120.0 * w64 - 5.0 * w228 + w207 * w229 + w210 * w230 + 2.0 * w232;
+            const double w234 = w222 + 2.0 * w226 - Y1_2 * w233;
+            const double w235 = w34 - w33;
+            const double w236 = -5.0 * w235 - w29 + w50;
+            const double w237 = w31 * w127 + w28 * w52;
+            const double w238 = w31 + w32;
+            const double w239 = 5.0 * Y1_2;
+            const double w240 = Y1_1 * w238 - Y1_2 * w239;
+            const double w241 = w187 * w237 + w199 * w240;
+            const double w242 = w140 * w185;
+            const double w243 = 2.0 * d1_1;
+            const double w244 = x_1 * w147;
+            const double w245 = w141 + w242 - w196 * w243 - w172 * w244;
+            const double w246 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(w55 * w184 + w131 * w185 + w138 * w186, w123);
+            const double w247 = w131 * w245 - w246;
+            const double w248 = Y1_2 * w204;
+            const double w249 = Y1_2 * w64 + w132 * w248 + Y1_1 * w203;
+            const double w250 = w61 + Y1_1 * w208;
+            const double w251 = Y1_2 * w212 + Y1_1 * w211;
+            const double w252 = w69 - Y1_1 * w201 + 5.0 * w249 - w207 * w250 - w210 * w251
+                + Y1_0 * w221;
+            const double w253 = Y1_0 * w225
+                - (Y1_2 * w224 + w134 * w248 + Y1_1 * w223 + Y1_3 * w250 + w53 * w251);
+            const double w254 = Y1_0 * w238 + Y1_3 * w239;
+            const double w255 = w252 + 2.0 * w253 + Y1_3 * w233 + w236 * w254;
+            const double w256 = w187 * w191 - 5.0 * w192 + 2.0 * w193 + w199 * w234 + w236 * w241
+                + w247 * w255;
+            const double w257 = w49 * w125 + w37 * w52;
+            const double w258 = Y1_1 + 2.5 * Y1_2;
+            const double w259 = -0.5 * w32;
+            const double w260 = -0.5 * w26;
+            const double w261 = w260 + 60.0 * Y1_2 + Y1_0;
+            const double w262 = 0.5 * w29;
+            const double w263 = w262 + 2.5 * w235 + 60.0 * Y1_1;
+            const double w264 = Y1_0 * w258 - Y1_3 * w259 + Y1_1 * w261 - Y1_2 * w263;
+            const double w265 = Y1_0 * w261 - (Y1_2 * w259 + Y1_1 * w258) + Y1_3 * w263;
+            const double w266 = w187 * w257 + w199 * w264 + w247 * w265;
+            const double w267 = w256 + w202 * w266;
+            const double w268 = q0 * w181;
+            const double w269 = q1 * w176 - q2 * w177 + q0 * w178 - q3 * w179;
+            const double w270 = w268 + w174 * w269;
+            const double w271 = 2.0 * w36;
+            const double w272 = -2.0 * w40;
+            const double w273 = w125 * w271 + w127 * w272;
+            const double w274 = w128 * w187;
+            const double w275 = Y1_3 * w214;
+            const double w276 = Y1_0 + w260;
+            const double w277 = w202 * w276 - 5.0 * w214;
+            const double w278 = w49 - w32 + w219;
+            const double w279 = 2.0 * w275 - w69 - w205 * w276 + Y1_0 * w277 - 120.0 * w206
+                + w209 * w278;
+            const double w280 = Y1_1 - 60.0 * Y1_3;
+            const double w281 = w272 - 120.0 * w214 + w272 + w217 * w276 - 120.0 * w218 + w219 * w278
+                + w220 * w280;
+            const double w282 = 5.0 * w40 - 2.0 * w224;
+            const double w283 = w282 + w227 * w276 - 120.0 * w228 + w229 * w278 + w230 * w280;
+            const double w284 = w279 + w213 * w280 + Y1_1 * w281 - Y1_2 * w283;
+            const double w285 = w238 - 120.0 * w235;
+            const double w286 = Y1_2 * w214;
+            const double w287 = 2.0 * w286 - w70 - w248 * w276 - Y1_1 * w277 + 120.0 * w249
+                - w250 * w278;
+            const double w288 = w287 - w251 * w280 + Y1_0 * w281 + Y1_3 * w283 + w254 * w285;
+            const double w289 = w187 * w273 - 2.0 * w274 - 120.0 * w192 + w199 * w284 + w241 * w285
+                + w247 * w288;
+            const double w290 = w215 + w216 + w49;
+            const double w291 = w289 + w266 * w290;
+            const double w292 = q3 * w181;
+            const double w293 = q3 * w178 - (q1 * w177 + q2 * w176) + q0 * w179;
+            const double w294 = w292 + w174 * w293;
+            const double w295 = 2.0 * w46;
+            const double w296 = -2.0 * w36;
+            const double w297 = -0.1 * w32 - 0.5 * w48 + w127 * w295 + w52 * w296;
+            const double w298 = w262 - 2.5 * Y1_0;
+            const double w299 = 2.0 * w231 + w202 * w298;
+            const double w300 = -5.0 * Y1_2;
+            const double w301 = w259 - 2.5 * Y1_1;
+            const double w302 = w72 - 5.0 * w275 - w205 * w298 + Y1_0 * w299 + w209 * w300
+                + w213 * w301;
+            const double w303 = w282 + w217 * w298 + w219 * w300 + w220 * w301;
+            const double w304 = 5.0 * w224;
+            const double w305 = w304 + 120.0 * w231 + w304 + w227 * w298 + w229 * w300 + w230 * w301
+                + 120.0 * w232;
+            const double w306 = w302 + Y1_1 * w303 + 120.0 * w226 - Y1_2 * w305;
+            const double w307 = w239 - 120.0 * Y1_3;
+            const double w308 = -5.0 * w286 - w73 - w248 * w298 - Y1_1 * w299 - w250 * w300
+                - w251 * w301;
+            const double w309 = w308 + Y1_0 * w303 + 120.0 * w253 + Y1_3 * w305 + w254 * w307;
+            const double w310 = w187 * w297 + 5.0 * w274 + 120.0 * w193 + w199 * w306 + w241 * w307
+                + w247 * w309;
+            const double w311 = w310 + w227 * w266;
+            const double w312 = w118 - w117;
+            const double w313 = w131 * w140;
+            const double w314 = w138 * w140;
+            const double w315 = w55 * w140;
+            const double w316 = x_2 * w314 + x_1 * w313 + x_0 * w315;
+            const double w317 = w132 * w189 + w134 * w190;
+            const double w318 = w140 * w184;
+            const double w319 = w52 * w189 - 0.5 * (w29 + w41) + w25 * w190;
+            const double w320 = w133 * w194 + w126 * w242 + w53 * w318;
+            const double w321 = w135 * w194 + w129 * w242 + w25 * w318;
+            const double w322 = w140 * w246;
+            const double w323 = w314 - w195 * w322 - w197 * w316;
+            const double w324 = w194 * w317 + w191 * w242 + w318 * w319 - 5.0 * w320 + 2.0 * w321
+                + w234 * w323;
+            const double w325 = w31 * w52 + w28 * w134;
+            const double w326 = w31 * w42 + w25 * w28;
+            const double w327 = w194 * w325 + w237 * w242 + w318 * w326 + w240 * w323;
+            const double w328 = w313 - w243 * w322 - w244 * w316;
+            const double w329 = w49 * w132 + w37 * w134;
+            const double w330 = w49 * w52 + w25 * w37;
+            const double w331 = w194 * w329 + w242 * w257 + w318 * w330 + w264 * w323 + w265 * w328;
+            const double w332 = w324 + w236 * w327 + w255 * w328 + w202 * w331;
+            const double w333 = -0.008333333333333333 * w26 - 0.5 * w51 + w132 * w271 + w52 * w272;
+            const double w334 = 0.5 * (w32 + w48) + w52 * w271 + w42 * w272;
+            const double w335 = w136 * w194 + w128 * w242 + w42 * w318;
+            const double w336 = w194 * w333 + w242 * w273 + w318 * w334 - 2.0 * w335 - 120.0 * w320
+                + w284 * w323;
+            const double w337 = w336 + w285 * w327 + w288 * w328 + w290 * w331;
+            const double w338 = 0.5 * w41;
+            const double w339 = 0.008333333333333333 * w29 + w338 + w52 * w295 + w134 * w296;
+            const double w340 = w42 * w295 + w25 * w296;
+            const double w341 = w194 * w339 + w242 * w297 + w318 * w340 + 5.0 * w335 + 120.0 * w321
+                + w306 * w323;
+            const double w342 = w341 + w307 * w327 + w309 * w328 + w227 * w331;
+            const double w343 = w169 * w316 + w145 * w313 + w183 * w332 + w270 * w337 + w294 * w342;
+            const double w344 = Y1_1 * w204;
+            const double w345 = Y1_2 * w203 - (Y1_1 * w64 + w132 * w344);
+            const double w346 = Y1_2 * w208 - w26 * Y1_1;
+            const double w347 = Y1_2 * w211 - Y1_1 * w212;
+            const double w348 = Y1_2 * w201 - w72 - 5.0 * w345 + w207 * w346 + w210 * w347
+                - Y1_3 * w221;
+            const double w349 = Y1_2 * w223 - (Y1_1 * w224 + w134 * w344) + Y1_3 * w346 + w53 * w347
+                - Y1_3 * w225;
+            const double w350 = Y1_0 * w239 - Y1_3 * w238;
+            const double w351 = Y1_2 * w258 - Y1_1 * w259 - Y1_3 * w261 + Y1_0 * w263;
+            const double w352 = w348 + 2.0 * w349 + Y1_0 * w233 + w236 * w350 + w202 * w351;
+            const double w353 = Y1_1 * w214;
+            const double w354 = w73 + 2.0 * w353 - w276 * w344 + Y1_2 * w277 - 120.0 * w345
+                + w278 * w346;
+            const double w355 = w354 + w280 * w347 - Y1_3 * w281 + Y1_0 * w283 + w285 * w350
+                + w290 * w351;
+            const double w356 = -5.0 * w353 - w70 - w298 * w344 + Y1_2 * w299 + w300 * w346
+                + w301 * w347;
+            const double w357 = w356 - Y1_3 * w303 + 120.0 * w349 + Y1_0 * w305 + w307 * w350
+                + w227 * w351;
+            const double w358 = w183 * w352 + w270 * w355 + w294 * w357;
+            const double w359 = 2.0 * d1_0;
+            const double w360 = x_0 * w147;
+            const double w361 = w171 + w318 - w196 * w359 - w172 * w360;
+            const double w362 = w315 - w322 * w359 - w316 * w360;
+            const double w363 = w131 * w361 + w312 * w362;
+            const double w364 = w131 * w173 + w183 * w267 + w270 * w291 + w294 * w311 + w312 * w343
+                + w358 * w363;
+            const double w365 = w183 * w211 + w220 * w270 + w230 * w294;
+            const double w366 = w50 * w125 + w47 * w127;
+            const double w367 = w210 + w235;
+            const double w368 = -0.5 * w29;
+            const double w369 = w301 + 60.0 * w235;
+            const double w370 = Y1_0 * w367 - Y1_3 * w368 + Y1_1 * w280 - Y1_2 * w369;
+            const double w371 = Y1_0 * w280 - (Y1_2 * w368 + Y1_1 * w367) + Y1_3 * w369;
+            const double w372 = w50 * w132 + w47 * w52;
+            const double w373 = w50 * w52 + w42 * w47;
+            const double w374 = w194 * w372 + w242 * w366 + w318 * w373 + w323 * w370 + w328 * w371;
+            const double w375 = Y1_2 * w367 - Y1_1 * w368 - Y1_3 * w280 + Y1_0 * w369;
+            const double w376 = w187 * w366 + w199 * w370 + w247 * w371 + w312 * w374 + w363 * w375;
+            const double w377 = q2 * w181;
+            const double w378 = q0 * w177 + q3 * w176 + q2 * w178 + q1 * w179;
+            const double w379 = w377 + w174 * w378;
+            const double w380 = w338 - 0.1 * w29;
+            const double w381 = 2.0 * w224 - 5.0 * w64 + w202 * w259;
+            const double w382 = -120.0 * w64 - 2.0 * w214 + w217 * w259 + w26 * w219 + w220 * w368;
+            const double w383 = w73 - w205 * w259 + Y1_0 * w381 + w26 * w209 + w213 * w368
+                + Y1_1 * w382;
+            const double w384 = 5.0 * w214 + 120.0 * w224 + w227 * w259 + w26 * w229 + w230 * w368;
+            const double w385 = w383 - Y1_2 * w384;
+            const double w386 = w72 - w248 * w259 - Y1_1 * w381 - w26 * w250 - w251 * w368
+                + Y1_0 * w382;
+            const double w387 = w386 + Y1_3 * w384 - w26 * w254;
+            const double w388 = 0.5 * w48 - 0.008333333333333333 * w32;
+            const double w389 = w188 + w260;
+            const double w390 = w194 * w388 + w242 * w380 + w318 * w389 + w323 * w385 - w26 * w327
+                + w328 * w387;
+            const double w391 = w390 + w204 * w331;
+            const double w392 = w187 * w380 + w199 * w385 - w26 * w241 + w247 * w387 + w204 * w266
+                + w312 * w391;
+            const double w393 = w69 - w259 * w344 + Y1_2 * w381 + w26 * w346 + w347 * w368
+                - Y1_3 * w382;
+            const double w394 = w393 + Y1_0 * w384 - w26 * w350 + w204 * w351;
+            const double w395 = w392 + w363 * w394 + w212 * w376;
+            const double w396 = 1.0 - (w364 + w365 * w376 - w379 * w395);
+            const double w397 = h * (w164 * c1_2 - d1_2 * w147 + 2.0 * x_2 * w168);
+            const double w398 = w145 * w170 + w172 * w397;
+            const double w399 = 2.0 * x1_2 * w18;
+            const double w400 = w268 + w180 * w399;
+            const double w401 = w133 * w187;
+            const double w402 = w135 * w187;
+            const double w403 = w138 * w198 - w246;
+            const double w404 = w187 * w325 + w240 * w403;
+            const double w405 = w138 * w245;
+            const double w406 = w187 * w317 - 5.0 * w401 + 2.0 * w402 + w234 * w403 + w236 * w404
+                + w255 * w405;
+            const double w407 = w187 * w329 + w264 * w403 + w265 * w405;
+            const double w408 = w406 + w202 * w407;
+            const double w409 = w182 + w269 * w399;
+            const double w410 = w136 * w187;
+            const double w411 = w187 * w333 - 2.0 * w410 - 120.0 * w401 + w284 * w403 + w285 * w404
+                + w288 * w405;
+            const double w412 = w411 + w290 * w407;
+            const double w413 = w293 * w399 - w377;
+            const double w414 = w187 * w339 + 5.0 * w410 + 120.0 * w402 + w306 * w403 + w307 * w404
+                + w309 * w405;
+            const double w415 = w414 + w227 * w407;
+            const double w416 = w145 * w314 + w316 * w397 + w332 * w400 + w337 * w409 + w342 * w413;
+            const double w417 = w352 * w400 + w355 * w409 + w357 * w413;
+            const double w418 = w138 * w361 - d1_2 * w362;
+            const double w419 = w138 * w398 + w400 * w408 + w409 * w412 + w413 * w415 - d1_2 * w416
+                + w417 * w418;
+            const double w420 = w211 * w400 + w220 * w409 + w230 * w413;
+            const double w421 = w187 * w372 + w370 * w403 + w371 * w405 - d1_2 * w374 + w375 * w418;
+            const double w422 = w292 + w378 * w399;
+            const double w423 = w187 * w388 + w385 * w403 - w26 * w404 + w387 * w405 + w204 * w407
+                - d1_2 * w391;
+            const double w424 = w423 + w394 * w418 + w212 * w421;
+            const double w425 = 1.0 - (w419 + w420 * w421 - w422 * w424);
+            const double w426 = w131 * w398 + w267 * w400 + w291 * w409 + w311 * w413 + w312 * w416
+                + w363 * w417;
+            const double w427 = w395 * w422 - (w426 + w376 * w420);
+            const double w428 = w138 * w173 + w183 * w408 + w270 * w412 + w294 * w415 - d1_2 * w343
+                + w358 * w418;
+            const double w429 = w379 * w424 - (w428 + w365 * w421);
+            const double w430 = w396 * w425 - w427 * w429;
+            const double w431 = h * (w165 * c1_2 - d1_0 * w147 + 2.0 * x_0 * w168);
+            const double w432 = w145 * w171 + w172 * w431;
+            const double w433 = 2.0 * x1_0 * w18;
+            const double w434 = w377 + w180 * w433;
+            const double w435 = w53 * w187;
+            const double w436 = w25 * w187;
+            const double w437 = w55 * w198;
+            const double w438 = w187 * w326 + w240 * w437;
+            const double w439 = w55 * w245;
+            const double w440 = w187 * w319 - 5.0 * w435 + 2.0 * w436 + w234 * w437 + w236 * w438
+                + w255 * w439;
+            const double w441 = w187 * w330 + w264 * w437 + w265 * w439;
+            const double w442 = w440 + w202 * w441;
+            const double w443 = w269 * w433 - w292;
+            const double w444 = w42 * w187;
+            const double w445 = w187 * w334 - 2.0 * w444 - 120.0 * w435 + w284 * w437 + w285 * w438
+                + w288 * w439;
+            const double w446 = w445 + w290 * w441;
+            const double w447 = w268 + w293 * w433;
+            const double w448 = w187 * w340 + 5.0 * w444 + 120.0 * w436 + w306 * w437 + w307 * w438
+                + w309 * w439;
+            const double w449 = w448 + w227 * w441;
+            const double w450 = w145 * w315 + w316 * w431 + w332 * w434 + w337 * w443 + w342 * w447;
+            const double w451 = w352 * w434 + w355 * w443 + w357 * w447;
+            const double w452 = w55 * w361 - w246 - d1_0 * w362;
+            const double w453 = w55 * w432 + w434 * w442 + w443 * w446 + w447 * w449 - d1_0 * w450
+                + w451 * w452;
+            const double w454 = w211 * w434 + w220 * w443 + w230 * w447;
+            const double w455 = w187 * w373 + w370 * w437 + w371 * w439 - d1_0 * w374 + w375 * w452;
+            const double w456 = w182 + w378 * w433;
+            const double w457 = w187 * w389 + w385 * w437 - w26 * w438 + w387 * w439 + w204 * w441
+                - d1_0 * w391;
+            const double w458 = w457 + w394 * w452 + w212 * w455;
+            const double w459 = 1.0 - (w453 + w454 * w455 - w456 * w458);
+            const double w460 = w55 * w173 + w183 * w442 + w270 * w446 + w294 * w449 - d1_0 * w343
+                + w358 * w452;
+            const double w461 = w379 * w458 - (w460 + w365 * w455);
+            const double w462 = w138 * w432 + w408 * w434 + w412 * w443 + w415 * w447 - d1_2 * w450
+                + w418 * w451;
+            const double w463 = w424 * w456 - (w462 + w421 * w454);
+            const double w464 = w131 * w432 + w267 * w434 + w291 * w443 + w311 * w447 + w312 * w450
+                + w363 * w451;
+            const double w465 = w395 * w456 - (w464 + w376 * w454);
+            const double w466 = w427 * w463 - w425 * w465;
+            const double w467 = w55 * w398 + w400 * w442 + w409 * w446 + w413 * w449 - d1_0 * w416
+                + w417 * w452;
+            const double w468 = w422 * w458 - (w467 + w420 * w455);
+            const double w469 = w429 * w465 - w396 * w463;
+            const double w470 = 1.0 / (w461 * w466 + w430 * w459 + w468 * w469);
+            memory->inverse_1[0] = w430 * w470;
+            memory->inverse_1[1] = w470 * (w429 * w468 - w425 * w461);
+            memory->inverse_1[2] = w470 * (w427 * w461 - w396 * w468);
+            memory->inverse_1[3] = w466 * w470;
+            memory->inverse_1[4] = w470 * (w425 * w459 - w463 * w468);
+            memory->inverse_1[5] = w470 * (w465 * w468 - w427 * w459);
+            memory->inverse_1[6] = w469 * w470;
+            memory->inverse_1[7] = w470 * (w461 * w463 - w429 * w459);
+            memory->inverse_1[8] = w470 * (w396 * w459 - w461 * w465);
             memory->age_1 = 1;
             free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(statistics);
         }
@@ -1047,16 +1070,16 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
     const double x_0_ = h * xi_0;
     const double x_1_ = h * xi_1;
     const double x_2_ = h * xi_2;
-    const double w456 = x_0_ * x_0_ + x_1_ * x_1_ + x_2_ * x_2_;
+    const double w471 = x_0_ * x_0_ + x_1_ * x_1_ + x_2_ * x_2_;
     double c0_3, c1_3;
-    free_rigid_body_s3_discrete_gradient_midpoint_stumpff_01(w456, &c0_3, &c1_3);
-    const double w459 = x_0_ * c1_3;
-    const double w460 = x_1_ * c1_3;
-    const double w461 = x_2_ * c1_3;
-    const double Y_0_ = q0 * c0_3 - (q1 * w459 + q2 * w460 + q3 * w461);
-    const double Y_1_ = q3 * w460 - q2 * w461 + (q0 * w459 + q1 * c0_3);
-    const double Y_2_ = q1 * w461 - q3 * w459 + (q0 * w460 + q2 * c0_3);
-    const double Y_3_ = q2 * w459 - q1 * w460 + (q0 * w461 + q3 * c0_3);
+    free_rigid_body_s3_discrete_gradient_midpoint_stumpff_01(w471, &c0_3, &c1_3);
+    const double w474 = x_0_ * c1_3;
+    const double w475 = x_1_ * c1_3;
+    const double w476 = x_2_ * c1_3;
+    const double Y_0_ = q0 * c0_3 - (q1 * w474 + q2 * w475 + q3 * w476);
+    const double Y_1_ = q3 * w475 - q2 * w476 + (q0 * w474 + q1 * c0_3);
+    const double Y_2_ = q1 * w476 - q3 * w474 + (q0 * w475 + q2 * c0_3);
+    const double Y_3_ = q2 * w474 - q1 * w475 + (q0 * w476 + q3 * c0_3);
     /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
     if (!isfinite(Y_0_ + Y_1_ + (Y_2_ + Y_3_)) && !(Y_0_ - Y_0_ + (Y_1_ - Y_1_)
         + (Y_2_ - Y_2_ + (Y_3_ - Y_3_)) == 0.0)) {

@@ -8,12 +8,13 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from sympy import sympify
+from sympy import Matrix, Rational, sympify
 
+from codegen import emit
 from codegen.certify import certified_order
 from codegen.emitter import emit_compiled
 from codegen.errors import MethodError
-from codegen.groups import SO3, Rotation
+from codegen.groups import SO3, Rn, Rotation
 from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.scene_operations import Secant
@@ -23,7 +24,7 @@ from codegen.loader import load
 from codegen.lower import families_for
 from codegen.method import parse
 from codegen.passes.rewrite import rewrite
-from codegen.scene import FieldScene, energy
+from codegen.scene import FieldScene, HamiltonianScene, energy
 from codegen.scenes import load as gallery
 from tests.compilations import compiled, emitted
 from tests.strategies import field_scene, hamiltonian_scene, lowered
@@ -273,3 +274,19 @@ def test_the_unknown_is_one_velocity():
     made = compiled("dipole", "discrete_gradient:midpoint")
     (block,) = (s for s in made.program.body if hasattr(s, "unknowns"))
     assert [u.kind for u in block.unknowns] == [Kind.ALG]
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+@pytest.mark.parametrize("mass", [Fraction(1, 10**16), Fraction(91, 10**32)])
+def test_newtons_matrix_is_right_for_tiny_momenta(mass, target):
+    group, m = Rn(1), Rational(mass.numerator, mass.denominator)
+    q, p = group.point("q"), group.dual("p")
+    H = p.dot(p) / (2 * m) + m * (q[0] ** 2 / 2 + q[0] ** 4 / 4)
+    scene = HamiltonianScene(group=group, q=q, mu=p, H=H, q0=Matrix([1]), mu0=Matrix([0]), span=(0, 1))
+    module = load(emit(scene, "discrete_gradient:midpoint", target=target, solver="newton"))
+    position, momentum = module.run([1.0, 0.0], h=0.1, steps=10)
+    # The displacement of the position is much larger than that of the momentum, so the position does not
+    # depend on the mass. The energy keeps its initial value, 3/4 times the mass.
+    assert position == pytest.approx(0.236397280748, rel=1e-11)
+    speed = math.sqrt(2 * (0.75 - position**2 / 2 - position**4 / 4))
+    assert momentum / float(mass) == pytest.approx(-speed, rel=1e-12)

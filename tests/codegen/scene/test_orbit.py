@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Matrix, log, symbols
+from sympy import Matrix, Rational, log, symbols
 
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.number import Number
 from codegen.scene import FieldScene
-from codegen.scene.orbit import POINTS, orbit_of
+from codegen.scene.orbit import NEAR, POINTS, orbit_of
 from tests.strategies import field_scene, hamiltonian_scene
 
 y = Matrix(symbols("y0:2", real=True))
@@ -22,14 +22,14 @@ def plane(f, y0=(1, 0)):
 @pytest.mark.parametrize("problem", [hamiltonian_scene("SO(3)"), field_scene("SL(2)"), field_scene("S^3")])
 def test_the_points_are_on_the_manifold(problem):
     orbit = orbit_of(problem)
-    assert len(orbit.points) == POINTS
+    assert len(orbit.points) == POINTS + NEAR
     if isinstance(orbit.action, LeftMultiplication):
         for point in orbit.points:
             state = tuple(point[s] for s in orbit.symbols)
             for _, defect in orbit.group.laws(orbit.domain, state):
-                assert orbit.sized(defect, (1,))
+                assert orbit.sized(defect)
     distinct = {tuple(str(point[s]) for s in orbit.symbols) for point in orbit.points}
-    assert len(distinct) == POINTS
+    assert len(distinct) == POINTS + NEAR
 
 
 def test_formulas_that_vanish_on_the_group_alone_vanish():
@@ -45,7 +45,7 @@ def test_formulas_that_vanish_on_the_group_alone_vanish():
 def test_points_where_the_field_is_not_finite_are_left_out():
     problem = plane([log(y[0] - y[0] ** 2 * 99 / 100), 0])
     orbit = orbit_of(problem)
-    assert 1 <= len(orbit.points) < POINTS
+    assert 1 <= len(orbit.points) < POINTS + NEAR
 
 
 def test_a_formula_without_a_value_does_not_vanish():
@@ -60,3 +60,20 @@ def test_a_formula_without_a_value_does_not_vanish():
 def test_a_start_where_the_field_is_not_finite_is_refused():
     with pytest.raises(SceneError, match="f at the initial state is not a finite real number"):
         plane([log(y[1]), 0])
+
+
+@pytest.mark.parametrize("unit", [1, 10**30])
+def test_units_do_not_change_what_vanishes(unit):
+    scale = Number.rational(1, unit)
+    problem = plane([y[1], 0])
+    space, orbit = problem.roots[0].space, orbit_of(problem)
+    a, b = (space.const(scale) * space.sym(s) for s in ("y0", "y1"))
+    assert orbit.vanish([(a + b) * (a + b) - a * a - 2 * (a * b) - b * b, space.zero])
+    assert not orbit.vanish([a])
+    assert not orbit.vanish([b * b])
+
+
+def test_some_points_are_near_the_initial_state_in_the_units_of_the_scene():
+    orbit = orbit_of(plane([y[1], -y[0]], y0=(Rational(1, 10**30), 0)))
+    for point in orbit.points[POINTS:]:
+        assert all(0 < abs(point[s].value) < 1e-29 for s in orbit.symbols)

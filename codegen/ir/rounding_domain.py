@@ -1,0 +1,163 @@
+"""An arithmetic that estimates how rounding errors change a result.
+
+A difference of equal numbers is rarely zero in floating-point arithmetic. To decide whether a computed number
+is zero, one must know the size of the numbers that cancelled. A scalar of this arithmetic is therefore a
+value with a size. If each operation has the relative error eps, the value has an error of about eps times the
+size (first-order running error analysis: N. Higham, *Accuracy and Stability of Numerical Algorithms*, section
+3.3). The size of a number that is exactly zero is zero.
+
+All sizes are proportional to the values. Hence a decision does not depend on the units of the numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from codegen.ir.domain import PreciseDomain, Scalar
+from codegen.ir.number import Number
+
+GUARD_DIGITS = 12
+"""A number is zero up to rounding if it is at most 10^(GUARD_DIGITS - digits) times its size.
+
+The sizes are estimates, because the errors of matrix exponentials and inverses are not known exactly. The
+factor 10^12 is a wide margin for these errors. With 40 digits, 28 digits remain for the decision.
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Sized:
+    """A number with a size. Rounding errors change ``value`` by about ``size`` times the relative precision.
+
+    ``size`` is not negative. Both numbers are mpmath numbers of one context. A plain number in an operation
+    has its absolute value as size.
+    """
+
+    value: Scalar
+    size: Scalar
+
+    def __add__(self, other: Scalar) -> Sized:
+        b = _sized(other)
+        return Sized(self.value + b.value, self.size + b.size)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Scalar) -> Sized:
+        b = _sized(other)
+        # The sizes are added, so the size remains if the values cancel.
+        return Sized(self.value - b.value, self.size + b.size)
+
+    def __rsub__(self, other: Scalar) -> Sized:
+        return _sized(other) - self
+
+    def __mul__(self, other: Scalar) -> Sized:
+        b = _sized(other)
+        # Terms of second order are neglected.
+        return Sized(self.value * b.value, abs(self.value) * b.size + self.size * abs(b.value))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Scalar) -> Sized:
+        b = _sized(other)
+        value = self.value / b.value
+        return Sized(value, (self.size + abs(value) * b.size) / abs(b.value))
+
+    def __rtruediv__(self, other: Scalar) -> Sized:
+        return _sized(other) / self
+
+    def __neg__(self) -> Sized:
+        return Sized(-self.value, self.size)
+
+    def __abs__(self) -> Sized:
+        return Sized(abs(self.value), self.size)
+
+
+def _sized(x: Scalar) -> Sized:
+    return x if isinstance(x, Sized) else Sized(x, abs(x))
+
+
+class RoundingDomain:
+    """The arithmetic of mpmath numbers with ``digits`` decimal digits and with sizes (:class:`Sized`).
+
+    The values are those of :class:`codegen.ir.domain.PreciseDomain`, with the same exceptions.
+    """
+
+    def __init__(self, h: Scalar, digits: int = 50) -> None:
+        self.plain = PreciseDomain(h, digits)
+        self.context = self.plain.context
+        self.h = _sized(self.plain.h)
+        # The difference quotients in ``_moved`` have about half of the digits.
+        self._shift = self.plain.rational(1, 10 ** (digits // 2))
+        self._share = self.plain.rational(1, 10 ** (digits - GUARD_DIGITS))
+
+    def scalar(self, x: Scalar) -> Sized:
+        """Convert an mpmath number of any context to a scalar of this domain."""
+        return _sized(self.context.mpf(x))
+
+    def number(self, value: Number) -> Sized:
+        """Return the number ``value``, rounded to the precision of this domain."""
+        return _sized(self.plain.number(value))
+
+    def rational(self, p: int, q: int = 1) -> Sized:
+        """Return p/q, rounded to the precision of this domain."""
+        return _sized(self.plain.rational(p, q))
+
+    def rounding(self, x: Sized) -> Scalar:
+        """Return the largest absolute value of ``x`` that may consist of rounding errors only."""
+        return self._share * x.size
+
+    def call(self, function: str, *args: Sized) -> Sized:
+        """Return the value of a scalar function.
+
+        The size is |f| + sum_i |df/dx_i| s_i, where s_i is the size of the argument x_i.
+        """
+        values = [x.value for x in args]
+        value = self.plain.call(function, *values)
+        size = abs(value)
+        for k, x in enumerate(args):
+            # An exact zero is not moved, because a function such as sqrt changes fast near zero.
+            if x.size:
+
+                def along(step: Scalar, k: int = k, x: Sized = x) -> tuple[Scalar, ...]:
+                    return (
+                        self.plain.call(function, *values[:k], x.value + step * x.size, *values[k + 1 :]),
+                    )
+
+                size = size + self._moved(along, (value,))[0]
+        return Sized(value, size)
+
+    def vector(self, function: str, args: Sequence[Sized]) -> tuple[Sized, ...]:
+        """Return the results of a vector function.
+
+        All arguments are moved together, because a function of many arguments is expensive. The factors below
+        avoid that the effects of two arguments cancel.
+        """
+        values = [x.value for x in args]
+        results = self.plain.vector(function, values)
+
+        def along(step: Scalar) -> tuple[Scalar, ...]:
+            # The factors are between 1 and 7/4 and have no simple pattern.
+            factors = (step * (16 + 7 * k % 13) / 16 for k in range(len(args)))
+            return self.plain.vector(
+                function, [x.value + t * x.size for x, t in zip(args, factors, strict=True)]
+            )
+
+        sizes = self._moved(along, results)
+        return tuple(Sized(x, abs(x) + s) for x, s in zip(results, sizes, strict=True))
+
+    def settled(self, old: Sequence[Sized], new: Sequence[Sized], previous: Scalar) -> tuple[bool, Scalar]:
+        """Return the pair (converged, change), see :meth:`codegen.ir.domain.Domain.settled`."""
+        return self.plain.settled([x.value for x in old], [x.value for x in new], previous)
+
+    def _moved(self, along: Callable[[Scalar], tuple[Scalar, ...]], values: Sequence[Scalar]) -> list[Scalar]:
+        """Return the absolute derivatives of ``along`` at 0. ``values`` are its values at 0."""
+        # At the edge of its domain, such as 1 for acos, a function has values on one side only.
+        for step in (self._shift, -self._shift):
+            try:
+                moved = along(step)
+            except (ArithmeticError, ValueError):
+                continue
+            if all(isinstance(x, self.context.mpf) and self.context.isfinite(x) for x in moved):
+                return [abs(a - b) / self._shift for a, b in zip(moved, values, strict=True)]
+        # No value could be computed nearby, so only the rounding error of the function itself is known.
+        return [abs(x) for x in values]
