@@ -149,9 +149,12 @@ def _check_parts(problem: Problem, hamiltonian: Expr) -> None:
     parts = tuple(problem.parts.values())
     for point in orbit.points if parts else ():
         values = orbit.values((hamiltonian, *parts), point)
-        if values is not None and not orbit.sized(values[0] - sum(values[1:]), values):
+        if values is None:
+            continue
+        total = sum(values[1:], orbit.domain.rational(0))
+        if not orbit.sized(values[0] - total, values):
             raise SceneError(
-                f"the parts {', '.join(problem.parts)} add up to {orbit.text(sum(values[1:]))}",
+                f"the parts {', '.join(problem.parts)} add up to {orbit.text(total)}",
                 where=problem.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
                 hint='list all summands of H in the argument "parts"; the energies of bonds are not summands '
