@@ -69,7 +69,7 @@ class CompiledIntegrator(Integrator):
             why = reason(Status(status).name, self._block(counted), span[2])
             if status == Status.BAD_STEP:
                 given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
-                why = f"expected finite numbers, no negative and one positive tolerance, found {given}"
+                why = f"expected finite numbers, rtol >= 0, atol >= 0 and rtol + atol > 0, found {given}"
             failed = begun.failed(status, accepted[0], final, why)
             failed.arrival = Arrival(
                 failed.state, t[0], h[0], accepted[0], rejected[0], None, (), failed.status
@@ -106,7 +106,7 @@ class CompiledIntegrator(Integrator):
         if status == Status.BAD_STEP:
             given = "t={}, end={}, h={}".format(*span)
             given += ", rtol={}, atol={}, least={}, greatest={}".format(*bounds) * interface.controlled
-            bounded = "no negative and one positive tolerance, and 0 <= least <= greatest"
+            bounded = "rtol >= 0, atol >= 0, rtol + atol > 0, 0 <= least <= greatest, and greatest > 0"
             expected = bounded if interface.controlled else "and a step size other than 0"
             why = f"expected finite numbers, {expected}; found {given}"
         flat = self._ffi.unpack(rows, written[0] * size) if written[0] else []
@@ -200,8 +200,9 @@ class _Buffers:
         real, size = interface.format.c_type, interface.size
         self.size, self.null = size, ffi.NULL
         self.events: list[tuple[int, float, int, list[float]]] = []
-        # Between two calls of the event functions, each event function has at most one event. The C code
-        # also needs free entries for one more event of each function.
+        # Let n be the number of event functions. Between two calls of the event functions, the C code stores
+        # at most n events. The C code ends the run if fewer than n entries of the arrays remain free.
+        # Therefore the arrays have 2 n entries.
         self.room = 2 * interface.events
 
         def write(t: float, state: Any, array: Any, data: Any) -> None:

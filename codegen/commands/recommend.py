@@ -148,8 +148,12 @@ def searched(result: Recommendation) -> str:
 def unreached(result: Recommendation) -> str:
     """Return a message for a search in which no method reaches the requested error.
 
-    The message contains the smallest measured error, or the reason why no error was measured. If the smallest
-    measured error is at most the requested error, the message says why this run does not count.
+    The message contains the smallest measured error. If no error was measured, or if every method that
+    reaches the requested error loses a conserved quantity, the message contains this reason instead.
+
+    A method reaches the requested error only if a second run with higher accuracy confirms the first run. If
+    the smallest measured error is at most the requested error, the message says that no second run confirms
+    this error.
     """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""
@@ -171,8 +175,8 @@ def unreached(result: Recommendation) -> str:
         # The error of a single run can be small by accident (codegen.lab.efficiency.race).
         missed += " in two consecutive runs"
         least += (
-            ", but no run with the next higher accuracy confirms it (such a run must have at most twice the "
-            "requested error)"
+            ", but no run with half the step size (or a tenth of the tolerance) confirms it: the error of "
+            "such a run must be at most twice the requested error"
         )
     return f"{asked.scene}: {missed}; {least}; relax --error\n{searched(result)}"
 

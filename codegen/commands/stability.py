@@ -48,8 +48,9 @@ def command(
 
     A stability interval is the largest interval from 0, on the negative real or the positive imaginary axis,
     on which |R| <= 1. R is the stability function of the tableau. The ends are computed from the exact
-    coefficients: "none" means that |R| > 1 right after 0, by however little, and "unbounded" is proved.
-    "undecided" means that rounded coefficients do not determine the end.
+    coefficients. "none" means that |R| > 1 right after 0, even if |R| is only slightly above 1. "unbounded"
+    means that |R| <= 1 is proved on the whole half-axis. "undecided" means that rounded coefficients do not
+    determine the end.
 
     \b
     Examples:

@@ -90,11 +90,12 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # Let y be 1/sqrt x. ``read`` contains the pair (node number of y, n) if a multiple of y^n is one of the
-    # ``roots``, or an argument of an expression that is not a multiple of a power of y.
+    # The nodes in ``ranks`` have the form c y^n, where c is a number and y is a node 1/sqrt x. ``read``
+    # contains the pair (node number of y, n) in two cases. In the first case, c y^n is one of the ``roots``.
+    # In the second case, c y^n is an argument of a node outside ``ranks``.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # ``bases`` contains the node number of y if ``read`` contains a pair for y in which n is 1 or even. No
-    # power of such a y is rewritten as a quotient.
+    # Let y be a node 1/sqrt x. ``bases`` contains the node number of y if ``read`` contains a pair
+    # (node number of y, n) with n = 1 or with an even n. Then no power of y is rewritten as a quotient.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 

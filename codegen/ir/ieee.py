@@ -9,10 +9,20 @@ from __future__ import annotations
 import math
 
 OVERFLOWING = ("cosh", "exp", "log", "sinh")
-"""Functions whose result may be infinite at a finite argument. The formula 1/cosh(x) hides the infinity."""
+"""Functions whose result may be infinite at a finite argument.
+
+A formula such as 1/cosh(x) can be finite although cosh(x) is infinite. Therefore Python modules in double
+precision call helpers that return the infinity.
+"""
 
 UNDEFINED = ("acos", "asin", "cos", "sin", "sqrt", "tan")
-"""Functions whose result may be NaN at a number that is not NaN. Only ``choose`` and solvers hide a NaN."""
+"""Functions whose result may be NaN at a number that is not NaN.
+
+If a part of a formula is NaN, the value of the formula is usually NaN. There are two exceptions: the function
+``choose`` can ignore a NaN, and a solver of implicit equations can return an error status in place of a NaN.
+Therefore, of the Python modules in double precision, only those with ``choose`` or with a solver call helpers
+that return the NaN.
+"""
 
 
 def ieee(function: str, *args: float) -> float:

@@ -6,7 +6,8 @@ value with a size. If each operation has the relative error eps, the value has a
 size (first-order running error analysis: N. Higham, *Accuracy and Stability of Numerical Algorithms*, section
 3.3). The size of a number that is exactly zero is zero.
 
-All sizes are proportional to the values. Hence a decision does not depend on the units of the numbers.
+A change of units multiplies a value and its size by the same factor. Therefore a decision does not depend on
+the units of the numbers.
 """
 
 from __future__ import annotations
@@ -103,7 +104,11 @@ class RoundingDomain:
         return _sized(self.plain.rational(p, q))
 
     def rounding(self, x: Sized) -> Scalar:
-        """Return the largest absolute value of ``x`` that may consist of rounding errors only."""
+        """Return a bound for the rounding errors of ``x``.
+
+        If the absolute value of ``x`` is at most this bound, ``x`` is zero up to rounding
+        (:data:`GUARD_DIGITS`).
+        """
         return self._share * x.size
 
     def call(self, function: str, *args: Sized) -> Sized:
@@ -129,8 +134,10 @@ class RoundingDomain:
     def vector(self, function: str, args: Sequence[Sized]) -> tuple[Sized, ...]:
         """Return the results of a vector function.
 
-        All arguments are moved together, because a function of many arguments is expensive. The factors below
-        avoid that the effects of two arguments cancel.
+        The size of a result is its absolute value plus the absolute value of a difference quotient. In the
+        difference quotient, all arguments change at the same time, because one difference quotient for each
+        argument would be expensive. The arguments change by different multiples of their sizes. With equal
+        multiples, the changes of x and y could cancel in a result such as x - y.
         """
         values = [x.value for x in args]
         results = self.plain.vector(function, values)

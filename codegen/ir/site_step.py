@@ -71,9 +71,9 @@ class Sweep:
     - ``axis`` is :data:`OWN` if the sweep visits single sites. If the sweep visits pairs of neighbouring
       sites, ``axis`` is the index of the lattice axis along which the two sites are neighbours. In a sweep
       over pairs, loads with ``neighbour`` = :data:`OWN` read numbers of the first site, and loads with
-      ``neighbour`` = 0 read numbers of the second site. For pairs, the number 0 does not refer to
-      :attr:`SiteStep.offsets`. The first half of ``stores`` contains the rows for the first site. The second
-      half contains the rows for the second site.
+      ``neighbour`` = 0 read numbers of the second site. These loads do not use :attr:`SiteStep.offsets`. The
+      first half of ``stores`` contains the rows for the first site. The second half contains the rows for the
+      second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
       values g(u). In fixed-point iteration, the sweep stores g(u). In Newton's method, the sweep stores
       the difference g(u) - u.

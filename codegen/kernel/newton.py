@@ -24,9 +24,11 @@ For larger matrices, Gaussian elimination takes fewer operations.
 """
 
 LEAST_NUMERATOR = 2**50
-"""A numerator consists of rounding errors only if it is below 1/LEAST_NUMERATOR times the sum of its terms.
+"""The number m in the test |a_1 + ... + a_n| <= (|a_1| + ... + |a_n|)/m for a numerator a_1 + ... + a_n.
 
-The unit roundoff is 2^-53, and a numerator is a sum of few terms, so its rounding error is several units.
+If the test is true, the numerator counts as a rounding error and is replaced by zero. The number of
+terms is small, so the rounding error of their sum is at most a few times 2^-53 (|a_1| + ... + |a_n|). Here
+2^-53 is the unit roundoff.
 """
 
 Rows = tuple[tuple[Expr, ...], ...]
@@ -103,12 +105,12 @@ def _size(root: Expr) -> Expr:
 
 
 def _regular(images: Sequence[Expr]) -> Sequence[Expr]:
-    """Return ``images`` with zero for a numerator that consists of rounding errors only.
+    """Set numerators in ``images`` to zero if they consist only of rounding errors, and return the result.
 
-    This applies to quotients that are 0/0 at h = 0. For a short displacement, the divisor is tiny, so that
-    the rounding errors of the numerator give huge entries of the matrix without a correct digit. The inverse
-    of such a matrix is tiny. The changes of the unknowns are then tiny far from the solution, and the
-    iteration would end there.
+    Only quotients whose divisor is zero at h = 0 are changed. If the divisor is tiny, a rounding error in the
+    numerator can cause huge, wrong entries of Newton's matrix. The inverse of the matrix is then tiny, and
+    therefore the iteration changes the unknowns very little. The iteration would stop, as if it had
+    converged, before it is near the solution.
     """
     space = images[0].space
     if not any(n.op == "call" and n.payload == "quotient" for n in walk(images)):

@@ -69,7 +69,11 @@ def symbolic(assign: Assign, problem: Problem, shape: Shape) -> Symbolic:
 
 
 def _called(name: str) -> Callable[..., float | tuple[float, ...]]:
-    """Return the function with the given name, with the results of :class:`FloatDomain`."""
+    """Return a Python function that evaluates the function ``name`` in doubles.
+
+    The results equal those of :meth:`FloatDomain.vector` for a vector function, and those of
+    :meth:`FloatDomain.call` for other functions.
+    """
     domain = FloatDomain(0.0)
     # This is faster than ``domain.call``, which compares the name with the names of other functions.
     if hasattr(math, name):

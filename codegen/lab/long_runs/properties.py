@@ -23,8 +23,9 @@ SYMPLECTIC = 1e-24
 
 The defect of symplectic steps is at most the error of the finite differences, about 1e-50, or about 1e-26 if
 components of the state differ by a factor of 1e12
-(:data:`~codegen.lab.long_runs.symplecticity.OFFSET`). The defect of other steps has a power of the step size,
-so it can be far below the precision of doubles.
+(:data:`~codegen.lab.long_runs.symplecticity.OFFSET`). The defect of other steps is proportional to a
+power of the step size. For small steps, this defect can be far below the precision of doubles, so the limit
+must be far below this precision, too.
 """
 
 ROUNDED = 1e-12
@@ -82,7 +83,7 @@ def properties(compiled: Compiled, run: LongRun) -> Properties:
 
 
 def _limit(method: Method) -> float:
-    """Return the largest symplectic defect of a step of a symplectic method."""
+    """Return the limit for the symplectic defect. With a defect below it, a method counts as symplectic."""
     tableau = method.coefficients
     rounded = tableau is not None and (tableau.doubles or uncertainty(tableau, ACCURATE) != "")
     return ROUNDED if rounded else SYMPLECTIC
