@@ -45,7 +45,7 @@ VANISHING = 1e-30
 """The largest accepted difference between a step and its Taylor polynomial, relative to the state.
 
 The tolerances of the steps are 1e-33 and 1e-36, so a larger difference is an error of the polynomial. The
-positions of events are more accurate: at an event, a margin is zero up to VANISHING / 10^8.
+search for a point where the field is not smooth (:func:`_root`) has the smaller tolerance VANISHING / 10^8.
 """
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
@@ -185,8 +185,13 @@ class Sided:
     ) -> tuple[Scalar, Vector, float] | None:
         """Return None if the field is smooth during a step from (y, t) to ``new``.
 
-        Otherwise, return the time and the state at which the caller must continue, and the length of the next
-        step. This is the first event in the step, or the pair (t, y) with a shorter step.
+        Otherwise, return a time, a state and a step length, with which the caller must continue. An event is
+        a time at which an operation such as abs(x) changes its case.
+
+        - If the step is too long for the search for events, return t, y and half of ``length``.
+        - If there are events in the step, return the time and the state of the first event, and ``length``.
+          ``sides`` then contains the cases after this event.
+
         Raises :class:`SceneError` if the first event cannot be found.
         """
         field_series, margin_series = self.fields.series(self.sides)
@@ -223,7 +228,9 @@ class Sided:
         start, end = (self.margins(advance(self, y, t, tau)[0], t + tau) for tau in bracket)
         crossed = [k for k, x in enumerate(end) if x < 0]
         if not crossed:
-            raise self._unknown(t, "an operation with several cases changes its case too briefly")
+            raise self._unknown(
+                t, "the program cannot decide whether an operation such as abs(x) changes its case"
+            )
 
         def margin(tau: Scalar) -> Scalar:
             values = self.margins(advance(self, y, t, tau)[0], t + tau)

@@ -37,7 +37,8 @@ Arb computes with 60 digits. The result of a formula can have several digits les
 MOST_INTERVALS = 2000
 """The largest number of subintervals of a step.
 
-A function with a double zero needs about 200 subintervals, because every level of bisection removes one bit.
+Near a double zero of a function, subintervals are bisected until the function on them is as small as
+:data:`NEGLIGIBLE`. About 200 subintervals are needed for this.
 """
 
 
@@ -75,7 +76,7 @@ def _angle(y: Scalar, x: Scalar) -> arb_series:
 
 
 def _tanh(x: Scalar) -> arb_series:
-    # This form has no large intermediate values for positive x. For negative x, tanh is odd.
+    # For x >= 0, exp(-2x) cannot overflow. For x < 0, the value is computed as -tanh(-x).
     z = _series(x)
     if z[0] < 0:
         return -_tanh(-z)
@@ -151,7 +152,7 @@ class StepPolynomial:
                 # The first half is the next subinterval.
                 todo += [(middle, b), (a, middle)]
         raise Undecided(
-            "the program cannot decide whether the solution reaches a point of a non-smooth field"
+            "the program cannot decide whether the solution reaches a point where the field is not smooth"
         )
 
 
@@ -168,9 +169,15 @@ class _Signs:
         self.limits = [max(ROUNDING, NEGLIGIBLE * s) for s in self.sizes]
 
     def leaves(self, a: Scalar, b: Scalar) -> bool | None:
-        """Return True if a function is negative at ``b``, and False if all are non-negative from a to b.
+        """Decide the signs of the functions of :meth:`StepPolynomial.first_exit` from t + a to t + b.
 
-        Return None if ``a`` and ``b`` do not satisfy the conditions of :meth:`StepPolynomial.first_exit`.
+        All functions must be non-negative at t + a. The result is one of the following:
+
+        - True: at least one of the functions is negative at t + b, and each function is non-negative or
+          monotone from t + a to t + b.
+        - False: all functions are non-negative from t + a to t + b.
+        - None: neither is proved, so the caller must bisect the subinterval.
+
         Raises :class:`Undecided` if a negative function is so small that its sign can be a rounding error.
         """
         solution, middle = self.solution, ((a + b) / 2).mid()
@@ -218,6 +225,11 @@ class _Signs:
 
 
 def _taylor_form(centre: list[arb], over: list[arb]) -> arb_poly:
-    """Return a polynomial that encloses a function: coefficients at the centre, and the last one over the
-    whole subinterval (the remainder of Taylor's theorem)."""
+    """Return a polynomial that encloses a function on a subinterval.
+
+    ``centre`` contains the Taylor coefficients of the function at the centre of the subinterval. ``over``
+    contains balls that enclose the Taylor coefficients at all points of the subinterval. By Taylor's theorem,
+    the polynomial encloses the function if its last coefficient is taken from ``over`` and all other
+    coefficients are taken from ``centre``.
+    """
     return arb_poly([*centre[:-1], over[-1]])

@@ -40,9 +40,10 @@ OFFSET = 25
 """The tangent map is approximated by central differences. The increment in each direction is 10^-OFFSET times
 the scale of this direction.
 
-The relative errors of the differences are about 10^(-2 OFFSET) from the third derivative of the step, and
-10^(OFFSET - DIGITS) from rounding: 10^-50 and 10^-55. The scales are sizes of whole vectors. If a component
-is 10^12 times smaller than the vector, the error relative to this component is about 10^-26."""
+The third derivative of the step causes a relative error of about 10^(-2 OFFSET) = 10^-50. Rounding causes a
+relative error of about 10^(OFFSET - DIGITS) = 10^-55. The scales are sizes of whole vectors. For example, let
+a component of the momentum be 10^12 times smaller than the momentum. The increment is then 10^-13 times this
+component, and the relative error is about 10^-26, the square of 10^-13."""
 
 SWEEPS = 80
 """The largest number of fixed-point iterations for each system of implicit equations in a step."""
@@ -158,12 +159,17 @@ class _Scales:
 def _scales(
     compiled: Compiled, domain: PreciseDomain, elements: Sequence[Vector], momenta: Sequence[Vector]
 ) -> _Scales:
-    """Return the scales at a step from the first to the second state.
+    """Return the scales at a step.
 
-    The motion exp(s xi) q changes the group element q by about its own size if s is the scale of xi. The
-    scale of the action is the largest product of this scale and the momentum in the same direction. The
-    larger of the two states counts, because a coordinate can be zero at one of them. Raises ArithmeticError
-    if the coordinates of the group elements or of the momenta are zero at both states.
+    ``elements`` contains the coordinates q of the group element before and after the step, and ``momenta``
+    contains the momentum mu before and after the step. Of the norms before and after the step, the larger one
+    is used, because q or mu can be zero before or after the step.
+
+    - Let e be a basis element of the Lie algebra. The scale of the coordinate of xi along e is the norm of q,
+      divided by the norm of the derivative of exp(s e) q with respect to s at s = 0.
+    - The scale ``action`` is the norm of mu, multiplied by the largest scale of a coordinate of xi.
+
+    Raises ArithmeticError if q is zero before and after the step, or if mu is zero before and after the step.
     """
     group, context = compiled.scene.group, domain.context
     size = max(map(context.norm, elements))

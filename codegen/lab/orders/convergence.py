@@ -41,7 +41,8 @@ FEWEST = 4
 SPREAD = CLEAR * 2.0**-52
 """Errors of the coefficients up to SPREAD are negligible.
 
-In a run with doubles, their effect is comparable to that of rounding, so that no usable run shows it.
+In a run with doubles, the effect of coefficient errors of this size is at most about CLEAR times the effect
+of rounding. A run whose error is so small is not used to measure the order.
 """
 
 
@@ -87,9 +88,12 @@ class Convergence:
         """The comparison of the observed order with the stated order: ``holds``, ``fails`` or ``undecided``.
 
         If kinks (points where the field is not smooth) limit the observed order to less than the stated
-        order, the result is ``undecided``. If the coefficients are rounded so much that runs can show it,
-        the method that is run has the order of very short steps, and a lower order than the stated one is a
-        failure.
+        order, the result is ``undecided``.
+
+        Rounding of the coefficients can reduce the order of a method. If :attr:`spread` is not 0 and very
+        short steps show an order below the stated order, the result is ``fails``.
+
+        In all other cases, :meth:`Refinement.verdict` gives the result.
         """
         if self.limit < self.stated.order:
             return "undecided"

@@ -197,7 +197,11 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
 
 
 def _later(scene: Problem, method: Method, fraction: Fraction) -> Problem | None:
-    """Return the scene that starts after a fraction of the time span, or None if a run fails before."""
+    """Return the scene with a later initial state: the state after ``fraction`` of the time span.
+
+    The method computes this state in :data:`STEPS` steps. The coordinates are then rounded to rational
+    numbers. The result is None if the computation fails.
+    """
     first, last = scene.span
     t = first + fraction * (last - first)
     try:

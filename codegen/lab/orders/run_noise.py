@@ -26,10 +26,12 @@ class Noise:
 
     - ``epsilon``: the machine epsilon.
     - ``time``: the largest absolute value of the time, or 0 if the field does not depend on the time.
-    - ``sizes``: the size of each coordinate: the largest of its values at both ends of the span, and of its
-      velocities there times the length of the span. The velocities count because a coordinate that is 0 at
-      both ends can be large between them.
-    - ``speeds``: the largest absolute value of the velocity of each coordinate at both ends.
+    - ``speeds``: for each coordinate, the largest absolute value of its velocity at the two ends of the time
+      span.
+    - ``sizes``: for each coordinate, the larger of two numbers. The first number is the largest absolute
+      value of the coordinate at the two ends. The second number is the entry of ``speeds`` times the length
+      of the span. The second number is needed because a coordinate that is 0 at both ends can be large
+      between them.
     """
 
     epsilon: float
@@ -60,9 +62,9 @@ class Noise:
     def of_state(self, steps: int, gaps: Sequence[float]) -> float:
         """Return an estimate of the rounding errors of the state after ``steps`` steps.
 
-        ``gaps`` contains the error of each coordinate. The error of a coordinate bounds the rounding error
-        that is contained in it. Hence an exact large coordinate does not hide the errors of small
-        coordinates.
+        ``gaps`` contains the error of each coordinate. The estimate for a coordinate is at most the error of
+        this coordinate. Without this bound, a large coordinate without error would have a large estimate, and
+        the errors of small coordinates would be mistaken for rounding errors.
         """
         return math.hypot(
             *(min(gap, rounding(steps, self.epsilon, x)) for gap, x in zip(gaps, self.sizes, strict=True))
@@ -71,7 +73,9 @@ class Noise:
     def of_time(self, gaps: Sequence[float]) -> float:
         """Return an estimate of the errors that the rounding of the time causes.
 
-        A field that is evaluated at a wrong time gives a solution that is shifted by this time.
+        Rounding can change the time by about s = ``epsilon`` * ``time``. A change of the time by s changes a
+        coordinate by about s times its velocity. ``gaps`` contains the error of each coordinate. The estimate
+        for a coordinate is at most the error of this coordinate.
         """
         shift = self.epsilon * self.time
         return math.hypot(*(min(gap, shift * v) for gap, v in zip(gaps, self.speeds, strict=True)))

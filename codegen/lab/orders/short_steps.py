@@ -6,7 +6,8 @@ p. If h is much smaller than e, the observed order is p. The steps are computed 
 because the error of such short steps is tiny.
 
 If the coefficients of a method are rounded, very short steps can show the effect of the rounding instead of
-the order of the method. A caller states which rounding is negligible.
+the order of the method. For this case, :func:`order_of_short_steps` has the argument ``negligible``: if
+coefficient errors up to ``negligible`` can explain a low order, the function returns None.
 
 No reference solution is needed. Let the error of one step of size h be C h^(p+1) to leading order. The error
 of two steps of size h/2 is then 2 C (h/2)^(p+1). Therefore the slope of log(difference of the two computed
@@ -45,15 +46,16 @@ SWEEPS = 400
 def order_of_short_steps(compiled: Optimised, stated: int, negligible: float = 0.0) -> float | None:
     """Return the order of a method, measured with very short steps from the initial state of the scene.
 
-    ``stated`` is the expected order. Errors of the coefficients up to ``negligible`` are not shown: they
-    change the state of a step by about ``negligible`` times the change of the state in the step. The result
-    is None in four cases:
+    ``stated`` is the expected order. Coefficient errors up to ``negligible`` must not determine the result.
+    For each step size h, the state after one step of size h is compared with the state after two steps of
+    size h/2. The result is None in four cases:
 
     - A step cannot be computed.
-    - For some step size h, one step of size h and two steps of size h/2 give the same state.
+    - For some step size h, the two states are equal.
     - Different pairs of step sizes give orders that differ by more than :data:`AGREEMENT`.
-    - The order is below ``stated``, and negligible errors of the coefficients can explain the difference
-      between the two states.
+    - The order is below ``stated``, and for some step size h, the difference between the two states is at
+      most ``negligible`` times the change of the state in the step of size h. Coefficient errors up to
+      ``negligible`` can cause such a difference.
     """
     problem = problem_for(compiled.scene, compiled.method)
     first, last = problem.span

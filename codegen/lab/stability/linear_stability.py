@@ -69,7 +69,11 @@ class Region:
 
 
 UNDECIDED = "undecided"
-"""The word for the length of a stability interval that is not known, and the JSON key of such axes."""
+"""The text for the length of a stability interval if the length is not known.
+
+In the result of :meth:`Region.as_json`, UNDECIDED is also a key. The value of this key is the list of the
+axes (``real`` or ``imaginary``) on which the length is not known.
+"""
 
 
 def interval(length: float | None, digits: int = 4) -> str:
@@ -125,10 +129,11 @@ def _proved_order(tableau: Tableau) -> int:
 
 
 def _identities(tableau: Tableau) -> Vanishing:
-    """Return the coefficients that vanish for all values of the rounded decimals in the tableau.
+    """Return which coefficients of |Q|^2 - |P|^2 vanish for all values of the rounded decimals in a tableau.
 
-    Random numbers replace the decimals. The probability of a wrong answer is negligible
-    (:mod:`orderconds.tableau.random_member`).
+    P/Q is the stability function. On the negative real axis and on the imaginary axis, |Q|^2 - |P|^2 is a
+    polynomial (:class:`Vanishing`). Random numbers replace the decimals. The probability of a wrong answer is
+    negligible (:mod:`orderconds.tableau.random_member`).
     """
     if tableau.proof is None:
         return Vanishing()
@@ -143,7 +148,11 @@ def _identities(tableau: Tableau) -> Vanishing:
 
 
 def _value(tableau: Tableau) -> Quotient:
-    """Return the stability function in double precision, in lowest terms if balls do not prevent this."""
+    """Return the stability function in double precision.
+
+    Common factors of the numerator and the denominator are removed, with one exception. If coefficients of
+    the tableau are balls (intervals), and a ball contains zero and other numbers, common factors can remain.
+    """
     method, ring = tableau.abelian(), tableau.ring
     try:
         R = stability_function(method, ring)
