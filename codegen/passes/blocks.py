@@ -49,7 +49,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     graph.add_nodes_from(range(len(block.body)))
     for k, assign in enumerate(block.body):
         for arg in assign.args:
-            # If ``arg`` is an unknown, ``source`` is the assignment of the right-hand side of its equation.
+            # If ``arg`` is an unknown u with the equation u = g(u), ``source`` is the index of the assignment
+            # that computes g(u). Otherwise ``source`` is the index of the assignment that computes ``arg``.
             source = maker.get(image.get(arg, arg))
             if source is not None:
                 graph.add_edge(source, k)

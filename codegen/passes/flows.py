@@ -116,8 +116,9 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     """
     orbit = orbit_of(scene)
     d = orbit.domain
-    # The durations are proportional to the time unit of the scene. In a duration that is tiny in this unit,
-    # the order of two flows would change the state by less than the rounding errors.
+    # The flows are compared over durations that are proportional to the time span of the scene. Over much
+    # shorter durations, even flows that do not commute could give the same state in both orders, up to
+    # rounding errors.
     first, last = scene.span
     unit = abs(last - first) / TYPICAL_STEPS or Fraction(1)
 

@@ -356,7 +356,8 @@ class _Newton(_Loop):
             return sequence
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
         sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
-        # A failed elimination of a matrix with infinities or NaNs leaves at least one of them in the array.
+        # If the matrix contains infinities or NaNs and the elimination fails, the array also contains an
+        # infinity or a NaN afterwards. Therefore the array shows the cause of the failure.
         cause = select(all_finite(self.inverse), code(SINGULAR), code(NOT_FINITE))
         # The function ``count_sweeps`` reads the status to record a failure, so the status is set first.
         counted = (count_sweeps(self.plan, self.number - 1, whole(0)),) if self.counting else ()

@@ -71,10 +71,13 @@ def is_looped(plan: Plan) -> bool:
 
 
 def _may_raise(kernel: Kernel) -> bool:
-    """Return True if emitted Python may raise an exception at finite arguments of a function."""
-    # These kernels have a function for one step, which catches the exceptions. All other kernels may still
-    # raise an exception, but only at extreme values, such as the sine of an infinity. The loop over the steps
-    # catches these exceptions.
+    """Return True if a kernel contains a division or a function of :data:`RAISING`.
+
+    In Python, such an operation may raise an exception although its arguments are finite.
+    """
+    # If the result is True, the kernel is not inlined in the loop over the steps. A separate function
+    # computes one step and catches the exceptions. If the result is False, only extreme arguments raise an
+    # exception, for example the sine of an infinity, and the loop catches this exception.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 

@@ -141,8 +141,9 @@ def check_action(orbit: Orbit) -> None:
 def _digits(orbit: Orbit) -> int:
     """Return the number of digits for the central differences in :func:`check_action`.
 
-    A difference exp(eps x).y - exp(-eps x).y can be as small as eps, but it is computed from numbers of the
-    size of y. The digits of y in front of the decimal point are therefore added.
+    A difference exp(eps x).y - exp(-eps x).y can be as small as eps, but both terms have the size of y.
+    Therefore the result is :data:`DIGITS` plus the number of digits that the largest coordinate of y has in
+    front of the decimal point.
     """
     context = orbit.domain.context
     bits = max((context.mag(orbit.points[-1][s].value) for s in orbit.symbols), default=0)

@@ -28,14 +28,16 @@ Both bounds are proportional to the terms, so that the test does not depend on t
 """
 
 POINTS = 4
-"""The largest number of sample points of an :class:`Orbit` at distances of about 1 from the initial state,
-including the initial state.
+"""An :class:`Orbit` has at most POINTS - 1 sample points at distances of about 1 from the initial state. The
+initial state is one more sample point.
 """
 
 NEAR, NEAR_STEPS = 2, 100
-"""The largest number of sample points near the initial state, and the time span of the scene divided by the
-time between these points. After the first of two points, a force that is zero at the initial state may differ
-from zero.
+"""NEAR is the largest number of sample points near the initial state. The time between these points is the
+time span of the scene divided by NEAR_STEPS.
+
+NEAR is 2 because of scenes whose force is zero at the initial state. Then the momentum at the first point may
+equal the initial momentum, and only the second point may have a different momentum.
 """
 
 
@@ -92,8 +94,9 @@ class Orbit:
     ) -> list[dict[str, Sized]]:
         """Return points that differ from the initial state by typical amounts in the units of the scene.
 
-        The other points are at distances of about 1 from the initial state, whatever the units are. If 1 is
-        far too large for one coordinate, some terms of a formula are lost in the rounding errors of others.
+        Points at distances of about 1 from the initial state are not sufficient. If the number 1 is far too
+        large in the unit of a coordinate, some terms of a formula are smaller than the rounding errors of
+        other terms.
         """
         d, points, point = self.domain, [], start
         for k in range(1, NEAR + 1):

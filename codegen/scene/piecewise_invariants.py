@@ -1,9 +1,11 @@
 """Checks of declared invariants whose formulas contain selections: operations with several cases, as abs(x).
 
-A selection that could change its case must satisfy two conditions. Every combination of cases gives smooth
-formulas for the field and the invariant, and this invariant must be constant along the solutions of this
-field. Where the case changes, the invariant must be continuous. If the argument of a selection is itself
-constant along solutions, its case never changes.
+If the argument of a selection is constant along solutions, the case of the selection never changes. If the
+case may change, two conditions are checked:
+
+- The invariant is continuous where the case changes.
+- If one case is chosen for each selection, the formulas of the field and of the invariant become smooth. For
+  every possible choice, the smooth invariant is constant along the solutions of the smooth field.
 """
 
 from __future__ import annotations
@@ -35,10 +37,11 @@ NEWTON_STEPS = 60
 """The largest number of Newton steps to a zero. A simple zero takes about ten steps for 40 digits."""
 
 BESIDE = Fraction(1, 10**26)
-"""The distance from a zero of an argument at which the values on both sides are compared.
+"""To find a jump, the values of an invariant at two points are compared. The points are on the two sides of a
+zero of the argument of a selection, and BESIDE is the distance of each point from the zero.
 
-It is much larger than rounding errors of 40 digits. Between the two points, a continuous function usually
-changes by much less than :data:`codegen.scene.orbit.TOLERANCE`.
+The distance is much larger than rounding errors of 40 digits. Between the two points, a continuous function
+usually changes by much less than :data:`codegen.scene.orbit.TOLERANCE`.
 """
 
 
@@ -92,7 +95,12 @@ class _Check:
         return True
 
     def combinations(self, nodes: Sequence[Expr]) -> Iterator[Sides]:
-        """Return all combinations of cases. Selections with the same argument, up to its sign, agree."""
+        """Return all possible combinations of cases of the selections ``nodes``.
+
+        The sign of x determines the cases of abs(x), choose(x, a, b) and abs(-x). Therefore abs(x) and
+        choose(x, a, b) have the same case, and abs(-x) has the other case. Tables with the same argument and
+        the same knots have the same case.
+        """
         keys = [_key(node) for node in nodes]
         counts: dict[object, int] = {
             key: len(node.payload.knots) + 1 if isinstance(node.payload, PiecewisePolynomial) else 2

@@ -78,7 +78,11 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
 
 
 def _without_exceptions(name: str) -> Snippet:
-    """Return the helper ``ieee_NAME`` of a Python module, with the results of :mod:`codegen.ir.ieee`."""
+    """Return the helper ``ieee_NAME`` of Python modules.
+
+    The helper computes the function ``name`` of the module :mod:`math`. Where this function raises an
+    exception, the helper returns an infinity or a NaN, as C does.
+    """
     overflows = name in OVERFLOWING and name != "log"
     return Snippet(f"ieee_{name}", "ieee", (name,), {"name": name, "overflows": overflows})
 

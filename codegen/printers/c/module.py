@@ -193,8 +193,9 @@ def _forms(unit: Unit) -> set[str]:
 
     A name may be the name of a variant, for example ``sin_near``.
     """
-    # ``called_by`` returns plain texts. A table is also a function, and its helper needs the knots and
-    # coefficients, so the tables themselves are collected.
+    # A table is a piecewise polynomial that the emitted code calls as a function. ``called_by`` returns only
+    # the names of tables, but the C function of a table also needs the knots and coefficients. Therefore
+    # ``tables`` contains the objects with the knots and coefficients, from ``functions_of``.
     tables = {name for name in functions_of(unit) if isinstance(name, PiecewisePolynomial)}
     names: set[str] = set(tables)
     for function in unit.functions:

@@ -116,7 +116,8 @@ class _Module:
         if self.single:
             return {}
         called = functions_of(self.unit)
-        # A solver of implicit equations also hides a NaN, because it may replace NaNs by a status of its own.
+        # Only ``choose`` and solvers of implicit equations can hide a NaN: ``choose`` may select a value that
+        # is not NaN, and a solver may return a status code in place of NaNs.
         undefined = CHOOSE in called or bool(self.interface.blocks)
         hidden = {*OVERFLOWING, *(UNDEFINED if undefined else ())}
         return {name: f"_{name}" for name in called if name in hidden}
