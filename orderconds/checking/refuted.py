@@ -9,7 +9,7 @@ from orderconds.checking.verdict import check
 from orderconds.tableau import Tableau
 
 UNDECIDED = "none"
-"""The certificate of an order that the digits of the coefficients do not decide."""
+"""The certificate in a report if the coefficients have too few digits to determine the order."""
 
 
 def refuted_claims(tableau: Tableau) -> tuple[str, ...]:

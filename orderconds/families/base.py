@@ -343,11 +343,12 @@ class Family(ABC):
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the given order that is the first to fail if the order of all methods of
-        the family is bounded.
+        """Return a condition that limits the order of the methods of this family, or None if no such
+        condition is known.
 
-        Let p be the highest order of methods of the family. For ``order`` = p + 1, the condition contradicts
-        other conditions. Return None if no such condition is known.
+        The returned condition belongs to the order ``order``. Let p be the highest order of a method of this
+        family. If ``order`` is p + 1, no method satisfies the returned condition and all other conditions of
+        orders 1, ..., p + 1. If ``order`` <= p, every method of order p satisfies the returned condition.
         """
         return None
 

@@ -213,10 +213,13 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Let exp(X_j) be the group element of stage j, and let x and z be new letters. Return a list with
-        one map (:data:`Varied`) for each stage j. Entry ``[j][i]`` is the coefficient of the word
-        (``before``, x, ``after``, z, ``behind``) in the series for dexpinv_{X_j} z, after x has been added to
-        the velocity of stage i. The method :meth:`_terms` defines the series."""
+        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
+        series for dexpinv_{X_j} z. Here exp(X_j) is the group element of stage j, and z is a letter that does
+        not occur in X_j. The method :meth:`_terms` defines the series.
+
+        For entry ``[j][i]``, the velocity of stage i is perturbed: a new letter x is added to this velocity.
+        Therefore words in X_j can contain x. The entry is the coefficient of the word
+        (``before``, x, ``after``, z, ``behind``)."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -226,10 +229,13 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Let exp(X_j) be the group element of stage j, and let x and z be new letters. Return a list with
-        one map (:data:`Varied`) for each stage j. Entry ``[j][i]`` is the coefficient of the word (``first``,
-        z, ``before``, x, ``after``) in the series for dexpinv_{X_j} z, after x has been added to the velocity
-        of stage i. The method :meth:`_terms` defines the series."""
+        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
+        series for dexpinv_{X_j} z. Here exp(X_j) is the group element of stage j, and z is a letter that does
+        not occur in X_j. The method :meth:`_terms` defines the series.
+
+        For entry ``[j][i]``, the velocity of stage i is perturbed: a new letter x is added to this velocity.
+        Therefore words in X_j can contain x. The entry is the coefficient of the word
+        (``first``, z, ``before``, x, ``after``)."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

@@ -122,7 +122,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     try:
         values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
         nonzero = _nonzero(problem, ring)
-        # Otherwise, the ansatz would contain methods that are not symplectic, and could leave out others.
+        # An ansatz that contains methods that are not symplectic could lack some symplectic methods. A proof
+        # for this ansatz would not be valid for the missing methods.
         if problem.family.symplectic and not _is_symplectic(problem, ring):
             return None
     except (

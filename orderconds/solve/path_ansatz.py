@@ -16,10 +16,10 @@ from orderconds.solve.spec import Spec, refuse
 from orderconds.solve.tableau_ansatz import tableau_structures
 
 MIRRORED = (
-    "exponential m+1-J of the update is exponential J with its coefficients in reverse order; "
-    "further exponential r of stage s+1-i is minus further exponential r of stage i with its coefficients in "
-    "reverse order; for odd m and s, the middle stage also contains half of the middle exponential of the "
-    "update"
+    "of the m exponentials of the update, exponential m+1-J has the coefficients of exponential J in reverse "
+    "order; for odd m and s, the middle stage continues with an exponential that has half the coefficients "
+    "of the middle exponential of the update; the remaining exponentials of stage i have the exponents X_i1, "
+    "X_i2, ..., and X_(s+1-i)r has the coefficients of -X_ir in reverse order"
 )
 """The assumptions about symmetric methods (:mod:`orderconds.solve.paths`)."""
 

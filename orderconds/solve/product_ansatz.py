@@ -18,7 +18,8 @@ COMPOSED = (
 """The assumption about compositions."""
 
 PALINDROMES = "the step sizes of T form a palindrome, and the step sizes of V form a palindrome"
-"""The assumption about symmetric splittings. There are other symmetric splittings with zero step sizes."""
+"""The assumption about symmetric splittings. If some step sizes are zero, a symmetric splitting can violate
+the assumption."""
 
 
 def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:

@@ -125,7 +125,8 @@ def _symplectic(
             mirrored = (last - j, last - i)
             if symmetric and (mirrored == (i, j) or mirrored < (i, j)):
                 continue
-            # An entry cannot be computed from the other one if a constraint computes the other one from it.
+            # The formula computes A[row][column] from A[column][row]. This is impossible if a constraint
+            # computes A[column][row] from A[row][column].
             choices = [
                 (row, column)
                 for row, column in ((j, i), (i, j))

@@ -5,14 +5,17 @@ Let R = P/Q be the stability function. The real stability interval is the larges
 for all y in it. The number r is the length. Equality is allowed: the length is infinite if |R(iy)| = 1 for
 all y.
 
-Both conditions are inequalities for polynomials: Q(-x)^2 - P(-x)^2 >= 0 for x >= 0, and |Q(iy)|^2 - |P(iy)|^2
->= 0, a polynomial in t = y^2 >= 0. The interval ends where the polynomial becomes negative for the first
-time. Common factors of P and Q do not change this point: they multiply the polynomial by a square. At a pole
-of R, the polynomial is negative.
+Each of the two conditions means that a polynomial E is not negative:
 
-The first sign change is isolated with Descartes' rule of signs and bisection (Collins and Akritas 1976),
+- At the point -x of the real axis with x >= 0, the polynomial is E(x) = Q(-x)^2 - P(-x)^2.
+- At the point iy of the imaginary axis, the polynomial is E(t) = |Q(iy)|^2 - |P(iy)|^2 with t = y^2.
+
+The interval ends where E becomes negative for the first time. Common factors of P and Q do not change this
+point: they multiply E by a square. At a pole of R, E is negative.
+
+The first sign change of E is isolated with Descartes' rule of signs and bisection (Collins and Akritas 1976),
 with the exact signs of the coefficients. If the coefficients are balls (intervals), a length is returned only
-if it follows for all numbers in the balls.
+if the computation is valid for all numbers in the balls.
 """
 
 from __future__ import annotations
@@ -52,8 +55,9 @@ ACCURACY = 60
 """A zero is enclosed in an interval of relative length 2^-ACCURACY, less than the rounding of a double."""
 
 COARSE = 13
-"""If the coefficients are balls, the enclosure of a zero can be longer, but its relative length is at most
-2^-COARSE, about 10^-4. Otherwise the four digits that the program prints would not be determined."""
+"""If the coefficients are balls, an enclosure of a zero with the relative length 2^-ACCURACY can be
+impossible. In this case, an enclosure of relative length at most 2^-COARSE, about 10^-4, is accepted. A
+longer enclosure would not determine the four digits that the program prints."""
 
 
 class Intervals(Struct, frozen=True):
@@ -84,13 +88,15 @@ def stability_intervals(
 ) -> Intervals:
     """Return the lengths of the stability intervals of R = P/Q. P and Q must satisfy P(0) = Q(0).
 
-    If the coefficients are balls, some coefficients of the two polynomials in the docstring of the module are
-    zero, but their balls also contain other numbers. Two proofs show that a coefficient is zero:
+    If the coefficients of P and Q are balls, the coefficients of the two polynomials Q(-x)^2 - P(-x)^2 and
+    |Q(iy)|^2 - |P(iy)|^2 are also balls. If such a ball contains zero and other numbers, the ball does not
+    determine whether the coefficient is zero. Two arguments prove that coefficients of the two polynomials
+    are zero:
 
     - ``order`` is a proved order of the method. From R(z) = e^z + O(z^(order + 1)) follows
       |R(iy)|^2 - 1 = O(y^(order + 1)).
-    - ``vanishing`` contains the coefficients that are zero for all values of the rounded decimals
-      (:func:`vanishing_coefficients`).
+    - ``vanishing`` states which coefficients of the two polynomials are zero for all values of the rounded
+      decimals (:func:`vanishing_coefficients`).
 
     >>> from orderconds.ring import QQ
     >>> one, half = QQ.one, QQ.rational(1, 2)
@@ -105,13 +111,15 @@ def stability_intervals(
     on_real = _with_zeros(_real_difference(P, Q, ring), ring, zeros.real)
     on_axis = _with_zeros(_axis_difference(P, Q, ring), ring, zeros.imaginary, order_zeros)
     if ring.is_zero(on_axis[-1]) is True:
-        # Both last coefficients are Q_n^2 - P_n^2, where n is the degree to which P and Q are padded.
+        # The last coefficients of ``on_axis`` and ``on_real`` are equal: both are Q[-1]^2 - P[-1]^2.
         on_real[-1] = ring.zero
     return Intervals(_length(on_real, ring, lambda t: t), _length(on_axis, ring, math.sqrt))
 
 
 def vanishing_coefficients(P: Coefficients, Q: Coefficients, ring: Ring) -> Vanishing:
-    """Return which coefficients are zero for the stability function P/Q with coefficients in an exact ring.
+    """Return which coefficients of Q(-x)^2 - P(-x)^2 and of |Q(iy)|^2 - |P(iy)|^2 are zero.
+
+    The coefficients of P and Q are elements of ``ring``, which is an exact ring.
 
     >>> from orderconds.ring import QQ
     >>> vanishing_coefficients([QQ.one, QQ.one], [QQ.one], QQ)
@@ -141,7 +149,7 @@ def _with_zeros(E: list[Element], ring: Ring, *proofs: Sequence[bool]) -> list[E
 
 
 def _length(E: Coefficients, ring: Ring, convert: Callable[[float], float]) -> float | None:
-    """Return ``convert(t)`` for the largest t such that E >= 0 on [0, t]. The zeros of E at 0 are allowed."""
+    """Return ``convert(t)`` for the largest t such that E >= 0 on [0, t]."""
     limited = cast("SignedRing", Limited(ring))
     try:
         zero = _first_descent(E, limited)
@@ -151,7 +159,7 @@ def _length(E: Coefficients, ring: Ring, convert: Callable[[float], float]) -> f
         length = convert(float((low + high) / 2))
     except (Undecided, OverflowError, ZeroDivisionError):
         return None
-    # A positive length that underflows must not become the statement that there is no interval.
+    # If a positive length underflows to 0.0, return None, because 0.0 means that there is no interval.
     return length if length or not high else None
 
 
@@ -192,9 +200,10 @@ def _odd_part(F: Polynomial, ring: SignedRing) -> Polynomial:
 def _first_zero(F: Polynomial, ring: SignedRing, limit: int) -> tuple[Fraction, Fraction] | None:
     """Return an enclosure of the first t > 0 where F changes its sign, or None if F never changes its sign.
 
-    F(0) must be positive. The variable x = t/(1 + t) maps the half-line to [0, 1). Each subinterval has a
-    polynomial, F in a variable that runs from 0 to 1 on the subinterval, times a positive factor. Raises
-    :class:`Undecided` after ``limit`` subintervals.
+    F(0) must be positive. The substitution x = t/(1 + t) maps the half-line t >= 0 to [0, 1). The interval
+    [0, 1) is divided into subintervals. On each subinterval, let u be the variable that increases linearly
+    from 0 to 1. The product of F and a positive function is a polynomial in u, and Descartes' rule of signs
+    is applied to this polynomial. Raises :class:`Undecided` after ``limit`` subintervals.
     """
     backward = _shifted(F[::-1], -1, ring)[::-1]
     intervals = [(backward, Fraction(0), Fraction(1))]
@@ -276,9 +285,11 @@ def _refined(F: Polynomial, ring: SignedRing, a: Fraction, b: Fraction | None) -
 def _nearest(
     sign: Callable[[Fraction], int | None], wanted: int, inner: Fraction, unknown: Fraction
 ) -> Fraction:
-    """Return a point with the sign ``wanted`` near the points whose sign is unknown.
+    """Move ``inner`` towards ``unknown`` by bisection, and return the last point where ``sign`` returns
+    ``wanted``.
 
-    The sign at ``inner`` is ``wanted``, and the sign at ``unknown`` is unknown.
+    At the point ``inner``, ``sign`` must return ``wanted``. At the point ``unknown``, ``sign`` must return
+    None, which means that the sign is unknown.
     """
     for _ in range(COARSE):
         middle = (inner + unknown) / 2
