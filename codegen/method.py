@@ -327,7 +327,9 @@ def _of_library(name: str) -> Tableau:
 
 
 def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:
-    """Return the method that ``given`` denotes: a method, a tableau, or a text such as ``"rkmk(2):rk4"``.
+    """Return the method that ``given`` denotes.
+
+    ``given`` is a method, a tableau, or a text such as ``"rkmk(2):rk4"``.
 
     ``families`` are the families that accept the user's scene. ``family`` is the family in which the tableau
     is used, for example ``"rkmk(2)"``. If neither ``family`` nor the text names a family, the family with the

@@ -189,7 +189,7 @@ def _nested(part: object) -> bool:
 
 
 def _has_entries(part: object) -> bool:
-    """Return True if a part of a state is a list, a tuple, or an array with at least one axis."""
+    """Return True if ``part`` is a list, a tuple, or an array with at least one axis."""
     return getattr(part, "ndim", 0) > 0 if _is_array(part) else isinstance(part, list | tuple)
 
 

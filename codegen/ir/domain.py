@@ -201,8 +201,8 @@ class FloatDomain:
 
     def increment(self, x: float) -> float:
         """Return the increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
-        # The truncation error of the difference quotient is about d, and the rounding error is about 2^-53/d.
-        # For abs(x) <= 1, the increment is d = 2^-26, so both errors have about the same size.
+        # The increment d causes a truncation error of about d and a rounding error of about 2^-53/d. For
+        # abs(x) <= 1, both errors have about the same size, because d is 2^-26.
         return math.ldexp(max(1.0, abs(x)), -26)
 
 

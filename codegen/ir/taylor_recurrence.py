@@ -158,7 +158,7 @@ class _Builder:
             case "pow":
                 return self.integer_power(arg(0), node.payload)
             case "div":
-                # The divisor is c x^e, and ``below`` is the series of x.
+                # ``node`` is a quotient with the denominator c x^e, where x is ``divisor``.
                 c, divisor, e = self.monomial(node.args[1])
                 below = self.known[divisor.id]
                 if e == 1:

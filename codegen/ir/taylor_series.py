@@ -86,7 +86,7 @@ class Multiple(Series):
         self.a, self.number = a, number
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n: ``number`` times coefficient n of ``a``."""
+        """Return coefficient n of the product: c times coefficient n of a."""
         return _scaled(self.domain, self.number, self.a.term(n))
 
 

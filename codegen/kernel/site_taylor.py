@@ -231,7 +231,7 @@ class TaylorSweeps:
         return stored
 
     def _local(self, roots: Sequence[Expr]) -> set[int]:
-        """Return the ids of the expressions that depend on a number in ``self.loads``."""
+        """Return the ids of all subexpressions of ``roots`` that contain a symbol of ``self.loads``."""
         local: set[int] = set()
         for node in walk(roots):
             if (node.op == "sym" and node.payload in self.loads) or any(a.id in local for a in node.args):

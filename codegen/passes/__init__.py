@@ -98,7 +98,7 @@ class Optimiser:
         # An unchanged program is not compared with the reference.
         if new == old:
             return
-        # ``new`` is compared with the program before the first pass, not with ``old``.
+        # ``new`` is not compared with ``old``, but with the program that the first pass received.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
             raise IllFormed(f"the pass {each.name} changed the results of {old.name}: {account}")

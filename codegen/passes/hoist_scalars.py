@@ -50,7 +50,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Expand the nested sums in the sum ``assign``, and return the variable of the result."""
+    """Expand the nested sums in the sum ``assign``, and return a tuple with the variable of the result."""
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)

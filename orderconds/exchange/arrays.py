@@ -267,8 +267,8 @@ def coefficient(text: str) -> str:
     """Convert a number from another program's file to a coefficient of a tableau file.
 
     If ``text`` was probably printed from a double, the result is this double (see
-    :func:`~orderconds.tableau.doubles.is_printed`). Other decimals with at least 12 significant digits become
-    rounded decimals (suffix ``~``).
+    :func:`~orderconds.tableau.doubles.is_printed`). Other decimals with at least 12 significant digits
+    keep their digits, but are marked as rounded (suffix ``~``).
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
     ['0.50', '0.3333333333333333d', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']

@@ -151,8 +151,8 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
 def random_product(ring: Residues, generator: np.random.Generator, size: int, transform: str) -> Magnus:
     """Return a random product of ``size`` exponentials (``transform`` is "exp") or Cayley transforms ("cay").
 
-    The argument of each factor is a random linear combination of the values A_i = h A(c_i h) at ``size``
-    random nodes c_i.
+    The number of nodes c_i is also ``size``, and the nodes are random. The argument of each factor is a
+    random linear combination of all values A_i = h A(c_i h).
 
     >>> import numpy as np
     >>> from orderconds.ring import Residues

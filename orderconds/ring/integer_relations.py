@@ -59,10 +59,11 @@ def root_of(d: int, bits: int) -> Fraction:
 
 
 def quadratic_field(x: Fraction, bits: int) -> int | None:
-    """Return a square-free integer d > 1 such that x is close to an irrational element of Q(sqrt(d)).
+    """Return the square-free integer d > 1 of a quadratic field Q(sqrt(d)) that probably contains x.
 
-    The element is a root of a quadratic polynomial with small integer coefficients. The value of the
-    polynomial at x is close to zero: a small multiple of 2^-bits. Return None if no such element is found.
+    A quadratic polynomial with small integer coefficients is found whose value at x is close to zero: a small
+    multiple of 2^-bits. Its roots are irrational elements of Q(sqrt(d)). Return None if no such polynomial is
+    found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

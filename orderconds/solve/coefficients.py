@@ -1,8 +1,8 @@
-"""Elimination of coefficients by linear constraints, and the texts of the coefficients in a tableau file.
+"""Elimination of coefficients by linear constraints, and the text of each coefficient in a tableau file.
 
-After the elimination, each coefficient is a constant, free, or a function of the free coefficients. In the
-tableau file, constants are numbers, and all other coefficients are names. If a coefficient is a function of
-the free coefficients, the file also contains the formula of this function.
+After the elimination, some coefficients are constants, some are free, and the others are functions of the
+free coefficients. The text of a constant is a number, and the text of every other coefficient is its name. If
+a coefficient is a function of the free coefficients, the file also contains the formula of this function.
 """
 
 from __future__ import annotations

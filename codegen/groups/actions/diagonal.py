@@ -59,7 +59,7 @@ class DiagonalAction(Action):
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the manifold of y1, then the equations of the manifold of y2, and so on."""
+        """Return the equations of the manifolds of all components y1, y2, ... of ``y``, in this order."""
         return tuple(law for action, own in self._parts(group, y) for law in action.laws(d, group, own))
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -160,7 +160,7 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
     A prediction is based on runs of the method in the interpreter. The prediction is unreliable in two cases:
 
     - No run succeeded.
-    - The runs had large errors, and the recipe is implicit or has step-size control.
+    - The runs had large errors, and the method is implicit or has step-size control.
 
     For an unreliable prediction, let q be the predicted time of a single step, divided by the longest time
     limit. The result is q if q > 1, and otherwise 0.
