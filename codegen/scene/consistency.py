@@ -146,8 +146,9 @@ def _digits(orbit: Orbit) -> int:
     front of the decimal point.
     """
     context = orbit.domain.context
-    bits = max((context.mag(orbit.points[-1][s].value) for s in orbit.symbols), default=0)
-    return DIGITS + max(0, math.ceil(bits * math.log10(2)))
+    # The magnitude of zero is minus infinity.
+    bits = max((0, *(context.mag(orbit.points[-1][s].value) for s in orbit.symbols)))
+    return DIGITS + math.ceil(bits * math.log10(2))
 
 
 def check_equal(

@@ -311,7 +311,11 @@ def _changes(values: Sequence[Element], ring: SignedRing) -> int:
 
 def squarefree(p: Polynomial, ring: Ring) -> list[Polynomial]:
     """Return square-free polynomials f_1, f_2, ... such that p is a constant multiple of f_1 f_2^2 f_3^3 ...
-    (Yun 1976)."""
+    (Yun 1976).
+
+    >>> [[str(x) for x in f] for f in squarefree([QQ.rational(x) for x in (0, 1, 2, 1)], QQ)]
+    [['0', '1'], ['1', '1']]
+    """
     common = _gcd(p, _derivative(p, ring), ring)
     rest = _quotient(p, common, ring)
     factors = []
@@ -355,7 +359,11 @@ def _divided(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> tuple[Po
 
 
 def product(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> Polynomial:
-    """Return the product of two polynomials. Its last coefficients are not trimmed."""
+    """Return the product of two polynomials. Its last coefficients may be zero.
+
+    >>> [str(x) for x in product([QQ.rational(x) for x in (1, 1)], [QQ.rational(x) for x in (1, -1)], QQ)]
+    ['1', '0', '-1']
+    """
     result = [ring.zero] * max(len(p) + len(q) - 1, 0)
     for i, x in enumerate(p):
         for j, y in enumerate(q):
@@ -375,6 +383,10 @@ def _trimmed(p: Polynomial, ring: Ring) -> Polynomial:
 
 
 def padded(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> tuple[Polynomial, Polynomial]:
-    """Return two polynomials with zeros appended to the shorter one, so that both have equal length."""
+    """Return two polynomials with zeros appended to the shorter one, so that both have equal length.
+
+    >>> [len(f) for f in padded([QQ.one], [QQ.one, QQ.one, QQ.one], QQ)]
+    [3, 3]
+    """
     size = max(len(p), len(q))
     return [*p, *[ring.zero] * (size - len(p))], [*q, *[ring.zero] * (size - len(q))]
