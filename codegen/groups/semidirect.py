@@ -191,9 +191,10 @@ class Semidirect(
         return self.linear.require(CayleyMap).dcayinv(d, a, b) + tail
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x = (a b a, a.(b.u)) for x = (a, u) and y = (b, v).
+        """Return the matrix product x y x of two elements x and y of the Lie algebra.
 
-        Here x y x and a b a are products of matrices, and b.u is the action of b on the vector u.
+        As a matrix, x = (a, u) has the upper rows (a, u), and its last row is zero. For y = (b, v), the
+        product is (a b a, a b u).
         """
         (a, u), b = self._split(x), self._split(y)[0]
         inner = self.point_velocity(d, y, u, translated=False)

@@ -255,10 +255,9 @@ class ArrayProgram:
         all other arrays get the prefix ``name``.
         """
 
-        # Without the prefix, an array of this program might have the name of an array of the other program.
         def now(matrix: Matrix) -> Matrix:
-            # The matrices ``argument`` and ``result`` keep their names. All other names get the prefix
-            # ``name``.
+            # The matrices ``argument`` and ``result`` keep their names. Without the prefix ``name``, another
+            # matrix could have the same name as a matrix of the other program.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")

@@ -25,10 +25,8 @@ def numbers_held(unit: Unit) -> int:
         # A public function may call another public function, for example ``step`` calls ``run``.
         return held[name] + max(map(together, sorted(calls[name] & public)), default=0)
 
-    # ``held`` contains the number of scalars of each function. ``public`` contains the public functions that
-    # no private function calls. A program calls only one of the functions in ``public`` at a time, so only
-    # the largest number of scalars counts. A compiler may inline all functions that are not in ``public``
-    # into the function that the program calls. Therefore the scalars of these inlined functions are added.
+    # A program calls only one public function at a time. A compiler may inline all other functions into this
+    # function, so their scalars are added.
     return sum(held.values()) - sum(held[name] for name in public) + max(map(together, public))
 
 

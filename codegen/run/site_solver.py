@@ -134,8 +134,8 @@ def _measure(step: SiteStep) -> Function:
     The function MEASURE computes the three numbers that the stopping rule needs.
     """
     work = ARRAYS[WORK]
-    # For each site, the first row contains the largest change of an unknown. The second row contains the
-    # largest absolute value of an unknown. All blocks of equations use the same rows as the first block.
+    # The row ``change_row`` contains the largest change of the unknowns of each site. The row ``size_row``
+    # contains their largest absolute value. All blocks of equations use the rows of the first block.
     change_row, size_row = (row_of(step, row.number) for row in step.sweeps[step.blocks[0].last].measured)
     start = [count("changes"), count("sizes")]
     most, all_changes, largest = real("most"), real("sum"), real("largest_unknown")

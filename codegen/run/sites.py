@@ -147,7 +147,8 @@ class Loop:
     def near(self) -> bool:
         """True if ``sweep_K`` calls fast sines, cosines and Stumpff functions that are valid only near zero.
 
-        The condition is that all mathematical functions in the sweep can be computed without branches.
+        These functions have no branches, so a compiler can vectorise the sweep. They are used only if all
+        other functions that the sweep calls have no branches either.
         """
         before, inside, _ = split(self.own.kernel, set())
         called = called_by([*before, *inside])

@@ -26,7 +26,7 @@ ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1,
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
 """A map from names to pairs of formulas. The two formulas of each pair must be equal.
 
-If the second formula is None, the first formula must equal the velocity f.y in the equation y' = f.y.
+If the second formula is None, the first formula must equal the right-hand side of the differential equation.
 """
 
 

@@ -92,8 +92,8 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return default values for missing keys of a tableau that is stored as arrays. ``names`` contains
-        the names of the arrays."""
+        """Return default values for keys that a file of arrays does not contain. ``names`` contains the names
+        of the arrays in the file."""
         return {}
 
     def coefficients(self) -> Places:

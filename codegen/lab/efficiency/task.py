@@ -27,12 +27,13 @@ BUDGET = 50.0
 
 @dataclass(frozen=True)
 class Task:
-    """The task of a search: a scene, and the methods to search.
+    """The task of a search for fast methods: a scene, and the methods to compare.
 
     - ``scene``: the name of the scene.
     - ``span``: a time span that replaces the time span of the scene, or None.
     - ``budget``: the longest time of the search in seconds.
-    - ``methods``: pairs (label, adaptive) of the methods to search, or () for the methods of the library.
+    - ``methods``: a pair (label, adaptive) for each method, or () for all methods of the library. The entry
+      ``adaptive`` is True if the method uses step-size control.
     - ``tableaux``: the names of the permitted tableaux, or () for all tableaux. ``tableaux`` is used only if
       ``methods`` is empty.
     """

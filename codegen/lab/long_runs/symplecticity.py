@@ -110,7 +110,7 @@ def symplectic_defect(
     ``state`` contains the coordinates of a group element and of its momentum. The scene must be Hamiltonian.
     If fixed-point iteration fails for an implicit step, Newton's method starts from the approximate solution
     ``near``. Raises ArithmeticError or ValueError if no solution is found, or if the group element or the
-    momentum has no size.
+    momentum is zero before and after the step.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)
