@@ -146,9 +146,7 @@ class Loop:
     @property
     def near(self) -> bool:
         """True if ``sweep_K`` calls fast sines, cosines and Stumpff functions that are valid only near zero.
-
-        These functions have no branches, so a compiler can vectorise the sweep. They are used only if all
-        other functions that the sweep calls have no branches either.
+        They have no branches, and are used only if all other functions in the sweep have no branches either.
         """
         before, inside, _ = split(self.own.kernel, set())
         called = called_by([*before, *inside])
