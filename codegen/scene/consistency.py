@@ -148,7 +148,7 @@ def _digits(orbit: Orbit) -> int:
     context = orbit.domain.context
     # The magnitude of zero is minus infinity.
     bits = max((0, *(context.mag(orbit.points[-1][s].value) for s in orbit.symbols)))
-    return DIGITS + math.ceil(bits * math.log10(2))
+    return DIGITS + math.ceil(float(bits) * math.log10(2))
 
 
 def check_equal(
