@@ -86,6 +86,15 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
+            # An input of a tree may be a symbol that simplification removed from the expressions. Emitted
+            # code does not compute this symbol, so the tree is not replaced by a call.
+            added = _symbols(rewritten_roots) - _symbols(roots)
+            if added:
+                called = [tree for alike in chosen.values() for tree in alike]
+                trees = [tree for tree in called if added.isdisjoint(_symbols(self.trees.inputs(tree)))]
+                if len(trees) == len(called):
+                    return None
+                continue
             # Simplification may have removed some of the new calls, so the remaining calls are counted.
             calls: dict[str, int] = {}
             for node in walk(rewritten_roots):
@@ -246,3 +255,7 @@ class Outline:
             f"the step of {self.program.name} computed an infinity or a NaN at every test point",
             expected="coefficients and parameters of moderate size",
         )
+
+
+def _symbols(roots: Sequence[Expr]) -> set[str]:
+    return {node.payload for node in walk(roots) if node.op == "sym"}

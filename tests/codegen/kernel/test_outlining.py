@@ -245,3 +245,9 @@ def test_functions_have_the_parameters_of_the_scene_that_they_read():
     for integrator in integrators:
         assert integrator.run(state, 1e-4, 10, nu=2.0) == pytest.approx(expected, rel=0, abs=1e-15)
         assert integrator.run(state, 1e-4, 10, nu=3.0) != pytest.approx(expected, rel=0, abs=1e-12)
+
+
+def test_a_call_does_not_read_a_symbol_that_simplification_removed():
+    """Unknown k5_6 is an input of a repeated tree, but no expression of this step depends on it."""
+    kernel = compile_method("lyapunov_exponents", "cg:lobatto3d5").kernel
+    assert kernel.name
