@@ -85,8 +85,9 @@ def family_of(method: Method) -> Family:
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
     """Return the order of a method for a scene.
 
-    On an abelian group, the methods of some families reduce to methods of a classical family. If the
-    coefficients have enough digits to decide the order in the classical family, this order is returned.
+    On an abelian group, the methods of some families reduce to methods of a classical family. For these
+    families and an abelian group, the order in the classical family is returned if the coefficients have
+    enough digits to decide this order.
 
     In all other cases, the order in the family of the method is returned. If the coefficients have too few
     digits to decide this order, MethodError is raised.

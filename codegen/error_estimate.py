@@ -54,8 +54,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # If the field depends only on the time, methods of different orders can give the same result, and the
-    # error estimate, the difference between both results, is then zero.
+    # If the field depends only on the time, two methods of different orders can give the same result. The
+    # error estimate is the difference of the two results, so it is zero in this case.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
             f"no error estimate for {method.label}: the results of the method and its embedded method have "

@@ -66,7 +66,8 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
     """
     if not isinstance(given, Sequence):
         raise TypeError(
-            f"expected a list of functions or Event objects for the argument events, found {described(given)}"
+            "expected a list of functions or Event objects as the argument 'events', "
+            f"found {described(given)}"
         )
     if len(given) > most:
         raise ValueError(

@@ -260,8 +260,9 @@ class Integrator(RunToEnd):
                     failed.arrival = replace(last, accepted=accepted, rejected=rejected, states=restore(rows))
                 raise failed from None
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # If only one step led to ``time``, this step may have been shortened to end there. Then
-            # ``arrival.h`` may be too small.
+            # If only one step led to ``time``, this step may have been shortened to end at ``time``. Then
+            # ``arrival.h``, the proposed size of the next step, may be too small, and the larger of ``h`` and
+            # ``arrival.h`` is used.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -436,8 +437,8 @@ class Integrator(RunToEnd):
 def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, object]]:
     """Return pairs (name, value) for the run-time inputs.
 
-    For M inputs and N = ``number`` systems, ValueError is raised if the shape of ``inputs`` is not (M,) or
-    (N, M).
+    M is the length of ``names``, and N is ``number``, the number of systems. If the shape of ``inputs`` is
+    neither (M,) nor (N, M), ValueError is raised.
     """
     import numpy as np
 

@@ -83,8 +83,8 @@ if TYPE_CHECKING:
     type=click.IntRange(0),
     default=0,
     metavar="N",
-    help="The number of event functions. The function that --integrate emits also finds zeros of the event "
-    "functions. This option implies --integrate.",
+    help="The number of event functions. This option implies --integrate. The function that integrates to a "
+    "given end time then finds zeros of the event functions.",
 )
 @click.option(
     "--compensate",

@@ -143,7 +143,9 @@ def show(run: LongRun) -> None:
     else:
         click.echo("  the scene has no conserved quantity")
     for steps, distance in run.reversals:
-        click.echo(f"    distance {distance:.2e} from the start after {steps} steps forward and as many back")
+        click.echo(
+            f"    distance {distance:.2e} from the start after {steps} steps forward and {steps} steps back"
+        )
     if run.rounding:
         rows = [
             [

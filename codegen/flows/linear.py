@@ -96,7 +96,7 @@ def recognise(formula: Formula) -> Part | None:
     square = [[sum((L[i][k] * L[k][j] for k in n), Fraction(0)) for j in n] for i in n]
     if any(square[i][j] for i in n for j in n if i != j) or any(square[i][i] > 0 for i in n):
         return formula.refused(
-            "its flow solves z' = M z + c, but M^2 is not diagonal, or has a positive diagonal entry"
+            "its flow solves z' = M z + c, but a formula is known only if M^2 is diagonal with entries <= 0"
         )
     squares = tuple(-square[i][i] for i in n)
     return formula.whole(Linear(tuple(map(tuple, L)), tuple(c), squares))

@@ -27,7 +27,6 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """Return a :class:`Part` without an exact flow if the formula contains the time, otherwise None."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 

@@ -52,11 +52,11 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 def _exponentials(
     d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
 ) -> tuple[S, S]:
-    """Return the coefficients of t and t^2 in a series.
+    """Return the coefficients of t and t^2 in a series, where t = ad_x.
 
-    The series is the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``, without the terms of degree 0
-    and -1 in t. Like ad_x, the variable t satisfies t^3 = -z t. Therefore t^3, t^4 and so on are multiples of
-    t or t^2. The number j is 0 or 1. If z can be negative, ``signed`` is true.
+    The series is the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``, but the powers t^0 and t^-1
+    are omitted. Because of t^3 = -z t, the powers t^3, t^4, ... are multiples of t or t^2. The number j is 0
+    or 1. If z can be negative, ``signed`` is true.
     """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"
@@ -95,7 +95,7 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
 
 
 def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
-    """Return b and c with 1/dexp(s t) = 1 + b t + c t^2, where t^3 = -z t.
+    """Return b and c with 1/dexp(s t) = 1 + b t + c t^2 for t = ad_x with t^3 = -z t.
 
     The results are b = -s/2 and c = s^2 (c_2 - c_3)/(4 c_1). Here c_k is the value of the Stumpff function
     with index k at s^2 z/4.

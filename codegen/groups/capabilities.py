@@ -188,9 +188,10 @@ class ClosedFormSeries(Coadjoint):
         Here f is a number, and W is a product of factors as in :meth:`series`. If ``dual`` is true, ad*_x
         replaces ad_x.
 
-        The caller may pass a function ``total`` that adds vectors f v faster. For a tuple of indices i,
-        ``total`` must return the sum of f v over the triples ``terms[i]``. The method chooses the indices,
-        and need not call ``total``. If ``total`` is None, the method itself adds the vectors f v.
+        The caller may pass a function ``total`` that adds vectors f v faster. The argument of ``total`` is a
+        tuple of indices. ``total`` must return the sum of f v over the triples in ``terms`` with these
+        indices. The method chooses the indices, and need not call ``total``. If ``total`` is None, the method
+        itself adds the vectors f v.
         """
 
 

@@ -15,9 +15,9 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     """T*G, the magnetic extension of G (Arnold and Khesin, I.10.B), with the product
     (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu). The coordinates of g come before the coordinates of mu.
 
-    An element of the algebra is a pair (xi, n). A vector field with the values f(q, mu) = (xi, n) has the
-    differential equations q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27 of H. Marthinsen's thesis), where xi.q
-    is the derivative of exp(eps xi) q at eps = 0.
+    An element of the algebra is a pair (xi, n). Let xi.q be the derivative of exp(eps xi) q at eps = 0. A
+    vector field with the values f(q, mu) = (xi, n) has the differential equations q' = xi.q and
+    mu' = n - ad*_xi mu (eq. 2.27 of H. Marthinsen's thesis).
 
     - The bracket is [(x, m), (y, n)] = ([x, y], ad*_y m - ad*_x n).
     - The exponential is exp(xi, n) = (exp xi, dexp*_{-xi} n).
@@ -85,7 +85,8 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def offers(self, capability: type[C]) -> C | None:
         """Return this group if it has the operations of the class ``capability``. Otherwise return None.
 
-        T*G has :class:`Projection` or :class:`Inverse` only if the base group has this capability.
+        T*G has :class:`Projection` only if the base group has :class:`Projection`. The same rule holds for
+        :class:`Inverse`.
         """
         own = super().offers(capability)
         return None if capability in (Projection, Inverse) and self.base.offers(capability) is None else own

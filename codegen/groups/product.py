@@ -59,8 +59,9 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         Otherwise return None.
         """
         own = super().offers(capability)
-        # Every direct product has the operations of DirectProduct and of its base classes. If ``capability``
-        # is one of these classes, it does not matter which operations the factors have.
+        # Every direct product has the operations of DirectProduct and of the base classes of DirectProduct.
+        # For these classes, the factors are not tested. For all other classes, each factor must have the
+        # operations, too.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None

@@ -445,7 +445,7 @@ class Semidirect(
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of q under the covering map."""
+        """Return the image of q under the covering map from the group :attr:`cover` to this group."""
         g, a = self._over(q)
         return self._covered().covering(d, g) + a
 

@@ -287,7 +287,8 @@ class SO3(
     def determined(self) -> tuple[tuple[int, ...], ...]:
         """Return six tuples: the indices of the entries of each row and of each column, rows first.
 
-        A row (column) is the cross product of the other two rows (columns).
+        The entries of each tuple can be computed from the other entries, because a row (column) is the cross
+        product of the other two rows (columns).
         """
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))

@@ -54,8 +54,8 @@ def simplified(word: Word) -> Word:
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
     """
-    # Each key of ``powers`` describes a factor dexp or dexpinv, and the value is its total power. The product
-    # of all exponential factors is exp(``rate`` t).
+    # Each key of ``powers`` describes a factor dexp or dexpinv, and the value is its total power. All factors
+    # exp(s t) in ``word`` are joined to one factor exp(``rate`` t), where t is the variable of the functions.
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:
@@ -71,7 +71,7 @@ def simplified(word: Word) -> Word:
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
-            # The factor exp(``rate`` t) is now part of the factor dexp(-s t), so no exponential remains.
+            # By this rule, dexp(-s t) replaces both dexp(s t) and exp(``rate`` t), so no exponential remains.
             rate = Fraction(0)
     # Sorting makes the result independent of the order of the factors in ``word``.
     factors = [Factor("exp", rate)] if rate else []

@@ -70,7 +70,8 @@ Entry = Expr | tuple[Number, ...]
 class Diagonal:
     """A diagonal of a matrix a: the entries a_{i, i + offset}.
 
-    If ``entry`` is a tuple, it contains the entries of the diagonal from top to bottom.
+    ``entry`` is a tuple of these entries from top to bottom, or a formula for the entries in :data:`ROW` and
+    :data:`COLUMN`.
     """
 
     offset: int
@@ -93,8 +94,8 @@ class ConstantMatrix:
 
     @property
     def entries(self) -> tuple[Entry, ...]:
-        """The attribute ``entry`` of each diagonal. For a matrix that is not stored by diagonals, the result
-        is (``full``,).
+        """The attribute ``entry`` of each diagonal. If the matrix is not stored by diagonals, the result has
+        one element: the attribute ``full``, which contains all entries or a formula for them.
         """
         return tuple(d.entry for d in self.diagonals) or (self.full,)
 
@@ -161,7 +162,7 @@ class Multiplication:
 
     @property
     def inner(self) -> int:
-        """The number of products that are added for one entry of the matrix product."""
+        """The number of columns of the left factor L, equal to the number of rows of the right factor R."""
         return self.left.rows if self.left_transposed else self.left.columns
 
 

@@ -57,7 +57,7 @@ class Move:
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).
     - ``core`` is S, and ``gram`` is B^T B.
-    - ``start`` is the displacement of X, or None if X is X_0.
+    - ``start`` is the matrix with X = X_0 + B ``start`` (the displacement of X), or None if X is X_0.
     - ``start`` may have fewer rows than ``target``. The missing rows are zero.
     """
 
@@ -74,8 +74,9 @@ class Move:
         """
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        # The beginning of this module defines B, C, G, S and phi. ``products`` counts the multiplications for
-        # four results: G S, the norm of B S B^T, G C, and S phi(G S) G C.
+        # Let S be ``core``, let G be ``gram``, and let X = B C. The statement computes S phi(G S) G C,
+        # because exp(B S B^T) X = B (C + S phi(G S) G C). The four terms of ``products`` are the numbers of
+        # multiplications for G S, for the norm of B S B^T, for G C, and for S phi(G S) G C.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 

@@ -236,8 +236,9 @@ class BallDomain:
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: arb) -> arb:
-        """Return an increment d such that (f(x + d) - f(x))/d approximates the derivative f'(x) of a smooth
-        function f accurately.
+        """Return an increment d for an accurate difference quotient (f(x + d) - f(x))/d.
+
+        The function f is smooth.
         """
         # For abs(x) <= 1, the increment is d = sqrt(eps). The difference quotient has a rounding error of
         # about eps/d and a truncation error of about d. The two errors are equal for d = sqrt(eps).

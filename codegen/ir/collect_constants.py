@@ -45,7 +45,8 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
             # The next line stores the node as a sum with one term: the number 1 times the node. Because of
             # this entry, ``work.whole`` does not rewrite the node.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # The expressions in ``bare`` are not rewritten, so their operations are not counted.
+    # ``still`` contains the ids of expressions that are not rewritten. The function ``_operations`` below
+    # does not count the operations in these expressions.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
     # A subexpression that occurs several times in ``roots`` may occur in several different forms in

@@ -39,7 +39,7 @@ def both(a: Condition, b: Condition) -> Condition:
 
 
 def always(yes: Expr, no: Expr) -> Expr:
-    """The condition that is always true."""
+    """Return ``yes``. As a :data:`Condition`, this function represents a condition that is always true."""
     return yes
 
 

@@ -151,6 +151,6 @@ def _selection(node: Expr) -> list[Expr]:
         return [sign(x)]
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
-    # ``choose(x, a, b)`` is piecewise constant as a function of x.
-    # A derivative with respect to a constant is never used, so it is set to zero.
+    # ``choose(x, a, b)`` is piecewise constant in x, so its derivative with respect to x is zero.
+    # If a or b is a constant, the derivative with respect to this constant is never used and is set to zero.
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

@@ -93,7 +93,8 @@ def stumpff(k: int, z: float) -> float:
         return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
-    # For s = sqrt z < 2, the difference s - sin s in the formula for c_3 loses digits by cancellation.
+    # For k = 3 the series is used up to z = 4. For small z, the closed formula c_3 = (s - sin s)/s^3 with
+    # s = sqrt z loses digits by cancellation.
     if z < (0.5 if k < 3 else 4.0):
         # The first omitted term of the series is below 1e-27 for abs(z) <= 4.
         total, j = 0.0, 14
@@ -148,8 +149,8 @@ def curvature(k: int, z: float) -> float:
 
 
 class FloatDomain:
-    """The arithmetic of IEEE doubles. If a fixed-point iteration has not converged after ``patience`` sweeps,
-    Newton's method replaces it."""
+    """The arithmetic of IEEE doubles. Implicit stages are solved by at most ``patience`` fixed-point sweeps.
+    If these sweeps do not converge, Newton's method is used."""
 
     patience = 40
 
@@ -248,7 +249,7 @@ class PreciseDomain:
             return args[0] / args[1] if args[1] else args[0] * 0
         if selects(function):
             return selected(self, function, args, sign_of_number)
-        # The sine of a larger argument would need more than ``LARGEST_BITS`` bits of pi.
+        # For an argument above 2^LARGEST_BITS, the sine would need more than ``LARGEST_BITS`` bits of pi.
         if any(self.context.mag(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
@@ -304,9 +305,9 @@ class PreciseDomain:
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return the pair (converged, change) after a sweep, which replaces the values ``old`` by ``new``.
-        ``change`` is the largest absolute entry of ``new`` - ``old``. ``converged`` is true in two cases. In
-        the first case, ``change`` is zero. In the second case, ``change`` has the size of rounding errors and
-        is at least ``previous``, the change in the preceding sweep.
+        ``change`` is the largest absolute entry of ``new`` - ``old``, and ``previous`` is the change in the
+        preceding sweep. If ``change`` is zero, ``converged`` is true. It is also true if ``change`` has the
+        size of rounding errors and no longer decreases (``change`` >= ``previous``).
         """
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
@@ -485,8 +486,8 @@ class ExprDomain:
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return a dictionary from the function names ``names`` to symbols. The symbols denote the values of
-        the functions at the time t.
+        """Return a dictionary with one symbol for each name of a function in ``names``. The symbol denotes
+        the value of the function at the time t.
         """
         # For equal times, all calls must return the same symbols.
         if t.id not in self.samples:

@@ -47,8 +47,8 @@ def degrees(bits: int) -> tuple[int, ...]:
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
-    # With all degrees up to m, emitted code would sometimes use a lower degree and compute fewer products of
-    # a matrix and a vector. The gain is small, so only every fourth degree is used.
+    # Emitted code uses the lowest degree in this list that is accurate enough. A list of all degrees up to m
+    # would save few operations, so the list contains only every fourth degree.
     return tuple(range(m, 3, -4))[::-1]
 
 
@@ -146,10 +146,11 @@ class ExponentialAction(VectorFunction):
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
         both = (*block, *v, *y)
-        # The block matrix contains zeros, so simpler expressions for the results may exist.
+        # The block matrix contains zeros. If ``expanded`` can omit these zeros, it returns simpler
+        # expressions for the results, otherwise None.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
-        # The derivatives are the first half of the results.
+        # The first half of ``results`` is the derivative of exp(A) y, and the second half is exp(A) y itself.
         return tuple(results[:n])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
@@ -161,7 +162,8 @@ class ExponentialAction(VectorFunction):
           :class:`ExponentialAction`. Its arguments are the non-zero entries of A, and y.
         - If A has more rows, the result is None.
         """
-        # If ``pattern`` is not 0, the arguments already omit the zero entries of A.
+        # If ``pattern`` is not 0, the arguments already omit the zero entries of A, so no simpler form is
+        # returned.
         if self.pattern:
             return None
         size = self.n**2
@@ -250,7 +252,8 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # A finite series has at most ``longest`` terms.
+        # A finite series has at most ``longest`` terms. If the loop finds no zero term, the series is
+        # therefore infinite.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)

@@ -215,7 +215,7 @@ class Space:
             # The product of two constants is exact, because constants are rounded only when they are printed.
             if b.op == "mul" and b.args[0].op == "const" and _joinable(a, b.args[0]):
                 return self.mul(self.const(a.payload * b.args[0].payload), b.args[1])
-        # A minus sign is moved out of the product, because it can then turn a sum into a difference.
+        # The product (-x) y becomes -(x y), because a sum z + (-(x y)) then becomes the difference z - x y.
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":

@@ -215,8 +215,8 @@ class _Reader:
             # A negative power is infinite for the base 0.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # Emitted code evaluates all branches of a Piecewise. In a branch that is not selected,
-            # ``guarded`` replaces the base by 1, because sqrt and its derivative are finite at 1.
+            # Emitted code evaluates all branches of a Piecewise. In a branch that is not selected, sqrt or
+            # its derivative could be infinite or NaN, so ``guarded`` replaces the base by 1.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
             # For odd n > 0, the power x^(n/2) is x^m sqrt(x) with m = (n - 1)/2.

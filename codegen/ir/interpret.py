@@ -87,7 +87,8 @@ def interpret(
             # The first list in the queue ``near`` contains the initial values for this block.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
-            # A fixed-point sweep is cheaper than a Newton step, because it needs no difference quotients.
+            # Fixed-point iteration is tried first, because Newton's method needs expensive difference
+            # quotients.
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
             expected.update((unknown, env[unknown]) for unknown in statement.unknowns)
     return {name: env[var] for name, var in program.outputs}

@@ -159,7 +159,10 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """The factor ``close`` in the second case of the stopping rule (see :class:`Loop`)."""
+        """A loop for u = g(u) may end if the last change is at most ``close`` times the largest unknown.
+
+        A second condition is that the predicted change of a further sweep is at rounding level.
+        """
         # The last sweep computes the values in ``body`` before it changes the unknowns. The error of these
         # values is therefore about as large as the last change of the unknowns. If the code after the loop
         # does not read these values, a larger last change is allowed.
@@ -186,9 +189,9 @@ class Start:
 
     A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then the
     step size grows to h. Each solution provides the first values for the next larger step size. After a
-    successful step size s < h, the next step size is s times a growth factor, but at most h. If the longer
-    step fails, a smaller growth factor is tried. The continuation fails after ``TRIES`` attempts, or if the
-    growth factor becomes 1 + ``SHORTEST`` or less.
+    successful step size s < h, the next step size is s times a growth factor, but at most h. If this longer
+    step fails, the growth factor is reduced. The continuation fails if the reduced growth factor is at most
+    1 + ``SHORTEST``, or if ``TRIES`` attempted steps do not reach the step size h.
     """
 
     unknowns: tuple[str, ...]
@@ -202,8 +205,8 @@ class Start:
     ROUGH: ClassVar[float] = 0.5
     # Successful continuations need far fewer than 100 attempts.
     TRIES: ClassVar[int] = 100
-    # If the growth factor becomes 1 + ``SHORTEST`` or less, the continuation fails, because the step size
-    # would hardly grow. ``SHORTEST`` is a bound for the relative increase of the step size.
+    # ``SHORTEST`` is a lower bound for the relative increase of the step size. The continuation fails if the
+    # growth factor is at most 1 + ``SHORTEST``, because the step size would hardly grow.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -301,19 +304,17 @@ class Expansion:
     itself, ``enter`` and ``leave`` are None. If ``controlled`` is true, a run may choose the step size from
     the Taylor coefficients.
 
-    ``coefficients`` is a kernel that computes Taylor coefficients. ``following`` is a second kernel, or None.
-    If ``following`` is None, the outputs of the kernel ``coefficients`` are the Taylor coefficients of the
-    orders 1, 2, ..., ``degree``.
+    If ``following`` is None, the kernel ``coefficients`` computes the Taylor coefficients of the orders
+    1, 2, ..., ``degree``.
 
-    If ``following`` is not None, a loop over the order n computes the Taylor coefficients
+    If ``following`` is a kernel, a loop over the order n computes the Taylor coefficients
     (:class:`codegen.ir.taylor_loop.OrderLoop`). The kernel ``coefficients`` is executed before this loop. The
     loop needs some values that do not depend on n (``OrderLoop.first``). These values are the first outputs
     of the kernel ``coefficients``. The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
-    Each product has one inner sum for each n, and ``sums`` is the number of products. Pass n of the loop
-    first computes the inner sums of all products. Then the loop executes the kernel ``following``, which has
-    these outputs, in this order:
+    Pass n of the loop first computes ``sums`` inner sums, one for each product of two series. Then the loop
+    executes the kernel ``following``, which has these outputs, in this order:
     - a_n for each product,
     - b_n for each product,
     - the Taylor coefficients of order n + 1.

@@ -95,8 +95,8 @@ class LinearArrayStep:
     - ``matrix`` is the matrix A(t) of the equation y' = A(t) y.
     - ``times`` are the times t_i at which A(t) is evaluated.
     - ``letters`` are linear combinations of the matrices h A(t_i).
-    - ``commutators`` contains the pair (X, Y) for each commutator [X, Y]. X and Y may contain commutators
-      with smaller indices.
+    - ``commutators`` contains the pair (X, Y) for each commutator [X, Y]. X and Y may contain commutators of
+      earlier pairs.
     - ``exponents`` are X_1, ..., X_m in this order.
     """
 
@@ -114,7 +114,7 @@ class LinearArrayStep:
 
     def products(self, element: Element) -> int:
         """Return the number of matrix-vector products that are needed to multiply ``element`` by a vector."""
-        # A letter is one matrix, so the multiplication of a letter by a vector is one product.
+        # The part of ``element`` without commutators is one matrix and needs one matrix-vector product.
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
             # The commutator needs the products Y v, X (Y v), X v and Y (X v).

@@ -152,7 +152,8 @@ def _product(space: Space, a: _Dual, b: _Dual) -> _Dual:
 
 
 def _inverse(space: Space, a: _Dual) -> _Dual:
-    # The reciprocal of v_1 h has a pole at h = 0, so no expansion exists.
+    # Let v_0 + v_1 h be the expansion of ``a``. For v_0 = 0, the reciprocal has a pole at h = 0 and no
+    # expansion.
     if a.value[0].is_zero:
         raise NotLinearised("a divisor vanishes at h = 0")
     # To first order in h, 1/(v_0 + v_1 h) is 1/v_0 - (v_1/v_0^2) h.

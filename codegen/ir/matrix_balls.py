@@ -64,8 +64,7 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
     an entry of a matrix X. Let e be the maximum of |E| over all derivatives E of A in ``jet``. The errors of
     the results have these bounds:
     - The error of each entry of exp(A) is at most 2^-``bits`` |exp(A)|.
-    - Let D be a derivative of exp(A). Let b be the maximum of the two numbers |D| and |exp(A)| (e + e^2).
-      The error of each entry of D is at most 2^-``bits`` b.
+    - The error of each entry of a derivative D of exp(A) is at most 2^-``bits`` max(|D|, |exp(A)| (e + e^2)).
 
     OverflowError is raised in three cases:
     - An entry of ``jet`` is not finite.
@@ -85,8 +84,8 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
             result = _first_row(arb_mat(block_matrix(n, level, jet)).exp().tolist(), level)
             if _is_accurate(size, bits, jet, result):
                 return tuple(x.mid() for x in result)
-        # The loop ends at the latest when ``bits + extra`` exceeds MOST_BITS. Because ``extra`` is doubled,
-        # this happens after few attempts.
+        # If no result is accurate, the loop ends with an error when ``bits + extra`` exceeds MOST_BITS.
+        # Because ``extra`` is doubled, there are few attempts.
         extra *= 2
     raise OverflowError(f"the exponential of a matrix is not accurate with {MOST_BITS} bits")
 
@@ -138,6 +137,7 @@ def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2
-    # The block matrix is [[A, E], [0, A]]. The jet consists of A and E.
+    # The block matrix is [[A, E], [0, A]]. Only the upper blocks A and E are read, because the lower blocks
+    # contain no other entries.
     a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
     return [*_first_row(a, level - 1), *_first_row(e, level - 1)]

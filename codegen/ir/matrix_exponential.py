@@ -109,7 +109,11 @@ def _norm(a: Sequence[float]) -> float:
 
 
 def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> list[Scalar]:
-    """Return the product of the jets ``a`` and ``b`` of level ``level`` (see the module docstring)."""
+    """Return the product of the jets ``a`` and ``b``.
+
+    A jet contains 2^``level`` matrices of size n x n: a matrix A and derivatives of A (see the module
+    docstring).
+    """
     size, rows = n * n, range(n)
     result: list[Scalar] = []
     for parts in pairs(level):
@@ -167,7 +171,8 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     The bound is exp(``scale`` b). Gershgorin's circles give an upper bound b of the eigenvalues of the
     symmetric part of ``a``.
     """
-    # The maximum does not begin at 0, because all row sums may be negative.
+    # ``largest`` becomes b, the maximum of ``total`` over all rows. It does not begin at 0, because b may be
+    # negative.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]

@@ -51,8 +51,8 @@ class BilinearFunction(VectorFunction):
         # function, and a' and b' are the derivatives of the matrices a and b.
         for pair in ((*rates[:size], *args[size:]), (*args[:size], *rates[size:])):
             changing = rates[:size] if pair[:size] == tuple(rates[:size]) else rates[size:]
-            # ``changing`` is a' or b'. If ``changing`` is zero, the term with this derivative is zero and is
-            # omitted.
+            # ``changing`` is the derivative of one of the two matrices. If this derivative is zero, its term
+            # in the sum is zero and is omitted.
             if not all(x.is_zero for x in changing):
                 term = space.vector(self.name, pair)
                 total = tuple(x + y for x, y in zip(total, term, strict=True))
@@ -95,7 +95,10 @@ class BilinearFunction(VectorFunction):
         return self.arithmetic(args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the entries of f(a, b), where f is this function and ``args`` are power series."""
+        """Return the entries of the result for two matrices of power series.
+
+        ``args`` are the entries of the first matrix, followed by the entries of the second matrix.
+        """
         return self.arithmetic(args)
 
 

@@ -54,7 +54,7 @@ class NormalForms:
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
-            # The node numbers of a and b are sorted, so the relations for a b and for b a have the same key.
+            # The node numbers are sorted, so the key does not depend on the order of the two factors a and b.
             i, j = sorted((self._atom(space.sym(a)), self._atom(space.sym(b))))
             right: Polynomial = {}
             for factor, symbols in terms:

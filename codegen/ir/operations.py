@@ -64,7 +64,7 @@ class Operation(ABC):
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """``takes`` are the kinds of the arguments, and ``gives`` are the kinds of the results. Classes whose
+    """The kinds of the results. The attribute ``takes`` contains the kinds of the arguments. Classes whose
     kinds depend on parameters override :meth:`signature`.
     """
     # Compiler passes use linearity to simplify programs, for example ad_x(c v + w) = c ad_x v + ad_x w.
@@ -72,8 +72,8 @@ class Operation(ABC):
     """True if the result is linear in the last argument."""
     # The reported cost has two parts: the exponentials, and the evaluations of the vector field.
     evaluates_scene: ClassVar[bool] = False
-    """True if the operation counts as one evaluation of the vector field or of the derivatives of the
-    Hamiltonian.
+    """True if the reported cost counts the operation as one evaluation. Examples are the vector field and the
+    derivatives of a Hamiltonian.
     """
     exponentials: ClassVar[int] = 0
     """The number of exponentials in the reported cost. A coordinate map or an exact flow counts as one."""
@@ -155,8 +155,10 @@ class Linear(Operation):
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if there is one argument for each coefficient, and all arguments and the only result
-        belong to the same space: the Lie algebra or its dual.
+        """Return True if three conditions hold:
+        - There is one argument for each coefficient.
+        - There is exactly one result.
+        - The arguments and the result all belong to the Lie algebra, or all belong to its dual.
         """
         # A sum without terms is not accepted: its kind would be unknown.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
@@ -178,7 +180,8 @@ class Linear(Operation):
             groups.setdefault(c, []).append(x)
         total: Value = None
         for c, vectors in groups.items():
-            # A dictionary keeps the order of insertion, so the order of the additions is fixed.
+            # The entries of ``groups`` are in the order of insertion, so the vectors are always added in the
+            # same order.
             part = vectors[0]
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
@@ -209,7 +212,7 @@ class Advance(Operation):
 
 
 class OfGroup(Operation):
-    """An operation that the group, its action or the scene evaluates."""
+    """An operation that is evaluated by the group, by the action of the group, or by the scene."""
 
     @property
     def function(self) -> str:
@@ -386,7 +389,10 @@ class InverseDexp(Operation):
 
     @property
     def word(self) -> Word:
-        """A tuple whose only element is the truncated series of dexp^{-1}."""
+        """The operation as a product of functions of ad_x, or of ad*_x if ``dual`` is true.
+
+        The only factor is the truncated series of dexp^{-1}.
+        """
         # If two functions of the same ad_x are applied one after the other, a compiler pass replaces the two
         # operations by one :class:`AdSeries`.
         return (Factor("dexpinv", UNIT, self.order),)
@@ -444,9 +450,9 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """A tuple whose only element is the function f(t) = (e^t - 1)/t.
+        """The operator dexp*_x as a product of functions of ad*_x, the transpose of ad_x.
 
-        The operator dexp*_x is f(ad*_x), where ad*_x is the transpose of ad_x.
+        The only factor is the function f(t) = (e^t - 1)/t, because dexp*_x = f(ad*_x).
         """
         return (Factor("dexp", UNIT),)
 

@@ -31,9 +31,11 @@ class AffineAction(Action):
         for k, x in enumerate(basis):
             if any(matrices.hat(d, x)[n * (n - 1) :]):
                 raise SceneError(
-                    f"{group.name} has no affine action: basis matrix {k} has a nonzero last row",
+                    f"{group.name} has no affine action: basis matrix {k} of the Lie algebra has a nonzero "
+                    "last row",
                     where=where,
-                    expected="a group of matrices [[A, b], [0, 1]]",
+                    expected="a group of matrices [[A, b], [0, 1]], whose Lie algebra consists of matrices "
+                    "[[L, c], [0, 0]]",
                     hint="use Linear() for linear maps of columns",
                 )
 

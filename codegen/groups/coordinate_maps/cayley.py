@@ -26,8 +26,8 @@ class Cayley(CoordinateMap):
             raise SceneError(
                 f"{group.name} has no Cayley map",
                 where=where,
-                expected="a group whose algebra contains x^3 for each of its elements x, such as SO(3), S^3, "
-                "SL(2) or SE(3)",
+                expected="a group whose Lie algebra contains x^3 for every x in the algebra, such as SO(3), "
+                "S^3, SL(2) or SE(3)",
                 hint='write coordinates="exp", or define the methods cay and dcayinv in a group class that '
                 "inherits CayleyMap",
             )

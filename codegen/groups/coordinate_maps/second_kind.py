@@ -47,8 +47,8 @@ class SecondKind(CoordinateMap):
         """Return the solution v of the linear system dtau_x v = y."""
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # The system is solved in the form Ad_g^-1 dtau_x v = Ad_g^-1 y with g = exp(x_1 e_1), because the
-        # matrix of Ad_g^-1 dtau_x needs fewer operations than the matrix of dtau_x.
+        # Both sides of the system dtau_x v = y are multiplied by Ad_g^-1 with g = exp(x_1 e_1). The matrix of
+        # the new system needs fewer operations.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]

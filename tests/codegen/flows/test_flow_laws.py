@@ -159,7 +159,7 @@ def test_a_stated_flow_has_no_field():
         ),
         (
             lambda q, p: p[0] * q[0],
-            "its flow solves z' = M z + c, but M^2 is not diagonal, or has a positive diagonal entry",
+            "its flow solves z' = M z + c, but a formula is known only if M^2 is diagonal with entries <= 0",
         ),
     ],
 )

@@ -219,7 +219,12 @@ class TestAReaderOfAScene:
                 12,
                 "4 columns with 3 rows cannot be orthonormal; expected at most 3 columns",
             ),
-            (SO3(), AffineAction(), 2, "basis matrix 0 has a nonzero last row; .*use Linear"),
+            (
+                SO3(),
+                AffineAction(),
+                2,
+                "basis matrix 0 of the Lie algebra has a nonzero last row; .*use Linear",
+            ),
             (SO3(), FactorwiseAction(Rotation()), 3, "SO.3. has no factors, which .*LeftMultiplication"),
             (
                 Product(SO3(), Rn(1)),

@@ -341,7 +341,7 @@ def test_what_cannot_be_split_is_told():
     )
     hyperbolic = particle(lambda q, p: p.dot(p) / 2 - q.dot(q) / 2, lambda q, p: q[0] ** 3)
     assert (
-        "its flow solves z' = M z + c, but M^2 is not diagonal, or has a positive diagonal entry"
+        "its flow solves z' = M z + c, but a formula is known only if M^2 is diagonal with entries <= 0"
         in refused(hyperbolic, "splitting:strang")
     )
     assert "the tableau rk4 has the format rk, which these families cannot use: splitting" in refused(

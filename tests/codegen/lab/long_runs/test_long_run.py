@@ -217,7 +217,7 @@ def test_the_command_prints_every_kept_quantity():
         "energy",
         "momentum_about_vertical",
         "manifold",
-        "steps forward and as many back",
+        " steps back",
         "symplectic defect",
     ):
         assert word in done.output
