@@ -102,8 +102,8 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         return 0.0
     # The exact value is rounded only once, because two roundings can give a wrong result.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The integer part of |exact|/2^exponent has ``bits`` or ``bits`` + 1 bits. If it has ``bits`` + 1 bits,
-    # ``exponent`` is increased by one, so that ``bits`` bits remain.
+    # The integer part of |exact|/2^exponent must have ``bits`` binary digits. If |exact|/2^exponent is at
+    # least 2^bits, ``exponent`` is increased by one.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer than ``bits`` significant bits.
     exponent = max(exponent, SUBNORMAL[bits])

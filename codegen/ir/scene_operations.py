@@ -132,8 +132,8 @@ class Secant(OfGroup):
     """A discrete differential of the energy, for the arguments g, x, H0 and H1.
 
     The group element exp(x) moves a point with the energy H0 to a point with the energy H1. The covector g
-    approximates the differential of the energy between the two points. The result is the covector c with
-    <c, x> = H1 - H0 that is closest to g in the Euclidean norm.
+    approximates the differential of the energy between the two points. The result is a covector c with
+    <c, x> = H1 - H0. Among all covectors with this property, c is the closest to g in the Euclidean norm.
     """
 
     # The arguments are a covector, an element of the Lie algebra, and two energies.

@@ -51,7 +51,7 @@ def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign
         return x
     if function == ABSOLUTE:
         return -x if order < 0 else x
-    # For x = 0, the result is ``args[2]``.
+    # ``choose`` selects ``args[1]`` if x is positive (``order`` is 1), and ``args[2]`` if x is negative or 0.
     return args[1] if order > 0 else args[2]
 
 

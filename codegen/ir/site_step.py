@@ -170,7 +170,7 @@ class SiteNewton:
         n = self.size
         # The linear equations of Newton's method have the residuals as right-hand side.
         read, written = self._substituted()
-        # Newton's method adds the solution of the linear equations to the values of the unknowns.
+        # The update reads the old values and the corrections of the n unknowns, and writes the new values.
         read, written = read + 2 * n, written + n
         return (read + n * n + n, written + n) if periodic else (read, written)
 
@@ -225,7 +225,7 @@ class SiteStep:
     - ``dimension`` is the dimension of the lattice. ``offsets[k]`` is the position of neighbour k relative to
       a site.
     - ``sweeps`` are the loops over all sites. If ``flows`` is empty, the step executes the sweeps in the
-      order of the tuple.
+      order of the tuple. Otherwise, the step executes one sweep for each flow, in the order of ``flows``.
     - ``size`` is the number of rows of the state.
     - ``rows`` is the number of rows of the workspace for intermediate results.
     - ``flows`` are the exact flows of a splitting method, in the order of execution. The first flow reads the

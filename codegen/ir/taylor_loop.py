@@ -267,7 +267,8 @@ class _Loop:
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
                 pairs = zip(slopes, rates, strict=True)
-                # The derivative of a constant coordinate is zero, so the coordinate contributes no term.
+                # ``means`` has no entry for a constant coordinate, because the derivative of the coordinate
+                # is zero.
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])

@@ -25,10 +25,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeMomentum(Operation):
-    """The update of the momentum u conjugate to the time t, after a linear step from y to Y.
+    """The update of the coordinate u in a step of a linear Hamiltonian system that depends on the time t.
 
-    Let Q and P be the positions and the momenta in Y. The new value of u is u + (Q.P' - P.Q')/2. The prime
-    denotes the derivative with respect to t for fixed y and fixed step size h.
+    In the extended phase space, t is an additional position, and u is the momentum conjugate to t. The step
+    maps y to Y = M(t) y. Let Q and P be the positions and the momenta in Y. The new value of u is
+    u + (Q.P' - P.Q')/2. The prime denotes the derivative with respect to t for fixed y and fixed step size h.
 
     The arguments are the points (y, u) and (Y, u), and the time t. The program ``step`` computes Y from y and
     t, and does not change u. Therefore both points contain the old value of u.
@@ -63,7 +64,8 @@ class TimeMomentum(Operation):
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")
         inputs = {"y": point, "t": time}
-        # The derivative is taken for fixed y.
+        # ``_increment`` differentiates ``end`` with respect to t for fixed y: the symbols in ``point`` do not
+        # depend on t.
         end = interpret(self.step, problem, formal, inputs)["y"]
         values = problem.values(domain, start, t) | {"h": domain.h}
         return evaluate([_increment(end[:-1], time)], domain, values)[0]

@@ -47,8 +47,8 @@ GENERAL = MatrixExponential(2 * ROWS)
 def most_squarings(bits: int) -> int:
     """Return the largest allowed number of squarings in the scaling and squaring method.
 
-    Let 2^-``bits`` be the unit roundoff. For s squarings, the bound 2^(s - ``bits`` + 6) of the relative
-    error must not exceed 2^-10, about three correct decimal digits.
+    Let 2^-``bits`` be the unit roundoff. For s squarings, the relative error is at most
+    2^(s - ``bits`` + 6). This bound must not exceed 2^-10, so that about three decimal digits are correct.
 
     >>> most_squarings(53)
     37

@@ -91,7 +91,7 @@ def compiled(
     The function ``refusal`` returns the error that is raised for a method with implicit stages.
     """
     lowered = lower(model, method)
-    # ``blocks.run`` replaces explicit stages by assignments, so only implicit stages remain here.
+    # ``blocks.run`` replaces explicit stages by assignments, so all other statements are implicit stages.
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
         expected = "an explicit method for a scene with large matrices"
         raise refusal(scene, f"{method.label} has implicit stages", expected)
@@ -236,9 +236,10 @@ class _Builder:
         return target
 
     def displaced(self, target: Matrix, displacement: Matrix | None) -> None:
-        """Append the assignment ``target`` = X_0 + B D with the basis B and D = ``displacement``.
+        """Append the assignment ``target`` = X_0 + B D, where X_0 is the state at the beginning of the step.
 
-        If D is zero, ``displacement`` is None.
+        D is the matrix ``displacement``, or zero if ``displacement`` is None. If D has m rows, B consists of
+        the first m columns of the matrix ``self.basis``.
         """
         self.sum(target, (self.one, self.argument))
         if displacement is not None:
@@ -278,15 +279,15 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append statements that compute a matrix S with B S B^T = W X^T - X W^T, and return S.
+        """Append statements that compute the matrix S defined below, and return S.
 
         - B consists of the first n columns of the matrix ``self.basis``, where n = ``first`` + k and
           k = ``self.k``. The first k columns of B are the state X_0 at the beginning of the step.
         - W consists of the last k columns of B.
-        - X is the point X_0 + B D. ``displacement`` is the matrix D, or None if D is zero. If D has
-          fewer than n rows, the missing rows are zero.
-
-        The matrix S has n rows and n columns.
+        - D is the matrix ``displacement``, or zero if ``displacement`` is None. If D has fewer than n rows,
+          the missing rows are zero.
+        - X is the matrix X_0 + B D.
+        - S is a matrix with n rows and n columns, and B S B^T = W X^T - X W^T.
         """
         k = self.k
         # ``self.sum`` without terms sets all entries of the matrix ``core`` to zero.
@@ -361,8 +362,9 @@ class _Builder:
     def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
         """Append statements that compute dexp^{-1}_x y by its series, and return the result.
 
-        The series is truncated after the term with ``order`` nested brackets. An element B S B^T of the
-        algebra is represented by S.
+        The series is truncated after the term with ``order`` nested brackets. Each of the matrices x, y and
+        the result represents an element of the Lie algebra: with B = ``self.basis``, a matrix S represents
+        the element B S B^T.
         """
         terms, power = [(self.one, y)], y
         # With the Bernoulli numbers B_k, dexp^{-1}_x y is y + B_1/1! [x, y] + B_2/2! [x, [x, y]] + ....

@@ -131,7 +131,8 @@ class Assignments:
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("the initial guess of an iteration depends on unknowns")
         for node in walk(values):
-            # Nodes in ``later`` must be assigned even if a step skips the ``Start`` statement.
+            # A step may skip the ``Start`` statement, but the loops and the outputs still read the nodes in
+            # ``later``. Therefore these nodes are assigned before the ``Start`` statement.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
@@ -154,15 +155,19 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if the values of loop k that are read after the loop are cheap to compute.
+        """Return True if it is cheap to compute values of loop k again after the loop.
 
-        Cheap means less than half the cost of one iteration of loop k.
+        Later loops and the outputs read some values of loop k. The computation of these values is cheap if
+        its cost is less than half the cost of one iteration of loop k.
         """
         rest = [*self._later(k), *self.roots]
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
-        """Return the cost of the level-k operations in ``roots`` (:meth:`_prepare` defines the level)."""
+        """Return the cost of the operations in ``roots`` that depend on the unknowns of loop k.
+
+        Operations that also depend on the unknowns of a later loop are not counted.
+        """
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 

@@ -87,7 +87,7 @@ class Frames:
         group, symbols = self.scene.body_group, self.scene.symbols
         if group is None:
             return tuple(Field(b.name, b.symbols, _meaning(b.kind, self.scene)) for b in self.scene.state)
-        meaning = f"left-trivialised momentum (body frame) in the dual algebra of {group.name}"
+        meaning = f"left-trivialised momentum (body frame) in the dual of the Lie algebra of {group.name}"
         return (
             Field("q", symbols[: group.size], f"element of {group.name}{group.layout}"),
             Field("mu", symbols[group.size :], meaning),
@@ -99,9 +99,9 @@ class Frames:
 
         If the two kernels are not needed, the result is None.
         """
-        # The kernels are needed only if the program uses the body frame, the emitted code uses the space
-        # frame, and ``whole`` is false. In all other cases, the steps convert the momentum, or no conversion
-        # is needed.
+        # If ``_alike`` is true, the program and the emitted code use the same frame, and no momentum is
+        # converted. If ``whole`` is true, or if the emitted code uses the body frame (``body_group`` is not
+        # None), each step converts the momentum.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)
@@ -116,7 +116,7 @@ class Frames:
 def _meaning(kind: Kind, scene: Problem) -> str:
     group, action = scene.group, scene.action
     if kind is Kind.DUAL:
-        return f"right-trivialised momentum in the dual algebra of {group.name}"
+        return f"right-trivialised momentum in the dual of the Lie algebra of {group.name}"
     # If a group acts on itself, a point is an element of the group.
     if kind is Kind.POINT and not action.on_itself:
         return f"point on which {group.name} acts by {action.name}"

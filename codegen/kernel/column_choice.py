@@ -50,9 +50,10 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     # flows and ``scene.group`` is not a group T*G, all variants give the same kernel.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # With run-time inputs, no flow is deferred: the inputs can change in each step.
+    # A deferred flow is applied only once in a run. A scene with run-time inputs has no deferred flows,
+    # because the inputs can change in each step.
     parted = None if scene.inputs else part(program, scene)
-    # Deferred flows are applied once in a run of many steps, so their cost is neglected.
+    # The cost of the deferred flows is neglected, because a run has many steps.
     core = program if parted is None else parted.core
     # The costs of complete steps are compared, because different operations can share subexpressions.
     candidates: list[tuple[Kernel, Problem, int]] = []
@@ -70,7 +71,8 @@ def fastest(program: Program, scene: Problem) -> Kernel:
 def _shortest(kernels: Sequence[Kernel]) -> Kernel:
     """Return the kernel whose step has the shortest estimated time.
 
-    A kernel without outlined functions is considered only if no kernel has outlined functions.
+    If some of the kernels contain outlined functions, only these kernels are compared. Otherwise, all kernels
+    are compared.
     """
     # The instruction cache limits the speed of a long step, so the shorter code with outlined functions is
     # preferred.

@@ -83,8 +83,8 @@ def with_carries(kernel: Kernel) -> Kernel:
         state=(*kernel.state, *fields),
         body=_live(body, (*sums, *carries)),
         outputs=(*sums, *carries),
-        # Deferred flows are executed before the first step or after the last step of a run, and would not
-        # update the stored rounding errors. Therefore the compensated kernel has no deferred flows.
+        # Only the steps of a run update the stored rounding errors. Therefore no flow is moved out of the
+        # steps: the compensated kernel has no deferred flows.
         deferred=None,
         estimate=None,
         vary=None,
@@ -99,7 +99,7 @@ def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement
     for statement in reversed(body):
         if isinstance(statement, Let) and statement.name not in needed:
             continue
-        # A kernel with only this statement is formed, because only kernels have the method ``expressions``.
+        # ``expressions`` is a method of kernels, so ``statement`` is put into a kernel of its own.
         roots = replace(_EMPTY, body=(statement,)).expressions()
         needed |= {n.payload for n in walk(roots) if n.op == "sym"}
         kept.append(statement)
@@ -112,7 +112,8 @@ _EMPTY = Kernel("", (), (), (), ())
 class Increments:
     """Finds the increment d in expressions of the form x + d or 1 + d, where x is a symbol.
 
-    Neither x nor 1 is subtracted, so no leading digits are lost by cancellation.
+    In floating-point arithmetic, the differences (x + d) - x and (1 + d) - 1 would lose leading digits by
+    cancellation. Therefore d is found by symbolic transformations of the expression.
     """
 
     def __init__(self, kernel: Kernel) -> None:
@@ -144,7 +145,8 @@ class Increments:
         if e.op == "mul":
             # A product is commutative, so either argument can contain the old coordinate.
             for factor, base in (e.args, e.args[::-1]):
-                # For a factor f, a base b and the symbol x: f b - x = (f - 1) b + (b - x).
+                # Let f be ``factor``, b ``base`` and x the symbol ``name``. The increment of the product f b
+                # is f b - x = (f - 1) b + (b - x).
                 rest, more = self.of(base, name), self.less_one(factor)
                 if rest is not None and more is not None:
                     return more * base + rest

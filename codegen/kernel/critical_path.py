@@ -5,8 +5,8 @@ c_1 and c_2. Then
 
     k (m - g (d + c_1 v + c_2 w)) becomes k (m - g d) - c_1 (k g v) - c_2 (k g w).
 
-The terms in parentheses can be computed before c_1 and c_2 are known. The new expression has more products,
-so only the longest chains are rewritten.
+The products k (m - g d), k g v and k g w can be computed before c_1 and c_2 are known. The new expression has
+more products, so only the longest chains are rewritten.
 """
 
 from __future__ import annotations
@@ -146,7 +146,10 @@ class _Chains:
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return the ids of nodes that may be expanded to sums of products."""
+        """Return the ids of the nodes (subexpressions) at which long chains of linear operations end.
+
+        These nodes may be expanded to sums of products.
+        """
         ends = set()
         for node in self.nodes:
             for arg in node.args:
@@ -166,10 +169,9 @@ class _Chains:
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        # The expression ``self.new[node.id]`` replaces ``node``. A sum stored in ``self.sums`` may contain
-        # this expression. Later, a different expression may be assigned to ``self.new[node.id]``. After this
-        # assignment, the stored sum must not be used. Therefore the key contains the id of
-        # ``self.new[node.id]``.
+        # The key contains the id of ``self.new[node.id]``, the expression that replaces ``node``, because the
+        # stored sum may contain this expression. If another expression replaces ``node`` later, the key is
+        # different, and a new sum is computed.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -191,9 +193,10 @@ class _Chains:
             return total
         if node.op == "mul":
             a, b = node.args
-            # The level of a node is the largest number of slow operations in a chain that ends at the node.
-            # The argument with the lower level becomes ``a``. The product is expanded if the level of ``a``
-            # is below ``level``.
+            # ``self.level`` contains, for each node, the largest number of slow operations in a chain that
+            # ends at the node. The argument with the smaller number becomes ``a``. If this number is below
+            # the bound ``level``, ``a`` is known early. Then ``b`` is expanded, and each term of the sum is
+            # multiplied by ``a``.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
@@ -202,7 +205,8 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # ``node`` is not expanded. The sum has one term: ``node`` with the sign 1 and the factors 1 and 1.
+        # ``node`` is not expanded. In the notation s k v c of :data:`Sum`, the only term has s = k = v = 1,
+        # and c is the expression that replaces ``node``.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:

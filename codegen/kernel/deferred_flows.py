@@ -69,9 +69,9 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # All entries of ``joined`` contain the same two durations.
+    # All joined flows have the same duration ``later``, and the same duration ``last`` in the last step.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
-    # ``heads`` and ``tails`` are the indices of joined flows at the beginning and at the end of a step.
+    # The flows ``tails`` at the end of a step are joined with the flows ``heads`` of the next step.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     # The previous step has already applied the flows with the indices ``heads``.
@@ -106,7 +106,9 @@ def _is_h(letter: Letter) -> bool:
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow, and the variable that replaces its duration, or None if the flow keeps its duration."""
+"""A pair (flow, variable). The variable replaces the duration of the flow. If the second entry is None, the
+flow keeps its duration.
+"""
 
 JoinedFlows = tuple[int, int, Number, Number]
 """A leading flow of a step and a final flow of the previous step, which are joined into one.

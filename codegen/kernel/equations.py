@@ -23,7 +23,8 @@ from codegen.passes.rewrite import uses
 MANY = 12
 """For at most MANY unknowns, each product a (b + c) in Newton's matrix is expanded to a b + a c.
 
-For more unknowns, a product may keep its factor b + c if this sum contains neither the unknowns nor h.
+For more unknowns, a product is not expanded if b + c is a value from outside the loop of the solver, and if
+b + c contains neither the unknowns nor h.
 """
 
 LONGEST_MATRIX = 1500
@@ -76,8 +77,8 @@ def compared(
     ``block`` and ``entered`` describe the same equations. The matrix is -r'(u), expanded to first order in h.
     The result is None if ``block`` has no residuals, or if the residuals cannot be expanded in h.
 
-    The function also changes ``env``. Suppose that a sweep (one iteration) changes the unknowns from u to
-    u + d. Some values v(u + d) in ``env`` are replaced by the approximation v(u) + J d, where the matrix J is
+    The function also replaces some values in ``env`` by cheaper approximations. If a sweep (one iteration)
+    changes the unknowns from u to u + d, the approximation of a value v(u + d) is v(u) + J d. The matrix J is
     v'(u) to first order in h. Only elements of a Lie algebra or of its dual space are replaced.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))

@@ -300,7 +300,7 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
     order: list[Var] = []
 
     def visit(v: Var) -> None:
-        # The inputs of the program have no statements.
+        # No statement computes an input of the program, so the inputs are not added to ``order``.
         if v not in statements or v in order:
             return
         for arg in statements[v].args:

@@ -93,7 +93,12 @@ class _Element:
 
 @dataclass(frozen=True)
 class _Map:
-    """The affine map u -> exp(a z) u + h b, where z is h times the eigenvalue of L."""
+    """The affine map u -> exp(a z) u + h b, where u is the coefficient of one Fourier mode.
+
+    The number z is h times the eigenvalue of the linear operator L for this mode. The term b is a linear
+    combination of values of the nonlinearity N. The attribute ``b`` contains the coefficients of this linear
+    combination.
+    """
 
     a: Number
     b: Sum
@@ -218,7 +223,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
-                # The exponent 1 of h is arbitrary, because the vector field is zero.
+                # The exponent of h (third argument) is arbitrary, because zero times a power of h is zero.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)
@@ -266,8 +271,8 @@ class _Execution:
         """Record an evaluation of the nonlinearity N at ``point`` and ``time``."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # The result is the vector field u -> lambda u + N_j. N_j is the value of N in the evaluation that was
-        # just recorded, and j is the index of this evaluation.
+        # Let N_j be the value of N in the evaluation that was just recorded, where j is the index of this
+        # evaluation. The ``_Element`` with a = 1, b = N_j and power = 0 is the vector field lambda u + N_j.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:

@@ -26,7 +26,9 @@ STEP = "step"
 """In dictionaries of operation counts, the key for the operations outside loops."""
 
 START = "start"
-"""The key for the operations of the initial guess."""
+"""In dictionaries of operation counts, the key for the operations that compute the starting values of
+implicit equations in the first step of a run.
+"""
 
 
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
@@ -66,7 +68,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
-        # Each substep repeats the operations outside loops and the operations of the initial guess.
+        # The counts for the whole step are multiplied by the number of substeps. All other counts are for one
+        # sweep of a loop or for one matrix.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
@@ -138,7 +141,7 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
     for block, numbers in counts.items():
         each = ", ".join(f"{n} {name}" for name, n in numbers.items()) or "none"
         if block == START:
-            lines.append(f"{each} for an initial guess, in the first step of a run")
+            lines.append(f"{each} once in each run, for the initial guess of the first step")
         elif block == STEP:
             lines.append(f"{each} a step")
         elif block.startswith("matrix of "):
@@ -163,7 +166,7 @@ def costs(kernel: Kernel) -> list[str]:
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the start of a run, {last} at the end of a run")
     for each_kernel in kernel.deferred.kernels if kernel.deferred is not None else ():
-        # ``sentences`` returns more than one line only for a kernel with loops. The kernels in
+        # For a kernel without loops, ``sentences`` returns exactly one line. The kernels in
         # ``kernel.deferred`` have no loops.
         (line,) = sentences(operations(arrange(each_kernel)))
         lines.append(f"{line.removesuffix(' a step')} once in each run")

@@ -42,7 +42,8 @@ class _Inputs:
 
         Let c = a h^p with a number a. ``x`` is a symbol or a constant with the value a.
         """
-        # The symbol is named ``FUNCTION.ARGUMENT``.
+        # The name of the symbol ``x`` is the name of the function, a dot, and the name of the argument. The
+        # text contains only the name of the argument.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
@@ -87,7 +88,7 @@ def function(
         if assign.terms:
             # Equal coefficients of a sum share one argument.
             own_terms = distinct(assign)
-            # In ``numbers``, the coefficients of this sum begin at the index ``first``.
+            # ``numbers`` contains the coefficients of all sums. Those of ``assign`` begin at index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
             # ``x`` is the coefficient ``c`` without its power of h.

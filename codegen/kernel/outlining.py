@@ -188,9 +188,9 @@ class Outline:
 
         waiting = list(roots)
         while waiting:
-            # Each element of ``trees`` is a group of assignments that a function call can replace. The keys
-            # of ``ends`` are the ids of the values that these calls return. ``walk`` stops at such a value,
-            # because the operations that compute the value are inside the function.
+            # A tree is a group of assignments that a function call can replace. The keys of ``ends`` are the
+            # ids of the results of all trees. ``walk`` stops at these results, because the operations of a
+            # tree would be inside the function.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]
@@ -205,8 +205,11 @@ class Outline:
     def _even(self, tree: Tree, read: set[int]) -> bool:
         """Return True if one function call can compute all needed results of ``tree``.
 
-        ``read`` contains the indices of the needed results. One call is not enough if some needed results are
-        computed outside the loop that contains the call, or if an input of the call may depend on a result.
+        ``read`` contains the indices of the needed results. The function returns True if both conditions are
+        satisfied:
+
+        - All needed results are computed in the loop that would contain the call.
+        - No input of the call can depend on a needed result.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
         # The loop of block ``deepest`` contains the function call. Results that do not depend on the unknowns

@@ -42,7 +42,8 @@ class Execution:
     """One executed assignment with the values of its arguments and of its results.
 
     ``place`` is the number of the block that contains the assignment, or -1 outside blocks. If ``joined`` is
-    false, no outlined function can contain the assignment.
+    false, no :class:`Tree` contains the assignment. A tree is a group of assignments that can become a
+    function.
     """
 
     assign: Assign
@@ -69,7 +70,7 @@ class Tree:
 
     @property
     def root(self) -> int:
-        """The index of the last assignment. It computes the results of the tree."""
+        """The index of the last assignment, which computes the results of the tree."""
         return self.members[-1]
 
 
@@ -96,7 +97,8 @@ class Trees:
     ) -> None:
         """Record an assignment. ``place`` is the number of the block that contains it, or -1 outside blocks.
 
-        If ``joined`` is false, no outlined function can contain the assignment.
+        If ``joined`` is false, no :class:`Tree` contains the assignment. A tree is a group of assignments
+        that can become a function.
         """
         assign, args = self._from_the_whole(assign, args)
         self.executions.append(
@@ -186,7 +188,8 @@ class Trees:
         # twice: in a function for the trees that are not joined, and in the function for the joined trees.
         # The same is true for ``second``.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # Each of the ``k`` pairs needs one function call in place of two. This saves about three lines.
+        # A function call takes about three lines. Joining the two trees of a pair replaces two calls by one,
+        # so each of the ``k`` pairs saves three lines.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
@@ -315,7 +318,8 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
     The coefficient 1 has the label 0. Two coefficients have the same label only if both c and k are equal.
     """
     seen: dict[Coefficient, int] = {}
-    # Products with equal coefficients are computed once, and a product with the coefficient 1 is omitted.
+    # Equal coefficients of a sum share one argument of the outlined function. The coefficient 1 is not an
+    # argument.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 
 

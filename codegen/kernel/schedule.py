@@ -45,7 +45,7 @@ class SharedCall:
 
     @property
     def function(self) -> str:
-        """The name of the called function. The digits in the name are the numbers in ``orders``.
+        """The name of the called function: ``stumpff_``, followed by the numbers in ``orders``.
 
         For example, ``stumpff_12`` computes the Stumpff functions c_1 and c_2.
         """
@@ -233,7 +233,8 @@ def _alone(function: Function) -> Kernel:
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
     if isinstance(statement, Let):
         return [statement.value]
-    # The expressions of a ``Start`` statement are excluded, because a step may skip this statement.
+    # For a :class:`Loop`, the result contains the starting values of the unknowns. For a :class:`Start`, the
+    # result is empty, because a step may skip this statement.
     return statement.starts if isinstance(statement, Loop) else []
 
 
@@ -329,7 +330,9 @@ class _Scope:
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        If ``kept`` is false, later statements may use another name in place of ``let.name``.
+        If ``kept`` is true, the last statement assigns ``let.name``. If ``kept`` is false, this assignment is
+        omitted for a value that a function call returns. In this case, :meth:`rewrite` replaces ``let.name``
+        by the name of the returned value.
         """
         value = self.rewrite(let.value)
         before = self.take()
@@ -372,8 +375,8 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The expression ``argument`` is the rewritten form of ``node.args[0]``. Each key of ``self.orders``
-        # is the id of an expression before rewriting. Hence ``node.args[0].id`` is the key.
+        # The keys of ``self.orders`` are the ids of arguments before rewriting. Therefore the key is the id
+        # of ``node.args[0]``, and not the id of the rewritten expression ``argument``.
         orders = self.orders[node.args[0].id]
         # One call returns the Stumpff functions c_k for all k in ``orders``. Each result gets a name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
@@ -387,7 +390,8 @@ class _Scope:
     def _results(self, node: Expr) -> int | None:
         """Return the number of results of the function that ``node`` calls.
 
-        The result is None for all functions except outlined functions and vector functions.
+        The function must be a vector function or a function in ``self.outlined``. For all other functions,
+        None is returned.
         """
         vector = component(node.payload)
         return self.outlined.get(node.payload.partition(".")[0]) if vector is None else vector[0].size

@@ -29,7 +29,7 @@ Exception: some linear combinations are stored in rows (:mod:`codegen.kernel.sit
 """
 
 EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
-"""Operations that evaluate formulas of the scene, possibly with the states of neighbours."""
+"""Operations that evaluate formulas of the scene. The formulas may contain states of neighbouring sites."""
 
 
 @dataclass(frozen=True)
@@ -140,7 +140,8 @@ class Execution:
             # ``share`` returns the contribution of one site to the energy of the lattice. This contribution
             # depends on which neighbours of the site exist.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
-        # The coordinates of the point are symbols, so the results are formulas.
+        # The differential is evaluated at a point whose coordinates are symbols. This evaluation gives the
+        # formulas for the components of the differential.
         if isinstance(operation, Differential):
             domain = ExprDomain(self.problem.roots[0].space)
             point = tuple(map(domain.space.sym, self.problem.symbols))
@@ -160,7 +161,10 @@ class Execution:
         return space.sym(name)
 
     def _around(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> Bindings:
-        """Return a dictionary that maps each symbol in the formulas of the scene to its value."""
+        """Return the values of all symbols in the formulas of the scene, at one site and at its neighbours.
+
+        ``args`` are the values of ``variables`` at the site: the blocks of the state, and possibly the time.
+        """
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
@@ -187,8 +191,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # Each name must have a single value in ``self.ghosts``. If a name in ``loaded`` already has a value
-        # that differs from its value in ``ghosts``, all names in ``loaded`` are replaced by new names.
+        # The dictionary ``self.ghosts`` has one value for each name. If ``self.ghosts`` and the argument
+        # ``ghosts`` contain different values for a name, all names in ``loaded`` are replaced by new names.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}

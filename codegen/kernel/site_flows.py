@@ -93,9 +93,9 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     body = tuple(statement for statement in schedule.run() if isinstance(statement, Let))
     # In one sweep each site belongs to only one pair, so a sweep over pairs can work in place.
     array = RESULT if part.symbols else STATE
-    # ``side`` is 0 for the site itself, and 1 for the other site of the pair. The third argument of ``Load``
-    # is the number of a neighbour. For ``side`` = 0, this number is -1, which denotes the site itself. For
-    # ``side`` = 1, this number is 0.
+    # ``side`` is 0 for the first site of a pair (or for a single site), and 1 for the second site. The third
+    # argument of ``Load`` must be -1 for the first site and 0 for the second site
+    # (:class:`codegen.ir.site_step.Sweep`).
     loads = [Load(s, Row(array, k), side - 1) for side, own in enumerate(names) for k, s in enumerate(own)]
     stores = [Row(RESULT, k) for _ in names for k in range(size)]
     about = f"flow of {part.name}" + (f", pairs along axis {part.axis}" if part.symbols else "")

@@ -30,8 +30,8 @@ from codegen.scene.sites import Sites
 MEASURED = 2
 """The stopping rule uses this number of rows of the workspace.
 
-For each site, one row contains the largest change of the unknowns of this site. The other row contains the
-largest absolute value of these unknowns.
+Each of the rows has one entry for each site. In one row, the entry is the largest change of the unknowns of
+the site. In the other row, the entry is the largest absolute value of these unknowns.
 """
 
 
@@ -60,9 +60,9 @@ class _Block:
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
         """Return pairs (unknown, new value) for the sweep with the index ``number``.
 
-        For the sweep before the first iteration, the new values are the starting values ``solve.starts``. For
-        the last sweep of an iteration, the new values are the values ``solve.images``. For all other sweeps,
-        the result is empty.
+        For ``number`` = ``first`` - 1, the sweep precedes the iterations, and the new values are the starting
+        values ``solve.starts``. For ``number`` = ``last``, the sweep is the last one of an iteration, and the
+        new values are ``solve.images``. For all other sweeps, the result is empty.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -373,7 +373,8 @@ class Planner:
         stored = [(self.rows[unknown], value) for unknown, value in copies]
         measured = tuple(Row(WORK, count + k) for k in range(MEASURED)) if ending and not self.newton else ()
         if ending and self.newton:
-            # With Newton's method, this sweep stores residuals, and only the solver changes the unknowns.
+            # In fixed-point iteration, this sweep stores the new values of the unknowns. In Newton's method,
+            # the sweep stores residuals in other rows, and the solver changes the unknowns.
             free = (Row(WORK, k) for k in itertools.count(count))
             stored = [(tuple(islice(free, len(rows))), value) for rows, value in stored]
         stored += [(self.rows[v], v) for v in kept]

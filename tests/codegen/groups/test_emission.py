@@ -78,7 +78,7 @@ def test_the_order_of_a_quaternions_coordinates_is_stated():
     manifest = emit_compiled(compiled("hamiltonian", "S^3", "vcg:midpoint"), "c").manifest
     assert [f["meaning"] for f in manifest["state"]] == [
         "element of S^3, real part first",
-        "right-trivialised momentum in the dual algebra of S^3",
+        "right-trivialised momentum in the dual of the Lie algebra of S^3",
     ]
     product = emit_compiled(compiled("hamiltonian", "SO(3) x R^2", "cf:cf4"), "c").manifest["state"][0]
     assert product["meaning"] == (
