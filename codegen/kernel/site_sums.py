@@ -46,7 +46,10 @@ def with_sums(program: Program, problem: Problem) -> Program:
 
 
 def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign, ...]:
-    """Return the assignments that replace ``assign``."""
+    """Compute each sum over all sites in a separate assignment, and then the targets of ``assign``.
+
+    If ``assign`` needs no such sum, return only ``assign``.
+    """
 
     # An inner product needs two operations: one at each site, and one that adds the results of all sites.
     def total(name: str, x: Var, y: Var) -> Var:

@@ -132,9 +132,8 @@ class TaylorSweeps:
         unchanged:
 
         - The lattice has no open boundary.
-        - At the open boundary, each coordinate of a missing neighbour is a constant or is equal to the same
-          coordinate of the site. Then a coefficient that is zero at all sites is also zero outside the
-          lattice.
+        - Outside the lattice, each coordinate is a constant or a copy of the same coordinate at the boundary
+          site. Then a coefficient that is zero at all sites is also zero outside the lattice.
         - ``degree`` is the largest degree. No neighbour reads these coefficients.
         """
         if degree == self.degree:
@@ -151,7 +150,10 @@ class TaylorSweeps:
         return ghost.op == "const" or (ghost.op == "sym" and ghost.payload == self.symbols[k])
 
     def _append(self, terms: Sequence[Coefficient], degree: int) -> list[Row]:
-        """Give each coefficient a row and a symbol, append the symbols to the series, and return the rows."""
+        """Reserve memory for the nonzero Taylor coefficients in ``terms``, and return the reserved rows.
+
+        A row contains one number for each site.
+        """
         rows: list[Row] = []
         every: list[Row] = []
         own: list[str] = []
@@ -225,8 +227,8 @@ class TaylorSweeps:
                 if reused(node):
                     stored.writer.setdefault(node.id, first[node.id])
                     stored.nodes[node.id] = node
-                    # ``stored.last`` maps ``node.id`` to the number of the last sweep that reads ``node``
-                    # from memory. The number of a later sweep replaces the number of an earlier sweep.
+                    # The sweeps are visited in order. Therefore the final value of this entry is the number
+                    # of the last sweep that reads ``node`` from memory.
                     stored.last[node.id] = n
         return stored
 
@@ -258,9 +260,9 @@ class TaylorSweeps:
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # ``rows`` contains the rows of the stored expressions. When a sweep computes the values at a
-            # site, the sweep reads the entries of these rows at this site, but no entries at neighbouring
-            # sites. Therefore the last sweep that reads a row may also overwrite this row.
+            # ``rows`` contains the rows of the stored expressions. The entry of a row for one site is only
+            # read to compute the values at this site, before these values are stored. Therefore the last
+            # sweep that reads a row may also overwrite this row.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
             # The values in ``names`` were stored by earlier sweeps.

@@ -77,9 +77,9 @@ def to_kernel(
     - ``chains`` selects a treatment of the critical path: AS_WRITTEN (no change), COMBINED, ORDERED or
       SHORTENED. The docstring of these constants describes the treatments. If the program has implicit
       equations, ``chains`` must be AS_WRITTEN.
-    - ``whole`` matters only if the program uses the body frame and the emitted code uses the space frame. If
-      ``whole`` is true, each step converts the momentum between the two frames. If ``whole`` is false, a run
-      converts the momentum once at its beginning and once at its end
+    - ``whole`` matters only if the step is computed in the body frame, and the caller of the emitted code
+      uses the space frame. If ``whole`` is true, each step converts the momentum between the two frames. If
+      ``whole`` is false, the momentum is converted once at the beginning and once at the end of a run
       (:mod:`codegen.kernel.carried_momentum`).
     - If ``outlining`` is true, repeated computations of a long step become functions
       (:mod:`codegen.kernel.outlining`).
@@ -134,7 +134,7 @@ class _Translation:
         return candidate
 
     def remember(self, var: Var) -> None:
-        """Name the components of ``var`` in ``hints``, such as ``xi_0`` for component 0 of ``xi``."""
+        """Add a name for each component of ``var`` to ``hints``, for example ``xi_0``."""
         for k, x in enumerate(flatten(var.kind, self.env[var])):
             # An expression that already has a name keeps this name.
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
@@ -238,7 +238,7 @@ class _Translation:
         # The new state and the embedded solution are converted to the frame of the emitted code. The method
         # ``kernel`` computes the error estimate as the difference of the two converted values.
         for embedded in (False, True):
-            # Without an embedded solution, ``values`` is empty for ``embedded`` = True.
+            # If the program has no embedded solution, ``values`` is empty in the second pass of this loop.
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
@@ -297,10 +297,10 @@ class _Translation:
 
         Computations are outlined only if outlining makes the kernel much shorter.
         """
-        # ``before`` contains the names that are in use before ``schedule`` creates new names. When outlining
-        # begins, ``self.taken`` is reset to ``before``. After this reset, outlining can create names that
-        # ``schedule`` has already created. Equal names do no harm, because the kernel contains either the
-        # assignments of ``schedule`` or the outlined assignments, but never both.
+        # ``before`` contains the names that are in use before ``schedule`` creates new names. The kernel
+        # contains either the assignments of ``schedule`` or the outlined assignments, but never both.
+        # Therefore outlined assignments may use the names that ``schedule`` has created, and ``self.taken``
+        # is reset to ``before`` when outlining begins.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
@@ -408,7 +408,7 @@ def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
     ``inputs`` are the names of the functions of time that the caller of the emitted code supplies. A sample
     consists of a time t and the symbols for the values of these functions at t.
     """
-    # Earlier compiler passes may have removed all uses of a sample.
+    # Earlier compiler passes may have removed all uses of a sample. Then the sample is omitted.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
     samples = [
         Sample(t, tuple(symbols[name].payload for name in scene.inputs))

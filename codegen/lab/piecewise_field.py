@@ -28,9 +28,10 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""Operations such as abs(x) have several cases. The sign of x at t + AHEAD gives the case just after t.
+"""A short time, used to find the case of an operation such as abs(x) just after a time t.
 
-AHEAD is much larger than the rounding error of t, and much smaller than the time scales of the solution.
+The case follows from the sign of x at the time t + AHEAD. AHEAD is much larger than the rounding error of t,
+and much smaller than the time scales of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
@@ -150,7 +151,11 @@ class PiecewiseField:
 
 
 Advance = Callable[..., tuple[Vector, float]]
-"""A function of (field, y, t, length): the state after a step from (y, t), and an estimate of its error."""
+"""A function that makes one step of size ``length`` from the state y at the time t.
+
+The arguments are (field, y, t, length). The results are the new state and an estimate of the error of the new
+state.
+"""
 
 
 class Sided:
@@ -176,7 +181,8 @@ class Sided:
     def margins(self, y: Vector, t: Scalar) -> Vector:
         """Return the margins of the operations with several cases, such as abs(x).
 
-        All margins are positive while the current case of each operation applies.
+        Margins are numbers that are positive while the current case of each operation applies. For example,
+        the margin for the case x > 0 of abs(x) is x.
         """
         return self.fields.on(self.sides)[1](y, t)
 

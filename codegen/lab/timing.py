@@ -80,7 +80,7 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
 
 
 def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> float:
-    """Return the CPU time of one call in seconds: the least time of several batches (:func:`samples`)."""
+    """Return the CPU time of one call in seconds: the least of the mean times from :func:`samples`."""
     return samples(call, batch, batches)[0]
 
 

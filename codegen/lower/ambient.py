@@ -27,7 +27,10 @@ class Ambient(Lowering):
         return without_formulas(scene)
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Return True if the manifold is an open set in R^n."""
+        """Return True if the manifold is an open set in R^n.
+
+        An open manifold also contains all computed states that are close enough to the exact solution.
+        """
         return self.objection(scene) is None and orbit_is_open(scene)
 
     def problem(self, scene: Problem, method: Method) -> Problem:

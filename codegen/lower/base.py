@@ -140,7 +140,8 @@ class Lowering(ABC):
     def degree(self, method: Method) -> int:
         """Return the degree of a Taylor method, or 0 for all other methods.
 
-        :class:`codegen.errors.MethodError` is raised if step-size control needs a higher degree.
+        :class:`codegen.errors.MethodError` is raised if the method has step-size control, and the degree is
+        too low for the computation of step sizes.
         """
         return 0
 

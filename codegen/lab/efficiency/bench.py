@@ -177,9 +177,8 @@ def emitted_forms(
 ) -> list[Candidate]:
     """Return the candidates for a method.
 
-    If the method integrates equations in coordinates, there is one candidate for each element of
-    ``equations``. Otherwise there is only one candidate, which integrates the original equations of the
-    scene.
+    A method that treats the state as a vector in R^n has one candidate for each element of ``equations``.
+    Every other method has only one candidate, which integrates the original equations of the scene.
     """
     suited = equations if lowering(method.family).in_coordinates else [Equations(scene)]
     return [emitted(scene, method, exact, target, budget, adaptive=adaptive, equations=e) for e in suited]

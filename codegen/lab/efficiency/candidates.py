@@ -82,7 +82,7 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
     """Yield the recipes for a scene.
 
     If ``tableaux`` is empty, all tableaux of the library are used. A method that treats the state as a vector
-    in R^n has one recipe for each of :func:`classical_forms`.
+    in R^n has one recipe for each form of the equations (:func:`classical_forms`).
     """
     forms = [form.key for form in classical_forms(problem)]
     for recipe in in_printed_form(problem, tableaux):
@@ -184,9 +184,10 @@ def is_explicit(tableau: Tableau) -> bool:
 
 
 def degrees(family: str) -> Iterator[Recipe]:
-    """Yield the recipes of a family without tableaux (such as ``taylor``) for all :data:`DEGREES`.
+    """Yield the recipes of a family for each degree in :data:`DEGREES`.
 
-    If the family has an error estimate, each degree also has a recipe with step-size control.
+    The methods of the family have a degree instead of a tableau, for example ``taylor(8)``. If the family has
+    an error estimate, each degree also has a recipe with step-size control.
     """
     for degree in DEGREES:
         yield from _both(f"{family}({degree})", degree, degree, "", family_class(family).controls_steps)
@@ -214,7 +215,8 @@ def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Rec
     """Yield the recipes of the given methods.
 
     Each pair in ``methods`` contains the name of a method, and whether it has step-size control. A method
-    that treats the state as a vector in R^n has one recipe for each of :func:`classical_forms`.
+    that treats the state as a vector in R^n has one recipe for each form of the equations
+    (:func:`classical_forms`).
     """
     forms = [form.key for form in classical_forms(problem)]
     for label, adaptive in methods:

@@ -2,12 +2,13 @@
 
 A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 
-1. The CPU time of each recipe for each required error is predicted from a few runs in the interpreter. 2. The
-predicted CPU time divided by the safety factor SAFE is a lower bound of the true CPU time. 3. Each required
-error has its own time limit: WORST times the CPU time of the best recipe of ``orderconds recommend`` for this
-error. A recipe is excluded if its lower bounds for all required errors exceed the time limits of these
-errors. 4. The remaining recipes are emitted, compiled and timed. 5. A sample of the excluded recipes is also
-timed, to test the lower bounds.
+1. The CPU time of each recipe for each required error is predicted from a few runs in the interpreter.
+2. The predicted CPU time divided by the safety factor SAFE is a lower bound of the true CPU time.
+3. The time limit for a required error is WORST times the CPU time of the best recipe of
+   ``orderconds recommend`` for this error. A recipe is excluded if, for each required error, the lower bound
+   exceeds the time limit.
+4. The remaining recipes are emitted, compiled and timed.
+5. A sample of the excluded recipes is also timed, to test the lower bounds.
 """
 
 from __future__ import annotations
@@ -29,10 +30,10 @@ from codegen.lab.progress import Progress
 from orderconds.processes import in_processes
 
 WORST = 1.25
-"""A recommended recipe is accepted if its CPU time is at most WORST times the time of the fastest recipe."""
+"""A recommended recipe is accepted if (its CPU time)/(CPU time of the fastest recipe) is at most WORST."""
 
 SAFE = 8.0
-"""A predicted CPU time is assumed to be at most SAFE times the true CPU time."""
+"""A safety factor: the true CPU time is assumed to be at least (predicted CPU time)/SAFE."""
 
 T = TypeVar("T")
 
@@ -53,10 +54,9 @@ class Exhausted:
     - ``copies``: the number of recipes that were not timed, because their code equals that of a timed recipe.
     - ``excluded``: the number of recipes that were not timed, because their predicted CPU times were too
       long.
-    - ``nearest``: the result of a test, in which a sample of the excluded recipes is timed. For a recipe of
-      the sample and a required error, let c be the CPU time of the recipe, and let b be the least CPU time
-      measured earlier for this error. ``nearest`` is the minimum of c/b over the sample and all required
-      errors. If ``nearest`` is below 1, a faster recipe was excluded.
+    - ``nearest``: the result of a test. A sample of the excluded recipes is timed for each required error,
+      and each time is divided by the least CPU time that was measured earlier for the same error.
+      ``nearest`` is the least of these quotients. If ``nearest`` is below 1, a faster recipe was excluded.
     - ``complete``: False if the time limit ended the search.
     """
 
@@ -88,8 +88,8 @@ class Exhausted:
         )
         if math.isfinite(self.nearest):
             counts += (
-                "; to test the predictions, some recipes with too long predicted times were measured last, "
-                f"and each took at least {self.nearest:.1f} times as long as the fastest earlier recipe"
+                "; to test the predictions, a few recipes with long predicted times were measured, too; each "
+                f"took at least {self.nearest:.1f} times as long as the fastest recipe measured before"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
 

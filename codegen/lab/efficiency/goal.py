@@ -67,7 +67,7 @@ class Goal:
 
     @property
     def long(self) -> bool:
-        """True if the test of a requirement needs a long run."""
+        """True if the search tests one of the requirements in a run with many steps."""
         return any(need.long for need in NEEDS if need.name in self.needs)
 
     @property

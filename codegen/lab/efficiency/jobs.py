@@ -23,7 +23,7 @@ FRESH = 8
 
 A bar contains limits on the error and the CPU time of a recipe. The limits are computed from the predictions
 for earlier recipes. Limits that were computed from n predictions are updated after 1 + n // FRESH further
-predictions. If FRESH is larger, the limits are updated more often.
+predictions.
 """
 
 
@@ -34,8 +34,8 @@ All recipes in a queue have the same kind (:data:`Kind`) and the same order. Thr
 each queue:
 
 - n is the number of recipes that were taken from the queue.
-- d is the least value of abs(p - usual_order(e)) over all required errors e (:func:`usual_order`). Here p is
-  the order of convergence of the recipes in the queue.
+- Let p be the order of convergence of the recipes in the queue. Then d is the least value of
+  abs(p - usual_order(e)) over all required errors e (:func:`usual_order`).
 - s = log2(T1/T2) is the slowness of the queue. Let K be the kind of the recipes in the queue. T1 is the least
   predicted CPU time of all recipes of the kind K, whatever their order. T2 is the least predicted CPU time of
   all recipes.
@@ -44,11 +44,11 @@ The next recipe comes from the queue with the smallest value of (n + d)/EVEN + s
 """
 
 FAILED = 4.0
-"""The slowness of a kind of recipes (:data:`Kind`) if all predicted CPU times for this kind are infinite.
+"""A finite number that replaces log2(T1/T2) if T1 is infinite.
 
-Otherwise the slowness is log2(T1/T2). Here T1 is the least predicted CPU time of all recipes of the kind, and
-T2 is the least predicted CPU time of all recipes. The docstring of :data:`EVEN` describes the use of the
-slowness.
+Here T1 is the least predicted CPU time of all recipes of one kind (:data:`Kind`), and T2 is the least
+predicted CPU time of all recipes. The number log2(T1/T2) is called the slowness of the kind. The docstring of
+:data:`EVEN` describes the use of the slowness.
 """
 
 
@@ -150,12 +150,11 @@ class Jobs(Sequence[Job]):
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the slowness of a queue. All recipes in a queue have the same kind (:data:`Kind`).
+        """Return the slowness of a queue, computed for the recipe that is taken from the queue next.
 
-        A goal consists of a required error and requirements on the method. For one goal, let T1 be the least
-        predicted CPU time of the recipes of this kind, and let T2 be the least predicted CPU time of all
-        recipes. The slowness is the minimum of log2(T1/T2) over the goals of the first recipe in the queue.
-        Only this recipe counts, because the first recipe is taken from the queue next.
+        For each goal of this recipe, let T1 be the least predicted CPU time of all recipes of the same kind
+        (:data:`Kind`), and let T2 be the least predicted CPU time of all recipes. The slowness is the minimum
+        of log2(T1/T2) over these goals.
 
         A goal is ignored if T1 is not known yet, or if T2 is infinite. If all goals are ignored, the slowness
         is 0. If T1 is infinite for all goals that are not ignored, the slowness is FAILED.
@@ -191,9 +190,10 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
-        """Return the limits on the error and the CPU time of ``recipe`` for ``goal``.
+        """Return the largest accepted error and the largest accepted CPU time of ``recipe`` for ``goal``.
 
-        To save time, the limits are updated only after several new predictions (:data:`FRESH`).
+        To save time, these limits (:class:`Bar`) are updated only after several new predictions
+        (:data:`FRESH`).
         """
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)

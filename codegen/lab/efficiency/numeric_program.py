@@ -88,8 +88,8 @@ class Numeric(Operation):
     """An operation that calls a Python function of doubles.
 
     ``parts`` contains the kind and the width (number of components) of each result. ``function`` is the
-    Python function. In the program of a step, this operation replaces another operation with the same
-    results. ``label`` is the name of the replaced operation.
+    Python function. To make the interpreter faster, this operation replaces the operation with the name
+    ``label`` in the program of a step. The two operations have the same results.
     """
 
     function: Evaluate

@@ -81,10 +81,10 @@ TOLERANCES = (1, 3, 5, 7, 9, 11)
 """In the interpreter, runs with step-size control have the tolerances 10^-k, with k in TOLERANCES."""
 
 FAR = 10.0
-"""Methods of order p are excluded if even methods of higher order are too inaccurate.
+"""Methods of order p are excluded if the methods of the orders p + 1 and p + 2 are too inaccurate.
 
-For a given CPU time, let e be the least predicted error of methods of the orders p + 1 and p + 2. Methods of
-order p are excluded if e exceeds FAR times the required error.
+Let e be the least error that is predicted for the methods of these higher orders, with a given CPU time.
+Methods of order p are excluded if e exceeds FAR times the required error.
 """
 
 CALL = 8.0
@@ -163,11 +163,10 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, x, e) for :meth:`too_high`. If x is True, the triple describes explicit
-      methods of the family. If x is False, the triple describes implicit methods. Let p be the order of the
-      recipe. Only methods of the orders p + 1 and p + 2 are considered. The number e is the least predicted
-      error of these methods in a run that takes the CPU time ``seconds``. The family '' represents all
-      families.
+    - ``least``: triples (family, x, e) for :meth:`too_high`. Let p be the order of the recipe. The number e
+      is the least error that methods of the orders p + 1 and p + 2 in the family reach with the CPU time
+      ``seconds``, according to predictions. If x is True, only explicit methods count. If x is False, only
+      implicit methods count. The family '' represents all families.
     - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
       this run.
     - ``explicit``: True if only explicit methods are accepted.

@@ -1,8 +1,8 @@
 """Measures the CPU time that each recipe needs to reach a required error.
 
 A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
-The accuracy of the runs is increased until two consecutive runs have small enough errors. The error of a
-single run can be small by accident.
+The accuracy of the runs is increased until two consecutive runs have small enough errors. One run is not
+sufficient, because the error of a single run can be small by accident.
 """
 
 from __future__ import annotations
@@ -47,9 +47,10 @@ Short times are not reliable, because the first run of a module is slower than l
 """
 
 PATIENT = 8.0
-"""After a run of more than PATIENT t + BRIEF seconds, no run with higher accuracy is made.
+"""A factor in the time limit of :meth:`Racer.reach`.
 
-Here t is the argument ``best`` of :meth:`Racer.reach`.
+If a run takes more than PATIENT * ``best`` + BRIEF seconds of CPU time, no run with higher accuracy is made.
+Here ``best`` is the argument of :meth:`Racer.reach`, and times below :data:`BRIEF` seconds are not reliable.
 """
 
 
@@ -218,8 +219,9 @@ class Racer:
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
         """Increase the accuracy of the runs until two consecutive runs have small enough errors.
 
-        Returns the control of the first of these runs, and True. The control is the number of equal steps, or
-        the exponent k of the tolerance 10^-k. If there are no such runs, the second result is False.
+        The control of a run is the number of equal steps, or the exponent k of the tolerance 10^-k. If two
+        such runs are found, return the control of the first run, and True. Otherwise, the second result is
+        False.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):

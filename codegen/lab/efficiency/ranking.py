@@ -18,8 +18,8 @@ class Place:
     """The fastest and the second fastest candidate for an error of 10^-``decade``.
 
     - ``winner``, ``seconds``: the label and the CPU time of the fastest candidate.
-    - ``second``, ``behind``: the label and the CPU time of the second fastest candidate. If only one
-      candidate reaches the error, the label is '', and the time is None.
+    - ``second``, ``behind``: the label and the CPU time of the second fastest candidate, or '' and None if
+      only one candidate reaches the error.
 
     If the scene has several forms of the equations, a label ends with the name of the form.
     """
@@ -76,7 +76,10 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the result of :func:`seconds_to`. All ``rows`` must use the same form of the equations."""
+    """Compute the CPU time as described at :func:`seconds_to`.
+
+    All ``rows`` must use the same form of the equations.
+    """
     good = [r for r in rows if r.error is not None and r.seconds]
     if not good or _error(min(good, key=_error)) > error:
         return None

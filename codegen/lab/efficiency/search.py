@@ -70,10 +70,10 @@ The remaining budget is the time that is left after the computation of the refer
 """
 
 UNREACHED = 1e-3
-"""A default value for the gain of a recipe, used if the gain cannot be computed.
+"""A default value for the gain of a recipe, used if the estimated CPU times do not give a positive gain.
 
-Recipes with larger gains are measured earlier (:meth:`Search._next`). For example, the gain cannot be
-computed if the estimated CPU times of all recipes are infinite.
+This happens, for example, if the estimated CPU times of all recipes are infinite. Recipes with larger gains
+are measured earlier (:meth:`Search._next`).
 """
 
 LONG_STEPS = 20_000
@@ -284,7 +284,7 @@ class Search:
         return min((r.seconds for r in self._reached(goal)), default=math.inf)
 
     def _reached(self, goal: Goal) -> Iterable[Result]:
-        """Return the results that reach a goal, but only the fastest result of each recipe.
+        """For each recipe, return the fastest of the results that reach a goal.
 
         If a recipe does not preserve a conserved quantity in a long run, the recipe is omitted.
         """

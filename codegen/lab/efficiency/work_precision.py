@@ -191,7 +191,7 @@ class Refused:
         raise InputError(self.reason)
 
     def measure(self, control: float) -> Row:
-        """Always raise InputError, because the method cannot be emitted."""
+        """Always raise InputError, because there is no emitted code that could be measured."""
         raise InputError(self.reason)
 
     def enough(self, rows: Sequence[Row]) -> bool:

@@ -31,7 +31,7 @@ import numpy
 
 BLOCKS = 20
 FEWEST = 2 * BLOCKS
-"""The smallest number of samples to which a line is fitted."""
+"""A line is fitted to the deviations of a run only if there are at least FEWEST samples."""
 
 CONFIDENCE = 0.95
 PARTS = 5
@@ -50,11 +50,11 @@ A value between BOUNDED and WALK suggests a random walk.
 """
 
 LATE, LATE_CONFINED = 1.5, 2.0
-"""Two limits for the growth factor of a deviation.
+"""Two limits for the growth factor of the deviations in a run.
 
-The growth factor is the largest deviation of the record, divided by the largest deviation of its first half.
-The limit LATE_CONFINED applies if the scatter of the record is below :data:`CONFINED`. Otherwise the limit
-LATE applies.
+The growth factor is the largest deviation in the run, divided by the largest deviation in the first half of
+the run. The limit LATE_CONFINED applies if the deviations vary much less than a random walk
+(:data:`CONFINED`). Otherwise the limit LATE applies.
 """
 
 LEVEL, STAYS = 0.9, 0.5
@@ -91,18 +91,19 @@ means. The scatter is V/(n D). Only 1 % of all random walks have a scatter below
 """
 
 STEADY = 3.2
-"""A record does not count as a random walk if its steadiness |m|/s is above STEADY.
+"""A limit for the steadiness of a record of deviations.
 
-Here m is the average difference between the means of consecutive blocks, and s the standard error of m. Only
-1 % of all random walks have a steadiness above STEADY.
+The record is cut into blocks, and the mean of each block is computed. Let m be the average difference between
+consecutive means, and let s be the standard error of m. The steadiness is |m|/s. A record with a steadiness
+above STEADY does not count as a random walk, because only 1 % of all random walks are as steady.
 """
 
 TINY = 1e-24
-"""Differences between block means count as rounding errors if their variance is below TINY times d^2.
+"""A limit for differences that are caused by rounding errors.
 
 A deviation is the difference between a conserved quantity and its exact value. The deviations in a run are
-divided into blocks. A block mean is the mean of the deviations in one block. The number d is the largest
-absolute deviation in the run.
+divided into blocks, and the mean of each block is computed. Let d be the largest absolute deviation in the
+run. The differences between the means count as rounding errors if their variance is below TINY times d^2.
 """
 
 FINE, NEAR, FAR = 100, 5, 20

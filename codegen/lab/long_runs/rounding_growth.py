@@ -35,7 +35,7 @@ from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
-"""The runs start on one trajectory, with APART steps between two consecutive starts."""
+"""The STARTS runs begin at states of one trajectory, with APART steps from each state to the next."""
 
 TIMES = 9
 """The number of measurements in a run. The number of steps doubles from one measurement to the next."""
@@ -80,14 +80,13 @@ class Growth:
     def law(self) -> str:
         """The name of the law of growth, derived from the confidence interval of ``exponent``.
 
-        - ``bounded``: the whole interval is below 1/4.
+        If the whole interval is below 1/4, the law is ``bounded``. Otherwise, an interval with a half width
+        below 0.1 is first widened to the half width 0.1. Then the interval determines the law:
+
         - ``random walk``: the interval contains 1/2, but not 1.
         - ``systematic``: the interval contains 1, but not 1/2.
         - ``random walk or systematic``: the interval contains 1/2 and 1.
-        - ``neither law``: no other case applies.
-
-        An interval with a half width below 0.1 is widened to the half width 0.1 before the tests for 1/2 and
-        1.
+        - ``neither law``: the interval contains neither 1/2 nor 1.
         """
         if self.exponent + self.half_width < 0.25:
             return "bounded"

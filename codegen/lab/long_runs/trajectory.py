@@ -40,14 +40,15 @@ FUNCTIONS = of_arrays(numpy)
 
 @dataclass
 class Series:
-    """The deviations of one conserved quantity in each interval between consecutive samples of a run.
+    """The mean and the extreme deviations of one conserved quantity in each interval of a run.
 
-    The deviation of an invariant is its value minus its initial value ``start``. The deviation from the
-    manifold is the largest absolute residual of the equations that define the manifold.
+    Each interval lies between two consecutive samples. The deviation of an invariant is its value minus its
+    initial value ``start``. The deviation from the manifold is the largest absolute residual of the equations
+    that define the manifold.
 
-    - ``deviations``: the mean deviation.
-    - ``peaks``: the largest absolute deviation.
-    - ``lows``: the smallest absolute deviation, or zero if the deviation changes sign.
+    - ``deviations``: the mean deviation in each interval.
+    - ``peaks``: the largest absolute deviation in each interval.
+    - ``lows``: the smallest absolute deviation in each interval, or zero if the deviation changes sign.
     """
 
     start: float

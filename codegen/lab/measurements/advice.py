@@ -215,11 +215,10 @@ def completed(
 def monotone(line: Line) -> Line:
     """Return a copy of ``line`` in which a smaller error never takes less CPU time than a larger error.
 
-    For each error 10^-k, ``line.best`` contains a method or None. A method that reaches a smaller error also
-    reaches the error 10^-k. The function changes the entries one after the other, from the smallest error to
-    the largest. Let M be the method for the next smaller error. If the entry for 10^-k is None, M becomes the
-    entry. If the method in the entry needs more CPU time than M, M replaces this method. If there is no
-    method M, the entry for 10^-k is not changed.
+    For each error 10^-k, ``line.best`` contains an entry: a method or None. The function changes the entries
+    one after the other, from the second smallest error to the largest. Let A be the entry for one error, and
+    let B be the entry for the next smaller error. If B is a method, B also reaches the larger error.
+    Therefore B replaces A if A is None or needs more CPU time than B. If B is None, A is not changed.
     """
     best = list(line.best)
     for i in reversed(range(len(best) - 1)):

@@ -97,7 +97,7 @@ class Cost(Measurement[CostResult]):
 
 
 def data(result: Result, subject: Subject) -> dict[str, object]:
-    """Return the variables for the template of the section."""
+    """Return the variables of the template ``sections/cost.html.j2``: a diagram and the texts of tables."""
     name, last = result.scene.name, float(result.scene.span[1])
     title = f"Error against CPU time, {result.scene.title}"
     picture = efficiency_figure(
@@ -132,7 +132,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
 
 
 def _decades(numbers: Sequence[int]) -> str:
-    """Return a text that lists the error 10^-k for each k in the sorted list ``numbers``.
+    """Return a text with the errors 10^-k for the sorted numbers k. Consecutive numbers become a range.
 
     >>> _decades([2, 4, 5, 6])
     '10⁻² and 10⁻⁴ to 10⁻⁶'

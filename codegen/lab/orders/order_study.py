@@ -124,8 +124,8 @@ def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float
     """Compare the final state of the first runner with the final states of the other runners.
 
     The result is the largest absolute difference of a coordinate. All runners make the same number n of
-    steps. The number n is the first entry of ``steps`` that is at least :data:`COMPARED` and for which all
-    runs succeed. If there is no such entry, the result is None.
+    steps. The number n is the first entry of ``steps`` with two properties: n is at least :data:`COMPARED`,
+    and no run with n steps fails. If there is no such entry, the result is None.
     """
     for n in steps:
         if n < COMPARED:

@@ -33,7 +33,7 @@ class Curve:
     """A labelled sequence of points (x, y) with its style.
 
     ``order`` is the slope of the reference line, or None. ``upper`` is empty, or it contains a number u for
-    each point (x, y). A horizontal bar shows the range from x to u.
+    each point (x, y). For each number u, a horizontal bar is drawn from (x, y) to (u, y).
     """
 
     label: str

@@ -130,9 +130,10 @@ def _formula(problem: Problem, quantity: Quantity) -> Any:
 
 
 def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
-    """Return, for each coordinate of a site, the array of its values on the shifted lattice.
+    """Shift the lattice by ``offset``, and return one array for each coordinate of a site.
 
-    The entry for the site k is the value at the site k + ``offset``, with periodic boundary conditions.
+    The entry of an array for the site k is the value of the coordinate at the site k + ``offset``, with
+    periodic boundary conditions.
     """
     rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
     return [rolled[..., k] for k in range(states.shape[-1])]

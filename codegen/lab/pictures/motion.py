@@ -195,11 +195,11 @@ def _lengths(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
 
 
 def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, unit: str = "") -> str:
-    """Return the SVG transform that turns a horizontal line into the picture of a bar at the time with index
-    ``k``.
+    """Return the SVG transform for the picture of a bar at the time with index ``k``.
 
-    The horizontal line begins at the origin and is as long as the longest projection of the bar. ``turn``
-    is the angle of the projected bar in degrees. If ``unit`` is ``px``, the result is a CSS transform.
+    The transform is applied to a horizontal line. This line begins at the origin and is as long as the
+    longest projection of the bar. ``turn`` is the angle of the projected bar in degrees. If ``unit`` is
+    ``px``, the result is a CSS transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"

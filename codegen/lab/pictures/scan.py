@@ -94,5 +94,8 @@ def minimum(
 
 def _sweep(run: Run) -> Sweep:
     if run.sweep is None:
-        raise ValueError("expected a sweep in every run of a scan, found a run without a sweep")
+        raise ValueError(
+            "expected the argument sweep (the values of the varied parameter) in every run of a scan, "
+            "found a run without this argument"
+        )
     return run.sweep

@@ -151,8 +151,8 @@ class Source:
             raise SceneError(
                 f"the reference {reference.name} and the run {run.name} have different output times",
                 where=self.problem.name,
-                expected="a reference run with the same interval between outputs (step size times stride), "
-                "and with at least as many outputs",
+                expected="a reference run that has at least as many outputs as the run, "
+                "with the same interval between outputs (step size times stride)",
             )
         row: numpy.ndarray = self.values(reference, [quantity])[0][:count]
         return row

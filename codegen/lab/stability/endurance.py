@@ -17,8 +17,8 @@ BACK = 100_000
 SECONDS = 3.0
 """A run forward in time takes at most about SECONDS seconds of CPU time.
 
-If the run forward would take longer, the number of steps is reduced. A run back to the initial time has the
-same number of steps as the run forward before it.
+If the run forward would take longer, the number of steps is reduced. In a run forward and back, the numbers
+of steps in the two directions are equal.
 """
 
 TRIAL = 1000

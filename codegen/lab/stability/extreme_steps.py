@@ -202,7 +202,7 @@ def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
             case,
             UNSOLVED
             if compiled.kernel.loops
-            else f"{WRONG}: the emitted code returned a result, but the interpreter failed",
+            else f"{WRONG}: the emitted code returned a result, but the same step with many digits failed",
         )
     error, determined, explained = 0.0, math.inf, True
     for block in _blocks(compiled):
@@ -307,9 +307,10 @@ class Rounding(BallDomain):
             self.unit = arb(EPSILON)
 
     def computed(self, name: str, value: Value) -> Value:
-        """Return ``value``, the result of an operation, with one rounding error in each component.
+        """Add one simulated rounding error to each component of ``value``, and return the new value.
 
-        ``name`` is the variable of the result. Results with the same name get errors with the same signs.
+        ``value`` is the result of an operation, and ``name`` is the variable of this result. Results with the
+        same name get errors with the same signs.
         """
         size = len(value) if isinstance(value, tuple) else 1
         if name not in self.signs:

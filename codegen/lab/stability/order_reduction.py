@@ -25,7 +25,7 @@ from codegen.method import Method
 from codegen.scene.stiff_variant import StiffVariant
 
 DOUBLINGS = 15
-"""The largest number of runs, each with twice as many steps as the run before."""
+"""The largest number of runs. Run k has 2^k steps, for k = 0, 1, ..., DOUBLINGS - 1."""
 
 StiffRun: TypeAlias = tuple[float, float | None, str]
 """A run: the step size, the error (None if the run failed), and the reason of a failure (or '')."""

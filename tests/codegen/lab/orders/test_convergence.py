@@ -173,7 +173,7 @@ def test_a_small_parameter_that_hides_the_leading_term_is_no_failure(
     found = measure(exact, "heavy_top", method, order)
     assert found.observed == pytest.approx(seen, abs=0.1)
     assert found.verdict == "holds", found.sentence()
-    assert "the leading term does not dominate the error" in found.sentence()
+    assert "the leading term is not the largest term of the error" in found.sentence()
     words = ["heavy_top", "-m", method, "--stated", str(order + 1), "--json"]
     (wrong,) = json.loads(CliRunner().invoke(command, words, standalone_mode=False).output)
     assert (wrong["verdict"], wrong["stated_order"]) == ("fails", order + 1), wrong["reason"]
