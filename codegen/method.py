@@ -156,8 +156,6 @@ class Method:
             return None
         lower = self.tableau.lower()
         if not self.kind.fixed_stages:
-            # Variable step sizes destroy the good long-time energy behaviour of symplectic and variational
-            # methods.
             raise MethodError(
                 f"no error estimate for {self.label}: embedded methods exist only in families whose stages "
                 "do not depend on the weights",
@@ -259,7 +257,6 @@ def _claimed(tableau: Tableau) -> tuple[str, ...]:
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
 ) -> UnclaimedTableau:
-    """Return the error for a tableau without a claimed order in any family of ``readable``."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
@@ -286,11 +283,7 @@ def _fits(family: str, tableau: Tableau) -> bool:
 
 
 def _label(family: str, tableau: str) -> str:
-    """Return a label FAMILY:TABLEAU of a method.
-
-    If the family truncates a series of Lie brackets, the label is FAMILY(2):TABLEAU. Here 2 is an example of
-    the order after which the series is truncated.
-    """
+    """Return the label of a method. If the family takes a cut-off, the cut-off 2 is used as an example."""
     return f"{family}(2):{tableau}" if family_class(family).takes_cutoff else f"{family}:{tableau}"
 
 

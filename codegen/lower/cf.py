@@ -58,10 +58,9 @@ STORAGE = (
 
 
 STORAGE_OF_PAIR = (
-    "three registers: the state Y, and two elements K and E of the Lie algebra; stage i evaluates F = f(Y) "
-    "and then computes K <- A_i K + F, E <- E + D_i F and Y <- exp(h B_i K).Y in this order, where A_i, B_i "
-    "and D_i are coefficients; after the last stage, Y is the new state, and exp(h E).Y is the embedded "
-    "solution"
+    "three registers: the state Y, and two elements K and E of the Lie algebra. Stage i evaluates F = f(Y) "
+    "and updates, in this order, K <- A_i K + F, E <- E + D_i F and Y <- exp(h B_i K).Y. A_i, B_i and D_i "
+    "are coefficients. After the last stage, Y is the new state, and exp(h E).Y is the embedded solution"
 )
 
 
@@ -110,7 +109,7 @@ def two_registers(
     def advance(i: int) -> None:
         """Append the operations that compute the next state from k[i], the value of the field at stage i."""
         terms = [(one, k[i])]
-        # At the first stage, K_1 = k_1.
+        # The first stage adds no multiple of an earlier sum, because ``register`` is still empty.
         if register:
             terms = [(Coefficient(stages.number(scheme.A[i])), register[-1]), *terms]
         register.append(build.lin(f"K{i + 1}", Kind.ALG, terms))

@@ -26,10 +26,11 @@ class CompositionLowering(FlowLowering):
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
-        # This family accepts only tableaux of the classes AdjointComposition and Composition.
+        # Besides AdjointComposition (handled above), the family accepts only the class Composition.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
-        # A Strang step of length gamma h is a step of Phi*, then a step of Phi, each of length gamma h/2.
-        # Phi is a product of the flows, and Phi* applies the flows in the opposite order.
+        # Phi applies the flows of all summands one after the other, and Phi* applies these flows in the
+        # opposite order. A Strang step of length gamma h applies first Phi* and then Phi, each with the
+        # duration gamma h/2.
         halves = [method.number(x) * HALF for x in tableau.gamma]
         return pairs(parts.arranged, [(x, x) for x in halves]), self.family

@@ -77,7 +77,8 @@ class DiscreteGradient(FieldLowering):
                 raise MethodError(
                     f"{method.label} cannot be used on {problem.name}: the force at the open "
                     "boundary is not the derivative of an energy",
-                    expected='constant states in the argument "outside", or an open boundary without force',
+                    expected="an open boundary without force, or constant states for the missing neighbours "
+                    '(the argument "outside" of the scene)',
                 )
             raise MethodError(
                 f"{method.label} cannot be used on {problem.name}: the differential of the energy is zero at "
@@ -119,7 +120,7 @@ def _program(scene: Problem, method: Method) -> Program:
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
         # If eta = 0, the formula for D in the module docstring contains 0/0. Secant then returns D = g.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
-        # The bivector is skew, so <D, f> = 0 holds for f = omega(D, .).
+        # The bivector omega is skew, so the vector f = omega(D, .) satisfies <D, f> = 0.
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
 

@@ -54,13 +54,12 @@ class Parts:
 
     @property
     def arranged(self) -> list[Summand]:
-        """The summands of all parts, in the order for the function :func:`pairs`.
+        """The summands of all parts. The first half of Strang's step applies their flows in this order.
 
-        Strang's step applies the flows of all summands in the order of the returned list, and after this in
-        the reverse order. A kick is a flow that changes only the momentum. If the scene is not a lattice,
-        kicks come first. The last kick of a step and the first kick of the next step can then be joined into
-        one flow. On a lattice, kicks come last. The two kicks in the middle of Strang's step can then be
-        joined.
+        The second half of Strang's step applies the flows in the reverse order. A kick is a flow that changes
+        only the momentum. If the scene is not a lattice, kicks come first. The last kick of a step and the
+        first kick of the next step can then be joined into one flow. On a lattice, kicks come last. The two
+        kicks in the middle of Strang's step can then be joined.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -270,7 +269,8 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The choice of the summand does not change the order of accuracy.
+        # The first summand that does not depend on time is returned. Another choice would give the same order
+        # of accuracy.
         if not summand.timed:
             return summand
     raise MethodError(

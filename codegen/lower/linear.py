@@ -46,7 +46,7 @@ class LinearLowering(FieldLowering):
         if scene.sites is not None:
             return Objection(
                 ": the field of the lattice depends on coordinates that change in time",
-                "a field that depends only on the time and on constant coordinates",
+                "a field that depends only on the time and on coordinates that are constant in time",
             )
         return Objection(
             ", whose field depends on the state", "an equation y' = A(t).y, where A depends only on the time"
@@ -108,13 +108,13 @@ class LinearLowering(FieldLowering):
 
         The scene ``problem`` can define several steps, and each step has a name.
         """
-        # The formula for the momentum u is valid only for a symplectic step matrix.
+        # The formula for the momentum u is valid only if the matrix of the step is symplectic.
         if problem.carries_momentum and not problem.steps[method.step].canonical:
             raise MethodError(
                 f"{method.label} cannot compute the momentum u conjugate to the time, because the matrix of "
                 "the step is not known to be symplectic",
                 where=problem.name,
-                expected="a step matrix in the scene's group, for example exp(X) with X in the Lie algebra",
+                expected="a matrix in the scene's group, for example exp(X) with X in the Lie algebra",
             )
         # The scene gives a formula for the matrix of the step.
         y, t, end = Var("y", Kind.POINT), Var("t", Kind.REAL), Var("y1", Kind.POINT)

@@ -20,7 +20,8 @@ from orderconds.series.brackets import BracketProgram, Row
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
 """The bracket programs of earlier searches.
 
-A key contains the ring of the coefficients and the coefficients of the tableau as strings.
+A key is a pair (ring, texts). The coefficients of the tableau are elements of ``ring``, and ``texts``
+contains each coefficient as a string.
 """
 
 
@@ -46,7 +47,8 @@ def bracket_program(method: Method) -> BracketProgram:
             expected="an explicit tableau with exact coefficients, or a cut-off (the number of brackets)",
             hint=f"write rkmk(2):{name}",
         )
-    # On the group, the method must have the order that its tableau has on R^n.
+    # ``order`` is the order of the tableau on R^n. The search finds brackets with which the method has the
+    # same order on the group.
     order = family_order(method.tableau, families.get("rk")).order
     highest = method.kind.minimal_brackets
     if order > highest:
@@ -74,8 +76,8 @@ def lower(scene: Problem, method: Method) -> Program:
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
     build = stages.builder
-    # Stage values and brackets are in one dictionary, because the u_i are combinations of stage values and
-    # brackets.
+    # The function ``combination`` adds multiples of stage values and of brackets. Therefore stage values and
+    # brackets are in one dictionary.
     values = {("k", i): build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)}
 
     def combination(name: str, row: Row) -> Var:

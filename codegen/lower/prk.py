@@ -103,7 +103,7 @@ class PartitionedLowering(Lowering):
                 # If the velocity does not depend on positions, its values at ``q`` and ``Q`` are equal, so
                 # ``q`` can replace ``Q``.
                 if not by_position:
-                    # ``q`` is known at the start of the step, but ``Q`` depends on unknowns.
+                    # With ``q`` in place of ``Q``, the velocity depends on fewer unknowns.
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
                 # If the force does not depend on momenta, its values at ``mu`` and ``P`` are equal.
                 if not by_momentum:

@@ -128,7 +128,7 @@ def extension_with_cutoff(problem: Problem, method: Method, cutoff: int) -> Prog
 
 
 def in_coordinates(problem: Problem, method: Method) -> Program:
-    """Return the program of an RKMK method with the coordinate map of the scene in place of exp."""
+    """Return the program of an RKMK step in which the coordinate map of the scene replaces exp."""
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
         return build.add(InverseDifferential(), target, u, k)
@@ -144,7 +144,10 @@ def _program(
     inverse: Callable[[Builder, str, Var, Var], Var],
     extension: Extension | None = None,
 ) -> Program:
-    """Return a step's program with the coordinate map ``element`` and its inverse differential ``inverse``.
+    """Return the program of a step with the coordinate map tau = ``element``.
+
+    The function ``inverse`` appends the operation k -> (dtau_u)^{-1} k, where dtau_u is the differential of
+    tau at u. For tau = exp, the operation is a truncated series.
 
     If ``extension`` is given, the program computes the coefficients of the continuous extension instead of
     the new state.
@@ -182,6 +185,6 @@ def _program(
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more
 
-    # With an extension, the program returns a polynomial in theta with coefficients in the Lie algebra.
+    # For the continuous extension, the program returns the coefficients of a polynomial in theta.
     ends = update if extension is None else powers
     return stages.program(v, images, lambda: [stages.f("k0", y, None)] * tableau.s, ends)

@@ -13,9 +13,9 @@ The stage momenta M_i and the result of the step are
     M_i = dexp*_{-Y}(mu0 + h sum_j b_j nu_j) - h sum_j (b_j a_ji/b_i) dexp*_{X_j} n_j,
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j nu_j).
 
-The order of every symplectic Lie group integrator of this form is at most two. The theta-method has one
-stage, a_11 = theta and b_1 = 1. For the theta-method, let xi, n and M be the velocity xi_1, the force n_1 and
-the momentum M_1 of this stage. The momenta M and mu1 of the theta-method are
+The order of every symplectic Lie group integrator of this form is at most two. The theta-method has one stage
+with the coefficients a_11 = theta and b_1 = 1. For the theta-method, let xi, n and M be the velocity xi_1,
+the force n_1 and the momentum M_1 of this stage. The momenta M and mu1 of the theta-method are
 
     M = dexp*_{-h xi} mu0 + h (1 - theta) dexp*_{-(1 - theta) h xi} n,
     mu1 = Ad*_{exp(-h xi)} mu0 + h Ad*_{exp(-(1 - theta) h xi)} n.

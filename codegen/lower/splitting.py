@@ -61,8 +61,12 @@ class SplittingLowering(FlowLowering):
         raise MethodError(
             f"the tableau has {len(tableau.parts)} parts, but the scene has {len(chosen)} parts",
             where=parts.where,
-            expected="a tableau with as many parts as the scene, or with two parts if the scene has more",
-            hint=f"the terms of {', '.join(inexact)} count as separate parts of the scene" if inexact else "",
+            expected="a tableau with as many parts as the scene, or a tableau with two parts if the scene "
+            "has more than two parts",
+            hint=f"count each term of {', '.join(inexact)} as one part, because the exact flow of the whole "
+            "sum is unknown"
+            if inexact
+            else "",
         )
 
 

@@ -94,17 +94,18 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
         groups = [range(i, j) for i, j in pairwise(ends)]
         # A step with weights b_j advances the time by h sum_j b_j.
         sums = [_sum([b[j] for j in group]) for group in groups]
-        # If the sum of the weights is zero, the stages of the group do not advance the time.
+        # The next assignment divides by these sums, so no sum may be zero.
         if any(x.is_zero for x in sums):
             continue
+        # The tableau of a substep contains the coefficients of one group of stages, divided by the sum of the
+        # weights b_j in this group.
         scaled = [
             [[x / total for x in row] for row in (*([A[i][j] for j in g] for i in g), [b[j] for j in g])]
             for g, total in zip(groups, sums, strict=True)
         ]
-        # ``scaled`` contains the tableau of each group of stages.
         first = scaled[0]
-        # A step with explicit substeps is not divided, because the undivided step computes an expression only
-        # once, even if the expression occurs in several substeps.
+        # Explicit methods are not divided into substeps, because an expression that occurs in several
+        # substeps would then be computed several times.
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]
             return RungeKutta(tuple(elements[:-1]), elements[-1]), tuple(sums)

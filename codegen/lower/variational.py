@@ -129,9 +129,11 @@ class ExpandedStep(ABC):
         self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
 
     def end(self, velocities: Sequence[Var], forces: Mapping[int, Var] | Sequence[Var]) -> None:
-        """Set ``Y``, ``minus``, ``nu`` and ``mubar``, and append the operations that compute these variables.
+        """Append the operations for Y = h sum_j b_j v_j and mubar = mu0 + h sum_j b_j nu_j.
 
-        ``velocities`` contains the vectors v_j, and ``forces`` contains the forces n_j of the stages.
+        ``velocities`` contains the vectors v_j, and ``forces`` contains the forces n_j of the stages. The
+        force nu_j is n_j after the transport to q0, and mu0 is the momentum at the start of the step. The
+        attributes ``Y``, ``minus``, ``nu`` and ``mubar`` are set to variables for Y, -Y, all nu_j and mubar.
         """
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)

@@ -2,7 +2,8 @@
 
 A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau with s stages are a_ij and b_i. Let
 (xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. The group elements e^j and E_i^j are
-products of j factors (e^0 = E_i^0 = 1). E_i is E_i^s. The equations are
+products of j exponentials. Here j is an index and not a power, e^0 = E_i^0 = 1, and E_i = E_i^s. The
+equations are
 
     e^j = exp(h b_j xi_j) e^{j-1},   E_i^j = exp(h a_ij xi_j) E_i^{j-1},
     Q_i = E_i q0,   nu_j = Ad*_{E_j} n_j,
@@ -60,7 +61,7 @@ def _program(scene: Problem, method: Method) -> Program:
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:
-            # The index i begins with 0, and e[i] is the product of the first i factors.
+            # The index i begins with 0, so e[i] is the product of the first i exponentials exp(h b_j xi_j).
             moved = build.adjoint(f"m{i + 1}", e[i], m, inverse=True)
             return build.dual_dexp(f"p{i + 1}", minus, moved)
 

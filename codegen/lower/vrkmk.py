@@ -11,9 +11,9 @@ xi_i and n_i be the velocity and the force of stage i, (xi_i, n_i) = f(exp(X_i) 
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-In general, the unknowns are v_i and m_i for all stages i. If a_ji = 0 for all j <= i, the sum over j in the
-equation for m_i contains only later stages j > i. Then the program computes m_i from Lambda and from the
-lambda_j of these later stages. In this case, Lambda is an unknown, but m_i is not.
+The vectors v_i are unknowns. The covector m_i is an unknown if a_ji is not zero for some j <= i. Otherwise
+the sum over j in the equation for m_i contains only later stages j > i, and the program computes m_i from the
+unknown Lambda and from the lambda_j of these later stages.
 """
 
 from __future__ import annotations

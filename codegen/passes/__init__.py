@@ -121,8 +121,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # The pass "shared values" gives equal values the same variable, and the pass "equal unknowns"
-        # compares variables.
+        # The pass "equal unknowns" compares variables, so the pass "shared values" must first give equal
+        # values the same variable.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # The pass "equal unknowns" replaces equal unknowns by one unknown, so a sum can contain a variable
         # twice. The pass "zeros" adds the two coefficients of this variable.
@@ -171,9 +171,9 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # The pass "rows of products" replaces some products q exp(x) by operations that read x and not
-        # exp(x). This pass comes before the pass "functions of ad", because the pass "functions of ad" may
-        # leave an operation Ad_{exp x} unchanged if another operation reads exp(x).
+        # The pass "functions of ad" may leave an operation Ad_{exp x} unchanged if another operation reads
+        # exp(x). Therefore the pass "rows of products" comes earlier: it replaces some products q exp(x) by
+        # operations that do not read exp(x).
         Pass("rows of products", "one operation computes q exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # This pass uses operations that the pass "functions of ad" creates.

@@ -31,7 +31,8 @@ def run(program: Program, abelian: bool) -> Program:
         # The series dexp^{-1} = 1 - ad/2 + ..., truncated at order 0, is the identity on every group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
-            # Here the operation (Ad, Ad*, dexp^{-1} or dexp*) applies the identity map to the last argument.
+            # If the group is abelian or the series is truncated at order 0, the result of the operation is
+            # the last argument.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
             # The pass for zeros recognises the operation Zero, but not a sum without terms.

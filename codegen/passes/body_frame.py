@@ -81,9 +81,9 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """Maps each position Q to the variable that contains E, or to None if E is the identity.
+    """Maps each position Q to the variable that contains q^{-1} Q in the new program, or to None if Q = q.
 
-    The group element E satisfies Q = E q, where q is the position at the start of the step.
+    Here q is the position at the start of the step.
     """
 
     def run(self) -> Program:

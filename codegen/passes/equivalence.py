@@ -58,7 +58,10 @@ APART = 16
 """Each step size of the reference program is at least APART times the next smaller step size."""
 
 LARGEST = 2.0**512
-"""Upper bound for the absolute values of the results. A step with larger results is not used."""
+"""Upper bound for the absolute values of the results of a step.
+
+If a result of the reference program reaches this bound, the step size is skipped.
+"""
 
 CLOSE = 2.0**-200
 """After a tiny step, two results agree if they differ by at most CLOSE times the change of the state."""
@@ -117,7 +120,7 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """A state, with steps of the reference program that begin at this state. The step sizes decrease."""
+    """Results of single steps of the reference program from one state, in order of decreasing step size."""
 
     def __init__(self, more: Iterator[_Step]) -> None:
         self._more = more
@@ -233,12 +236,12 @@ class Reference:
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
         """Compare the results of ``program`` and of the reference program after one step.
 
-        Return a description of the difference, or '' if there is no difference. All steps in ``point`` begin
-        at one state. These steps are tried in order of decreasing length. The comparison uses the first step
-        in which ``program`` does not fail. ``program`` fails in a step if a result is NaN, or if an exception
-        is raised. For example, an exception is raised if an iteration does not converge. If ``program`` fails
-        in all steps, the result describes a failure. If the reference program can compute none of the steps,
-        the result is None.
+        Return a description of the difference, or '' if there is no difference. The reference program makes
+        steps of different lengths from one state, and ``point`` contains the results. The lengths are tried
+        in decreasing order. The comparison uses the first length for which ``program`` does not fail.
+        ``program`` fails if a result is NaN, or if an exception is raised. For example, an exception is
+        raised if an iteration does not converge. If ``program`` fails for all lengths, the result describes a
+        failure. If the reference program can compute none of the steps, the result is None.
         """
         failure = None
         for step in point.results():
@@ -260,7 +263,7 @@ class Reference:
         return failure
 
     def _is_solved(self, step: _Step) -> bool:
-        """Return True if the reference program can compute ``step`` in arithmetic with many digits."""
+        """Return True if ``self.program`` can solve the equations of ``step`` with FEW_DIGITS digits."""
         if step.tiny:
             return True
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)

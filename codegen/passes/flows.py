@@ -66,7 +66,7 @@ def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str]
         # Two flows of one part have different vector fields if their stage times differ.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
-        # All flows between the two joined flows must commute with them.
+        # The flow ``letter`` can only be moved past flows that commute with ``letter``.
         if not commute(kept[at].part, letter.part):
             return None
     return None
@@ -77,7 +77,8 @@ def word(program: Program) -> list[Letter] | None:
     letters = []
     state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for statement in program.body:
-        # Every other statement is a block of implicit equations.
+        # A statement that is not an Assign is a block of implicit equations. A composition of flows has no
+        # implicit equations.
         if not isinstance(statement, Assign):
             return None
         operation, args = statement.operation, statement.args
@@ -151,9 +152,10 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
 
 def apart(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> tuple[str, ...]:
-    """Return the parts in ``letters`` whose flows commute with the flows of all other parts in ``letters``.
+    """Return the parts of the Hamiltonian whose flows commute with the flows of all other parts.
 
-    The result is in order of first occurrence.
+    Each entry of ``letters`` is a flow of one part. Parts without a flow in ``letters`` are ignored. The
+    result is in order of first occurrence.
     """
     parts = tuple(dict.fromkeys(letter.part for letter in letters))
     bound = {p for a, b in combinations(parts, 2) if not commute(a, b) for p in (a, b)}

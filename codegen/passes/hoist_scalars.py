@@ -14,7 +14,7 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The coefficients of one value v in all sums that contain v, divided by the first of these coefficients.
+"""The sums that contain one value v, with the coefficients of v up to a common factor.
 
 Each sum has an index. If the sum with index k contains the term c_k v, the pattern contains the pair
 (k, c_k / c_m). Here m is the index of the first sum that contains v.

@@ -1,8 +1,8 @@
 """The Legendre transform: compute the momentum of a stage from the velocity.
 
 The pass is exact. Let P be the momentum of a stage. The velocity must be w = W P with a constant invertible
-matrix W. A block of implicit equations computes an unknown v of the stage from a momentum M in three steps:
-1. Invertible linear maps compute P from M.
+matrix W. A block of implicit equations computes an unknown v of the stage in three steps:
+1. Invertible linear maps compute P from a momentum M. If there are no such maps, M is P.
 2. The velocity is w = W P.
 3. Further invertible linear maps compute v from w.
 
@@ -96,7 +96,8 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # Newton's method needs a residual for each unknown, and each residual is computed from a path.
+            # An unknown has a residual only if invertible maps (a path) compute the unknown from a momentum.
+            # Newton's method needs the residuals of all unknowns.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -121,8 +122,8 @@ def path(block: Solve, unknown: Var) -> Path | None:
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
     """Write ``var`` as A_n ... A_1 u with as many invertible linear maps A_k as possible.
 
-    Return the assignments of A_1, ..., A_n, and the assignment of u. If ``maker`` contains no assignment of
-    u, the second result is None.
+    Return the assignments that apply A_1, ..., A_n, and the assignment that computes u. If ``maker`` contains
+    no assignment for u, the second result is None.
     """
     maps: list[Assign] = []
     while True:
@@ -159,9 +160,8 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     The maps of ``route`` compute ``route.unknown`` from ``route.base``. The new assignments apply the
     inverses of these maps, in reverse order.
 
-    The variables of ``route`` contain values that are computed from ``route.base``. The new assignments
-    compute these values again, from ``route.unknown``. The first result maps each old variable to the
-    variable with the new value. The second result is the variable with the new value of ``route.base``.
+    The first result maps each variable of ``route`` to the variable that contains the same quantity, computed
+    from ``route.unknown``. The second result is the entry of the first result for ``route.base``.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -187,7 +187,7 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     given = route.base
     if _function_of_one(block, route):
-        # The inverses of the maps in ``route.inward`` are not needed.
+        # The residual compares two values of P, so the maps in ``route.inward`` need not be inverted.
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
         given = route.inward[0].targets[0]
@@ -197,8 +197,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 def _function_of_one(block: Solve, route: Path) -> bool:
     """Return True if the momentum P of the stage is Ad*_{exp x} applied to a sum of terms f(ad*_y) v.
 
-    P is ``route.velocity.args[1]``. Here x and y are elements of the Lie algebra, and v is a covector. The
-    terms can differ in f, y and v. For each y, a rational number s with x = s y must exist.
+    P is ``route.velocity.args[1]``. The terms can differ in the function f, in the element y of the Lie
+    algebra, and in the covector v. In every term, x must be a rational multiple of y.
     """
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):

@@ -27,7 +27,7 @@ class Rewriter:
 
     def run(self) -> Program:
         """Return the rewritten program."""
-        # The attribute ``uses`` contains how often the old program reads each variable.
+        # ``uses`` maps each variable to the number of times that the old program reads the variable.
         self.uses = uses(self.program)
         # The name of a new variable must differ from all names in the program.
         self.builder.taken = {v.name for v in defined(self.program)}

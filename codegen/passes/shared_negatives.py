@@ -14,7 +14,7 @@ Terms = frozenset[tuple[Coefficient, Var]]
 
 
 def run(program: Program) -> Program:
-    """Return the program with a sum replaced by -x if the sum is the negative of an earlier sum x."""
+    """Return the program in which every negative of an earlier sum x is computed as -x."""
     outside: dict[Terms, Var] = {}
     body = [
         # Each block has its own table of earlier sums.

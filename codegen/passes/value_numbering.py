@@ -30,7 +30,8 @@ def run(program: Program) -> Program:
         # Zero in the algebra and zero in the dual are different values, so the key contains the kind.
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
-            # The first assignment of a value is kept, because all statements that read the value come later.
+            # The first of several equal assignments is kept, so the value is defined before every statement
+            # that reads the value.
             known[key] = rewriter.emit(assign)
         return known[key]
 

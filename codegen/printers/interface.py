@@ -20,7 +20,7 @@ LATTICE = ("dimension", "workspace")
 """The fields of :class:`Interface` that the manifest contains only for a lattice."""
 
 MODES = ("modes",)
-"""The fields that :meth:`Interface.as_json` omits if ``modes`` is False."""
+"""The field ``modes`` of :class:`Interface`. The manifest contains this field only if its value is True."""
 
 RUN = ("integrated", "controlled", "events", "dense")
 """The fields that :meth:`Interface.as_json` omits if ``integrated`` is False."""

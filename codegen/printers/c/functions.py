@@ -43,7 +43,7 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
-ONE_TEST = "The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite."
+ONE_TEST = "The sum of finite values x may overflow. x - x is 0 if x is finite, and NaN otherwise."
 
 
 class FunctionPrinter:
@@ -73,8 +73,8 @@ class FunctionPrinter:
 
         If ``near`` is true, the C function has no branches and is valid only for arguments near zero.
         """
-        # In a module with loops over many systems, all functions compute sines and cosines by the same
-        # polynomials, so all rounding errors agree.
+        # If a module has a loop over many systems, its other functions use the same polynomials for sines and
+        # cosines as the loop. A system then has the same rounding errors inside and outside the loop.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -101,7 +101,8 @@ class FunctionPrinter:
             return f"{self.prefix}input input, void *context"
         if parameter.kind is Kind.EVENTS:
             return f"{self.prefix}event event, void *data"
-        # C++ programs may include the header, but C++ lacks ``static n`` (the promise that n entries exist).
+        # In C, the declaration ``x[static n]`` promises that the array x has at least n entries. C++ has no
+        # such declaration, so the header omits ``static`` for C++ programs.
         promised = "" if header else "static "
         if parameter.kind is Kind.RECORD:
             of = self.record_type(parameter.record)
@@ -434,8 +435,8 @@ class _Body:
             yield from fill("event(", _arguments(given), ";", separator="")
             return
         if name == "sample":
-            # In C, a user function is passed as two parameters, so the text ``given[0]`` is "input, context".
-            # The printed line calls ``input`` with ``context`` as the last argument.
+            # ``given[0]`` is the text "input, context": a user function and a pointer to its data. The
+            # printed line calls ``input``, and the last argument is ``context``.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")

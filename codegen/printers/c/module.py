@@ -254,7 +254,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
             hint="use a scene with a smaller state, a method with fewer stages, or the target python",
         )
     # Without optimisation, a call needs about ``size * numbers + frames`` bytes.
-    margin = f", including a margin of {bound - size * numbers - frames} bytes" if each > size else ""
+    margin = f"; {bound - size * numbers - frames} of these bytes are a safety margin" if each > size else ""
     return (
         f"at most {bound} bytes with {MEASURED}{margin}; "
         "the stack of mathematical library functions is not included"

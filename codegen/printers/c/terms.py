@@ -96,7 +96,8 @@ class Terms(Infix):
         """Return C code for two checks that all values are finite: a fast check and an exact check."""
         # The first test is fast, but it may fail for finite values, because their sum may overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
-        # The sum of the differences x - x cannot overflow. For an infinity or a NaN, x - x is a NaN.
+        # The difference x - x is 0 if x is finite, and NaN otherwise. Therefore the sum of these differences
+        # is 0 only if all values are finite.
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
         return finite, (*self.text(differences).segments, f"== {zero}")

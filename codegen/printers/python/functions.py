@@ -181,7 +181,8 @@ class _Body:
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
         """Return True if one statement can replace the assignments of ``group`` and ``statement``.
 
-        The assignments must read (or write, if ``reading`` is False) consecutive entries of one list.
+        If ``reading`` is True, the result is True only if the assignments read consecutive entries of one
+        list. Otherwise, the result is True only if the assignments write consecutive entries of one list.
         """
 
         def one(s: Assign) -> Term:

@@ -90,7 +90,8 @@ class _Module:
     @cached_property
     def parameters(self) -> list[str]:
         """The identifiers of the run-time parameters."""
-        # The public functions of the template use the same identifiers as the private function ``run``.
+        # In the public functions, the parameters have the same identifiers as in the private function
+        # ``run``.
         names = self.identifiers["run"].by_name
         return [names[p] for p in self.interface.parameters]
 

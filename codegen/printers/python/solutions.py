@@ -1,4 +1,4 @@
-"""Makes one implicit step with an emitted Python module, and returns the solved unknowns."""
+"""Makes one implicit step with an emitted Python module, and returns the values of the unknowns."""
 
 from __future__ import annotations
 
@@ -17,12 +17,13 @@ class LoadedModule(Protocol):
 
 
 def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: float) -> list[list[float]]:
-    """Make one step and return the list of the solved unknowns for each substep.
+    """Make one step and return the list of the values of the unknowns for each substep.
 
     The function raises the exceptions of ``integrator.run``.
     """
     module = integrator.module
-    # Each substep passes the solved unknowns to the emitted function ``_remember``, as the second argument.
+    # Each substep passes the values of the unknowns to the emitted function ``_remember``, as the second
+    # argument.
     remember, solved = module._remember, dict[int, list[float]]()
 
     def observe(memory: object, solution: Sequence[float]) -> None:

@@ -19,7 +19,7 @@ _HELPERS = frozenset(f"_{name}" for name in (*OVERFLOWING, *UNDEFINED))
 
 # Builtins are reserved, because a parameter ``max`` would hide the builtin function ``max``.
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split()) | frozenset(LIBRARY) | _HELPERS
-"""Keywords, and names that a module imports or defines."""
+"""Keywords of Python, and other names that the variables of an emitted module must not have."""
 
 _PUBLIC = """
     state steps stride statistics counted rows completed status rtol atol limit end now size accepted rejected
