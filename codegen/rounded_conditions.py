@@ -18,7 +18,10 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 RING = Balls(256)
-"""Interval arithmetic with 256 bits, because the terms of a residual cancel."""
+"""Interval arithmetic with 256 bits.
+
+The terms of a residual nearly cancel, so in double precision their sum would have few correct digits.
+"""
 
 MOST = 3000
 """If an order has more conditions than this number, :func:`largest_residual` returns None."""

@@ -52,7 +52,7 @@ IN_MANIFEST = "copy the initial state from the manifest to the variable state"
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
-    """Return a pair (index, value) for each coordinate that the usage example sets one by one.
+    """Return one pair (index, value) for each coordinate that has its own assignment in the usage example.
 
     - For a state with at most :data:`LONGEST_STATE` coordinates, the result is None, because the usage
       example contains the whole initial state.

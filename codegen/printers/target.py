@@ -105,10 +105,10 @@ class Target:
 
     @property
     def solutions(self) -> Solutions:
-        """The function that makes one step and returns the solutions of the implicit equations in each
-        substep.
+        """The function with the name ``self.observer``. The function makes one step and returns the solutions
+        of the implicit equations in each substep.
 
-        ValueError is raised if ``self.observer`` is empty.
+        ValueError is raised if the target has no ``observer``.
         """
         return cast("Solutions", resolve_name(self.observer))
 

@@ -58,8 +58,9 @@ class ArrayLoops:
     def array(self, matrix: Matrix, size: int = 0) -> Term:
         """Return the array that contains a matrix.
 
-        The array is ``arrays[matrix.name]``, if it exists. Otherwise it has the name of the matrix and
-        ``size`` entries. The size 0 means that the array has as many entries as the matrix.
+        If ``arrays`` contains an array for ``matrix.name``, this array is returned. Otherwise, a new array
+        with the name of the matrix is returned. The new array has ``size`` entries. If ``size`` is 0, the
+        new array has as many entries as the matrix.
         """
         known = self.arrays.get(matrix.name)
         return own(matrix.name, size or matrix.size) if known is None else known
@@ -240,9 +241,10 @@ class ArrayLoops:
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
         """Return a function that yields the statements for a group of adjacent columns of ``a.target``.
 
-        Let T be ``a.target``, let M be ``a.matrix``, and let c be the variable :data:`_ENTRY`. Let i be the
-        index ``row``, and let j be the index ``column``. For each column k of the group, the statements add
-        c M_jk to T_ik if ``added`` is True. Otherwise, the statements set T_ik to c M_jk.
+        The variable :data:`_ENTRY` contains an entry of a constant matrix. The statements multiply this entry
+        by row number ``column`` of ``a.matrix``. If ``added`` is True, the product is added to row number
+        ``row`` of ``a.target``. Otherwise, the product overwrites this row. Only the columns of the group are
+        computed.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -256,7 +258,8 @@ class ArrayLoops:
     def applied_full(self, a: Apply) -> Iterator[Statement]:
         """Yield the loops for the product C M of a full constant matrix C and a variable matrix M."""
         c = a.constant
-        # If C is transposed, the indices i and j are exchanged.
+        # If ``a.transposed`` is True, C is the transpose of ``c``, so the row and the column of an entry are
+        # exchanged.
         i, j = (_TERM, _ROW) if a.transposed else (_ROW, _TERM)
         before, entry = constant_entry(c.full, c.name, i, j, c.columns * i + j)
 

@@ -173,8 +173,8 @@ class _Exponential:
         A point X = X_0 + B D is represented by the matrix D, which is called the displacement of X. The
         function reads the displacement of X and computes the displacement of the product exp(B S B^T) X.
 
-        The first k columns of B are X_0. Therefore X_0 = B I, where the columns of I are the first k columns
-        of the unit matrix. Hence X = X_0 + B D = B C with C = I + D. The displacement of the product
+        The first k columns of B are X_0. Therefore X_0 = B E, where the matrix E consists of the first k
+        columns of the unit matrix. Hence X = X_0 + B D = B C with C = E + D. The displacement of the product
         exp(B S B^T) X is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
         """
         move, k = self.move, self.move.target.columns
@@ -197,8 +197,9 @@ class _Exponential:
         about = (
             "Multiply the point X by the matrix exponential exp(B S B^T). Let X_0 be the state at the "
             "beginning of the step. The matrices X_0 and B are the same for all points of the step. A point "
-            "X = X_0 + B D is stored as the matrix D. The array result is the matrix D of the product "
-            f"exp(B S B^T) X. The argument core is the {m} x {m} matrix S. The argument gram is B^T B."
+            "X = X_0 + B D is stored as the matrix D. The array result is the matrix R "
+            f"with exp(B S B^T) X = X_0 + B R. The argument core is the {m} x {m} matrix S. The argument "
+            "gram is B^T B."
         )
         return Function(self.name, about, parameters, tuple(body))
 

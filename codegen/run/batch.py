@@ -137,10 +137,11 @@ def near(name: str) -> str:
 
 
 def complete(name: str) -> str:
-    """Return the name of the variant of the function ``name`` that is valid for small and large arguments.
+    """Return the name of the complete variant of the function ``name``.
 
-    For the sine and the cosine, the variant is a separate function. For all other functions, the result is
-    ``name``.
+    The complete variant is valid for small and large arguments. For the sine and the cosine, the complete
+    variant is a separate function. All other functions are valid for small and large arguments, so the result
+    is ``name``.
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')
@@ -161,7 +162,8 @@ def _advance_lanes(plan: Plan) -> Function:
     loaded = [Assign(own(s), _entry(_STATE, k, _PLACE)) for k, s in enumerate(plan.symbols)]
     loaded += [Assign(p, _entry(_PARAMETERS, k, _PLACE)) for k, p in enumerate(plan.parameters)]
     read = plan.arrangement.symbols()
-    # The inputs of a lane are constant in time, so the samples at all times are equal.
+    # A sample contains the run-time inputs at one time. The inputs of a lane (a system) are constant in time,
+    # so all samples contain the same values.
     for sample in plan.kernel.samples:
         loaded += [
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
@@ -322,7 +324,8 @@ def _blocks(plan: Plan) -> list[Statement]:
         # If the scalar step succeeds, the lane continues with the next step.
         If(STATUS.equals(code(OK)), tuple(_scattered(plan)), stop),
     )
-    # ``failed`` is also 1 for the lanes that stopped in an earlier step.
+    # ``failed`` is 1 for lanes that failed in this step and for lanes that stopped in an earlier step. Only
+    # the lanes that failed in this step are computed again.
     running = both(failed[_LANE] > 0.0, stopped[_LANE].equals(number(0.0)))
     steps: tuple[Statement, ...] = (
         Call(LANES, vector),

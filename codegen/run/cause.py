@@ -19,11 +19,11 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # The emitted function tries a step of size zero after a failed step. If a run-time input is NaN at
-    # t + h/2 but not at t, the step of size zero would succeed, because it reads the inputs only at t. Then
-    # the step size would wrongly be reported as the cause. Therefore code with run-time inputs does not
-    # contain the function. Code with a warm start does not need the function, because
-    # :mod:`codegen.run.continuation` finds the cause.
+    # The function tries a step of size zero. If this step succeeds, the size of the failed step is reported
+    # as the cause. If a run-time input is NaN at t + h/2 but not at t, the step of size zero succeeds,
+    # because it reads the inputs only at t. Then the step size would wrongly be reported as the cause.
+    # Therefore code with run-time inputs does not contain the function. Code with a warm start does not need
+    # the function, because :mod:`codegen.run.continuation` finds the cause.
     return plan.start is None and not plan.kernel.inputs
 
 

@@ -175,9 +175,10 @@ class _Continuation:
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         # After a successful attempt, ``latest`` is its solution.
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # After the first success, the next step size is ``factor`` times the largest successful step size,
-        # but at most h. A success squares ``factor``. A failure after the first success replaces ``factor``
-        # by its square root. Failures before the first success do not change ``factor``.
+        # First, ``factor`` is changed. A success squares ``factor``. A failure after the first success
+        # replaces ``factor`` by its square root. A failure before the first success does not change
+        # ``factor``. Then, if an attempt has succeeded, the next step size is the new ``factor`` times the
+        # largest successful step size, but at most h.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),

@@ -126,7 +126,7 @@ class _Deferring:
     # The last flow of a step and the first flow of the next step can be applied as one flow. ``begun`` is
     # True if the first flow of the current step was applied together with the last flow of the previous step.
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
-    # ``careful`` requires a test of the state after every step, and ``good`` is the result of the last test.
+    # If ``careful`` is True, the state is tested after every step. ``good`` is the result of the last test.
     shown, careful, good, again = flag("shown"), flag("careful"), flag("good"), flag("again")
     # ``asked`` is the number of steps that the current attempt shall make.
     asked = count("asked")
@@ -165,7 +165,7 @@ class _Deferring:
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
-            # ``lead`` is the duration of the last flow of this step.
+            # ADVANCE reads the duration of the last flow of the step from the variable ``lead``.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -183,7 +183,7 @@ class _Deferring:
         # A splitting has no implicit equations, so there is no argument for iteration statistics.
         parameters = (state, *plan.moment(), *plan.parameters)
         return Function(
-            COMPLETE, "Make one step. No flow is deferred to a later step.", parameters, body, Kind.STATUS
+            COMPLETE, "Make one step, and apply all flows of the step.", parameters, body, Kind.STATUS
         )
 
     def run(self) -> Function:

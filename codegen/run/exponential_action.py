@@ -38,7 +38,7 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         *_product(function, b, p, work),
         For(_ROW, whole(n), (Assign(p[_ROW], work[_ROW] + weight * result[_ROW]),)),
     )
-    # At the end of Horner's rule, ``weight`` is m!.
+    # At the end of Horner's rule, ``weight`` is the factorial of ``degree``.
     part = (
         Assign(p, result),
         Assign(weight, number(1.0)),

@@ -19,7 +19,8 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures,
 class EmittedFloats(FloatDomain):
     """Arithmetic with doubles. The rounding errors are the same as in emitted code.
 
-    ``chain`` is the largest number of nested Stumpff functions in a step (:mod:`codegen.ir.angle_depth`).
+    ``chain`` is the nesting depth of the Stumpff functions in a step (:mod:`codegen.ir.angle_depth`). For
+    example, the nesting depth of c_1(c_1(z)) is 2, where c_1 is a Stumpff function.
     The largest argument of a Stumpff function depends on ``chain`` (:func:`codegen.snippets.stumpff.limit`).
     """
 

@@ -165,8 +165,8 @@ class _Constant:
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
             return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
-        # ``run`` makes one step. Two optional outputs are absent: the trajectory and the number of completed
-        # steps.
+        # ``run`` is called for one step. Two optional outputs of ``run`` are not requested: the trajectory
+        # and the number of completed steps.
         time = (self.now,) if plan.time else ()
         nothing = (absent(Rows(plan).trajectory), whole(0))
         last = (*plan.counted, absent(count("completed", 1, optional=True, cell=True)))

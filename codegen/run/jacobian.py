@@ -79,7 +79,9 @@ def vary(plan: Plan, varying: Plan) -> Function:
         Return(code(OK)),
     ]
     parameters = (state, vector, *plan.moment(), *plan.parameters, *plan.sampled())
-    about = "Transport a variation of the state along one step. The result overwrites the variation."
+    about = (
+        "Multiply the derivative of one step by the tangent vector 'vector'. The product overwrites 'vector'."
+    )
     return Function("vary", about, parameters, tuple(body), Kind.STATUS, RAISES_STATUS)
 
 
@@ -113,7 +115,8 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
-            # For ``vary``, the inputs are copied to a writable array. In C, the caller's array is ``const``.
+            # In C, the caller's array of inputs is ``const``, but the pointer to the inputs in a call of
+            # ``vary`` is not ``const``. Therefore the inputs are copied.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),

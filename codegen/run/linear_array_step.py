@@ -60,10 +60,10 @@ from codegen.run.terms import (
 )
 
 HALVINGS = 16
-"""The largest number s of halvings of the matrix in an exponential.
+"""The largest integer s for which exp(X) is computed as the product of 2^s factors exp(X/2^s).
 
 For s = 16, the exponential of a tridiagonal matrix with 1000 rows takes seconds. If a step
-needs more halvings, it fails with the status TOO_FAR.
+needs a larger s, the step fails with the status TOO_FAR.
 """
 
 EXPONENTIAL = "exponential"
@@ -233,8 +233,8 @@ class _Step:
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
-        # The Taylor polynomial is multiplied by the factorial of its degree, so all coefficients are exact
-        # integers. The rounding errors of 1/j! would accumulate over many steps.
+        # The rounding errors of the coefficients 1/j! would accumulate over many steps. Therefore the Taylor
+        # polynomial is multiplied by the factorial of its degree, so all coefficients are exact integers.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),

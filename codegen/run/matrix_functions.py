@@ -151,7 +151,7 @@ class _Exponential:
         return Call(f"{self.name}_product", (a, b, result))
 
     def product_of(self, name: str) -> Function:
-        """Return the function that multiplies two jets."""
+        """Return the function that multiplies two jets. A jet consists of a matrix and its derivatives."""
         a, b, result = (real(x, self.size) for x in ("a", "b", "result"))
         inner: list[Statement] = []
         for part, factors in enumerate(pairs(self.level)):
@@ -217,18 +217,20 @@ class _Exponential:
         return Function(self.name, self._about(), (a, result), tuple(body))
 
     def _about(self) -> str:
+        # ``what`` is the result. If there are derivatives, ``what`` also describes the arrays a and result.
         what = f"exp(A) for the {self.n} x {self.n} matrix A in the array a"
         if self.level:
             single = (
                 ". The array a contains A, followed by a matrix E. The array result contains exp(A), "
                 "followed by the derivative of exp at A in the direction E"
             )
-            several = f". The matrix A is a function of {self.level} variables. The array a contains A,"
+            several = f". The matrix A is a function of {self.level} variables"
             what += (
                 single
                 if self.level == 1
-                else f"{several} followed by the partial derivatives of A that are at most of first order in "
-                "each variable. The array result contains exp(A), followed by the same derivatives of exp(A)"
+                else f"{several}. The array a contains A, followed by all partial derivatives of A "
+                "(also mixed ones) in which no variable occurs twice. The array result contains exp(A), "
+                "followed by the same partial derivatives of exp(A)"
             )
         return (
             f"result = {what}. The algorithm is scaling and squaring: a Taylor polynomial of exp(A/2^s) is "
@@ -315,7 +317,8 @@ class _Exponential:
         error, bound = real("error_bound"), real("bound")
         body = (
             self.norm(result, bound),
-            # Both ``growth`` and the Frobenius norm are upper bounds of the spectral norm.
+            # The Frobenius norm (``bound``) and ``growth`` are two upper bounds of the spectral norm of the
+            # matrix. The smaller bound is used.
             Assign(bound, select(bound < growth, bound, growth)),
             # Let r = ``bound`` be an upper bound of the norm of the n x n matrix, and let e = ``error`` be an
             # upper bound of the error of the matrix. With the unit roundoff u, the error of the computed

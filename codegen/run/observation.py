@@ -213,7 +213,7 @@ class Observation:
             ),
             Return(ordered),
         )
-        about = "True if all output times lie inside the run and are sorted in its direction."
+        about = "True if all output times lie inside the run, in the order in which the run reaches them."
         return Function(ORDERED, about, (self.now, self.end, self.times, self.amount), body, Kind.FLAG)
 
     def measure(self, time: Term, state: Term) -> tuple[Statement, ...]:
@@ -235,7 +235,7 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the condition that the sign of ``values[i]`` differs from the stored sign."""
-        # An event function that leaves zero does not cross zero.
+        # If the stored sign is 0, the event function starts at zero, and no change is reported.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -300,14 +300,14 @@ class Observation:
     def _guess(
         self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
     ) -> tuple[Statement, ...]:
-        """Return the statements that choose ``middle``, the fraction of the step for the next trial."""
+        """Return statements that choose ``middle``, the fraction of the step where events are tested next."""
         i, estimate, difference = count("i"), real("estimate"), real("difference")
-        # For each event function, a secant interpolates the weighted values (:meth:`_moved`) at ``low`` and
-        # ``high``. The earliest zero of a secant is chosen. In every third iteration, the midpoint is chosen
-        # instead.
+        # For each event function with a change of sign, let a and b be the values at ``low`` and ``high``,
+        # multiplied by the weights of the Illinois method (:meth:`_moved`). A secant interpolates a and b.
+        # The earliest zero of a secant is chosen. In every third iteration, the midpoint is chosen instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
-        # Either a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1. If the weighted
-        # values underflow, a - b is zero, and the secant has no zero. Then the midpoint is the estimate.
+        # Either a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1. If a and b
+        # underflow, a - b is zero, and the secant has no zero. Then the midpoint is the estimate.
         bisected, secant = 0.5 * (self.low + high), self.low + (high - self.low) * (a / difference)
         candidate = (
             Assign(difference, a - b),

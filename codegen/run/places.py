@@ -34,7 +34,8 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
 
     If the state has a variation (a tangent vector), it is the last block. Its array is ``vector``.
     """
-    # ``whole`` is the length of the array ``state`` (without the variation).
+    # ``whole`` is the length of the array ``state``. The variation is not in ``state``, so the symbols of the
+    # variation are not counted.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0

@@ -144,7 +144,10 @@ class Plan:
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
-        """Return ``(inputs,)`` if the kernel has run-time inputs, and ``()`` otherwise."""
+        """Return ``(inputs,)`` if the kernel has run-time inputs, and ``()`` otherwise.
+
+        The step samples (evaluates) the function ``inputs`` at one or more times.
+        """
         return (inputs,) if self.kernel.inputs else ()
 
     @property

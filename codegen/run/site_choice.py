@@ -13,8 +13,8 @@ def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
     """Return the solver for each block of implicit equations in ``kernel``.
 
     ``asked`` is the solver that the user requested. Error messages contain ``name``, the name of the problem.
-    Newton's method (``newton``) is not implemented for a step on a chain or lattice. MethodError is raised if
-    ``asked`` is ``newton``, unless the step has no implicit equations.
+    Newton's method (``newton``) is not implemented for a step on a chain or lattice. If ``asked`` is
+    ``newton`` and the step has implicit equations, MethodError is raised.
     """
     step = kernel.sites
     assert step is not None

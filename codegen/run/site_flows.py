@@ -70,7 +70,8 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
     # A kick changes single sites, but reads their neighbours.
     if sweep.axis == OWN and sweep.neighbours:
-        # The last flow of a step tests the whole new state, so a kick needs no test for infinities and NaNs.
+        # The last flow of a step is never a kick, and tests the whole new state. Therefore a kick needs no
+        # test for infinities and NaNs.
         return _Kick(Loop(plan, step, sweep, index, tested=False))
     return _Part(plan, step, sweep, index)
 
@@ -126,11 +127,11 @@ class _Part:
 
     @property
     def special(self) -> bool:
-        """True if the emitted code has two functions for this flow: ``flow_K`` and ``whole_K``.
+        """True if the emitted code has two functions for flow number K: ``flow_K`` and ``whole_K``.
 
-        K is ``index``. ``flow_K`` then calls fast sines, cosines and Stumpff functions, which are valid only
-        near zero. ``whole_K`` calls functions that are valid for all arguments. If the property is False,
-        only ``flow_K`` exists, and calls functions that are valid for all arguments.
+        If the property is True, ``flow_K`` calls fast sines, cosines and Stumpff functions, which are valid
+        only near zero, and ``whole_K`` calls functions that are valid for all arguments. If the property is
+        False, only ``flow_K`` exists, and calls functions that are valid for all arguments.
         """
         _, inside, _ = split(self.own.kernel, set())
         # The functions ``sqrt``, ``fabs`` and ``choose`` never have branches, so they need no fast variant.
@@ -226,7 +227,8 @@ class _Part:
         body += inside
         body += [Assign(new, end) for new, end in zip(self._news, ends, strict=True)]
         for k, (row, new) in enumerate(zip(self.own.stores, self._news, strict=True)):
-            # The first ``size`` values belong to the first site, and the others to the second site of a pair.
+            # The new values with k < ``size`` belong to the first site, and all other new values to the
+            # second site of a pair.
             body.append(Assign(self.entry(row, OWN if k < self.step.size else 0), new))
         return body
 
@@ -293,7 +295,8 @@ class _Part:
         last, periodic = self.step.dimension - 1, self.step.periodic
         outer = [count(f"i{e}") for e in range(last)]
         length = shape[self.own.axis]
-        # In an open lattice, the first site along the axis belongs to no pair of colour 1.
+        # The first site of a pair of colour 1 has an odd index along the axis. Therefore, in an open lattice,
+        # the site with the index 0 belongs to no pair of colour 1.
         number = length // 2 if periodic else (length - _COLOUR) // 2
         body: list[Statement]
         if self.strided:
@@ -306,8 +309,8 @@ class _Part:
             else:
                 body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
-                # The first site of this pair is in the last column. The index of this column is odd, because
-                # the number of columns is even. Therefore the pair has the colour 1.
+                # The first site of this pair is in the last column. The number of columns is even, so the
+                # last column has an odd index. A pair has the colour 1 if the index of its first site is odd.
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:
@@ -321,9 +324,9 @@ class _Part:
         parameters = (WHOLE, shape, _COLOUR, SITES, *self.arrays, *self.scalars)
         first = [Assign(COLUMNS, shape[last])]
         about = (
-            f"Pairs of sites: {self.own.about}. The two sites of each pair are neighbours along one axis of "
-            "the lattice. If colour is 0, the first site of each pair has an even index along this axis. If "
-            "colour is 1, the first site has an odd index."
+            f"Apply a flow to pairs of sites: {self.own.about}. The two sites of each pair are neighbours "
+            "along one axis of the lattice. If colour is 0, the first site of each pair has an even index "
+            "along this axis. If colour is 1, the first site has an odd index."
         )
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 

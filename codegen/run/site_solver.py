@@ -56,7 +56,8 @@ class _Stopping(Stopping):
         # To save time, ``REACH`` is called only if the changes no longer decrease.
         still = both(self.previous > 0.0, CHANGE >= self.previous)
         measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
-        # Compilers require an initial value of ``_REACH``. The stopping rule never uses the value 0.
+        # Compilers require that ``_REACH`` has an initial value. The initial value 0 has no effect on the
+        # result of the stopping rule.
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:

@@ -139,7 +139,8 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
     if not offset:
         return None, index
     far = abs(offset)
-    # The variables are unsigned, so the test avoids the difference ``size - far``, which may be negative.
+    # The variables are unsigned. If ``size`` < ``far``, the difference ``size - far`` would wrap around, so
+    # the test uses the sum ``index + far``.
     there = index + far < size if offset > 0 else index >= far
     moved = index + far if offset > 0 else index - far
     wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index

@@ -5,7 +5,7 @@ component k of all sites. Within a row of an array, the last index of a site cha
 
 A sweep is a loop over all sites. Sweep number K has three functions. ``sweep_K`` computes consecutive sites
 whose neighbours all exist. ``site_K`` computes one site, which may be at the boundary. ``pass_K`` computes
-all sites with both functions.
+every site once, with ``sweep_K`` or with ``site_K``.
 
 ``sweep_K`` uses fast sines, cosines and Stumpff functions, which return NaN for arguments far from zero. If
 the new state is not finite at some site, the step is repeated with ``site_K`` for all sites. A finite result
@@ -211,7 +211,7 @@ class Loop:
         return body
 
     def _images(self, ends: Sequence[Term]) -> tuple[list[Statement], list[Term]]:
-        """Return statements that assign the new values of the unknowns to variables, and these variables."""
+        """Return assignments ``next u`` = new value of u for all unknowns u, and the variables ``next u``."""
         images = [own(f"next {u}") for u in self.own.unknowns]
         # ``ends`` begins with the new values of the unknowns. Other results may follow.
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
@@ -356,15 +356,15 @@ class Loop:
             if outer and not step.periodic:
                 inside = both(*tests) if tests else Term("number", (), Kind.FLAG, number=1)
                 body.append(Assign(flag(f"inside_{k}"), inside))
-        # ``low`` is the number of sites with a neighbour beyond the left end of the row. For the right end,
-        # this number is ``high``.
+        # The first ``low`` sites of the row have a neighbour beyond the left end of the row. The last
+        # ``high`` sites of the row have a neighbour beyond the right end.
         lasts = [step.offsets[k][-1] for k in self.neighbours]
         low, high = max([0, *(-x for x in lasts)]), max([0, *lasts])
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
         regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
-        # The function ``site_K`` computes the first ``_LEAD`` sites of the row. If ``_INNER`` is 0, these are
-        # all sites of the row.
+        # The first ``_LEAD`` sites of the row are computed one by one, and the next ``_INNER`` sites by
+        # ``sweep_K``. If ``_INNER`` is 0, all sites of the row are computed one by one.
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()

@@ -4,15 +4,14 @@ Newton.
 The matrices of the two Newton methods are described in :class:`codegen.ir.kernel.Newton`. Fixed-point
 iteration needs no matrix, and each sweep multiplies the error by a factor O(h).
 
-Usually the solver with the shortest predicted time is chosen. The first trial of a solver
-(:mod:`codegen.run.trial`) makes :data:`STEPS` steps from the initial state of the problem's example. This
-trial counts sweeps and matrices. From these numbers, the
-cost model (:mod:`codegen.run.step_cost`) predicts the time of a step. ``benchmarks/solver_choice.py``
-compares the choices with measured times.
+Usually the solver with the shortest predicted time is chosen. Each solver is tested in at most two trials
+(:mod:`codegen.run.trial`). Every problem has an example with an initial state and a step size, called the
+usual step size. The first trial makes :data:`STEPS` steps of the usual size from this initial state, and
+counts sweeps and matrices. From these numbers, the cost model (:mod:`codegen.run.step_cost`) predicts the
+time of a step. ``benchmarks/solver_choice.py`` compares the choices with measured times.
 
-The first trial uses the step size of the example, called the usual step size. The second trial makes one step
-of :data:`LONGER` times this size. A solver is robust if it converges in both trials and needs at most
-:data:`SWEEPS` sweeps in the second trial.
+The second trial makes one step of :data:`LONGER` times the usual size. A solver is robust if it converges in
+both trials and needs at most :data:`SWEEPS` sweeps in the second trial.
 
 A robust solver is preferred if its predicted time is at most :data:`PRICE` times the time of the fastest
 solver.
@@ -227,7 +226,7 @@ class Candidate:
 
     @property
     def robust(self) -> bool:
-        """True if both trials converge and the second trial needs at most SWEEPS sweeps."""
+        """True if steps of the usual size converge, and a longer step converges in at most SWEEPS sweeps."""
         return self.far is not None and self.far.converged and self.far.most <= SWEEPS
 
     def block(self, k: int) -> float:
@@ -351,10 +350,9 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return a threshold, in nanoseconds, for the step time of every solver other than ``solver``.
+        """Return the least step time, in nanoseconds, for which another solver is worse than ``solver``.
 
-        If a step with another solver takes at least as long as the threshold, ``solver`` is a better choice
-        than the other solver. ``candidate`` contains the results of the trials of ``solver``.
+        ``candidate`` contains the results of the trials of ``solver``.
         """
         # A robust solver is preferred, even if it is slower by a factor of up to PRICE.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)

@@ -36,7 +36,7 @@ MEANINGS = {
     BAD_TIMES: "an output time is NaN, out of order, or not between t and end",
     LEAST_STEP: "the end was not reached: a step of the least size was rejected",
     BAD_EVENT: "an event function is infinite or NaN",
-    BAD_SHAPE: "a dimension has too few sites, or has an odd number of sites but needs an even number",
+    BAD_SHAPE: "a dimension has too few sites, or an odd number of sites where a step needs an even number",
     BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is infinite or NaN",
 }
 """Maps each status to the comment that explains it in the header of emitted code."""
@@ -53,7 +53,7 @@ REASONS = {
     BAD_TIMES: "the output times are not finite, not in order, or not between t and end",
     LEAST_STEP: "the end is not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is not finite",
-    BAD_SHAPE: "a dimension has too few sites, or has an odd number of sites but needs an even number",
+    BAD_SHAPE: "a dimension has too few sites, or an odd number of sites where a step needs an even number",
     BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is not finite for h = {h}",
 }
 """Maps each status of a failure to the text that explains the failure in error messages.

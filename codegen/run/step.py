@@ -62,8 +62,8 @@ def kernel_step(plan: Plan) -> Function:
     parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
     parameters += (*plan.remembering(plan.memory), *plan.counted)
     parameters += (plan.error,) if plan.kernel.estimate is not None else ()
-    # All new entries are computed before the first entry is overwritten, because they depend on the old
-    # state.
+    # The new entries depend on the old state. Therefore all new entries are computed before the first old
+    # entry is overwritten.
     ends, new = outputs(plan.arrangement, plan.symbols)
     # The results do not depend on unread entries of the state, so a test of the results does not find a NaN
     # in an unread entry. A NaN in an unread entry must be found here.

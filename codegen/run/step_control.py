@@ -102,8 +102,8 @@ def weighted(plan: Plan) -> Function:
     n, i = plan.size, count("i")
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
-    # |y_i| is the larger of the absolute values before and after the step. One of the two values may be
-    # nearly zero by accident.
+    # |y_i| is the larger of the absolute values before and after the step. The smaller value may be
+    # nearly zero by accident, and would then make the permitted error too small.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),
@@ -286,8 +286,8 @@ class Controlled:
 
         Let t be the time and h the size of the next, shorter trial step. If t + h differs from t in
         floating-point arithmetic, the status is set to OK, and the run continues. If t + h equals t, the run
-        ends. If the rejected step failed, the final status is the status of the rejected step. If only the
-        error of the rejected step was too large, the final status is TOO_SHORT.
+        ends. If the rejected step failed, the final status is the status of the rejected step. If the
+        rejected step did not fail, its error was too large, and the final status is TOO_SHORT.
         """
         # If a step fails and no shorter step is possible, the run ends with the status of the failed step.
         following = real("next")

@@ -44,9 +44,8 @@ class Amounts:
     - ``arithmetic`` is the number of additions, products and other operations of about one cycle.
     - ``divisions`` is the number of divisions.
     - ``calls`` is the number of function calls.
-    - ``corrections`` is the number of products of an inverse matrix and a vector g(u) - u. Newton's method
-      for equations u = g(u) computes one such product in each sweep. Newton's method for equations r(u) = 0
-      computes products with r(u), which are not counted.
+    - ``corrections`` is the number of sweeps of Newton's method for equations u = g(u). Each of these sweeps
+      multiplies an inverse matrix by g(u) - u. Sweeps for equations r(u) = 0 are not included.
     - ``cubes`` is the sum of n^3 over all inversions of n x n matrices.
     """
 
@@ -112,8 +111,8 @@ def of_step(kernel: Kernel, work: Work) -> Amounts:
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of work in one sweep."""
-    # Each sweep of Newton's method makes one correction. If the equations are u = g(u), the correction is
-    # counted. If the equations are r(u) = 0 (``residuals`` is true), the correction is not counted.
+    # A sweep counts as a correction only in Newton's method for equations u = g(u). If ``residuals`` is true,
+    # the equations are r(u) = 0.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 

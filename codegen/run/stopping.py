@@ -166,11 +166,11 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the test whether the change of the unknowns is below the rounding errors of the state.
+        """Return the test whether a change of the unknowns affects the state less than rounding errors do.
 
-        The change is multiplied by the step size. If the unknowns belong to a variation (a tangent vector at
-        the state), the test uses the rounding errors of the variation in place of the rounding errors of the
-        state.
+        The effect of the change on the state is estimated by the change times the step size. If the unknowns
+        belong to a variation (a tangent vector at the state), the test uses the rounding errors of the
+        variation in place of the rounding errors of the state.
         """
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
@@ -273,8 +273,9 @@ class Stopping:
         the old rate again, and a loop for equations u = g(u) stores twice the old rate.
 
         The factor 2 has the following reason. After the first sweep, the stopping test uses the old rate. If
-        the old rate is too small, the loop ends too early. The doubling makes the stored rate grow until the
-        stopping test demands a second sweep. The second sweep measures the rate again.
+        the old rate is too small, the loop ends too early. A larger rate makes the stopping test stricter.
+        Each step with a single sweep doubles the stored rate, until the test demands a second sweep. The
+        second sweep measures the rate again.
         """
         if not self.warm:
             return []

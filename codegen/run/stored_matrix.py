@@ -44,7 +44,10 @@ class Hoisted:
     names: dict[Expr, str] = field(default_factory=dict)
 
     def formula(self, root: Expr) -> Expr:
-        """Return ``root`` with names in place of the subexpressions that are independent of i and j."""
+        """Return the expression ``root`` with a name in place of each subexpression without i and j.
+
+        The symbols i and j are the row and the column of a matrix entry.
+        """
         space, known = root.space, dict[Expr, Expr]()
         indexed: dict[Expr, bool] = {}
         for node in walk([root]):
@@ -125,8 +128,8 @@ class StoredMatrix(ABC):
 
         ``entries`` contains one triple for each constant matrix M. The first part of the triple is the index
         of the coefficient of M in the linear combination. The second part is a formula for the entries of M,
-        or a tuple of numbers. The third part is the name of the table that contains the numbers. A number is
-        read from the table at the index ``place``.
+        or a tuple of numbers. The third part is the name of the table that contains the numbers. If the
+        second part is a tuple of numbers, the entry of M is read from the table at the index ``place``.
         """
         total: Term | None = None
         for term, given, table in entries:
@@ -174,7 +177,10 @@ class BandedMatrix(StoredMatrix):
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the loop that stores a linear combination of ``nodes`` in the array ``target``."""
+        """Return the loop that stores a linear combination of the matrices h A(t_i) in the array ``target``.
+
+        ``nodes`` contains the array of each matrix h A(t_i), and ``letter`` contains the coefficients.
+        """
         return [For(_ROW, whole(self.letter_size), (Assign(target[_ROW], _combined(nodes, letter)),))]
 
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
@@ -274,7 +280,7 @@ class FullMatrix(StoredMatrix):
         they are needed.
         """
         weights = dict(letter)
-        # If the linear combination does not contain the matrix A(t_i), its coefficient is zero.
+        # If the linear combination does not contain the matrix A(t_i), the coefficient c_i is zero.
         body: list[Statement] = [
             Assign(target[k], STEP * _constant(weights[k]) if k in weights else number(0.0))
             for k in range(self.nodes)
@@ -294,8 +300,8 @@ class FullMatrix(StoredMatrix):
         # C has no arrays of length zero, so ``result`` has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
         about = (
-            "Let a_ij be the entries of A(t). Compute those subexpressions of a_ij that depend on neither i "
-            "nor j."
+            "The entries of A(t) are formulas in the row i and the column j. Compute the subexpressions of "
+            "these formulas that contain neither i nor j."
         )
         # The emitted function does not need the step size h.
         time = tuple(t for t in moment if t.text != STEP.text)
@@ -346,8 +352,8 @@ class FullMatrix(StoredMatrix):
         return If(reached, body)
 
     def _place(self, place: int) -> Term:
-        # The array contains the coefficients, then the values for the first time t_i, then the values for the
-        # second time, and so on.
+        # The array begins with one coefficient for each time t_i. Then, for each time t_i in turn, the array
+        # contains the ``node_size`` values of the subexpressions that contain neither i nor j.
         first = self.node_size * _NODE
         return first + (self.nodes + place)
 

@@ -182,14 +182,14 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # After convergence, the unknowns keep their values, because later statements use results that were
-        # computed from them.
+        # The last sweep computes other results from the current values of the unknowns. Later statements use
+        # these results together with the unknowns, so the unknowns are not updated after convergence.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
 
     def narrow(self) -> tuple[list[Statement], Term]:
-        """Return the statements that compute the sizes of the changes, and the sum of these sizes."""
+        """Return the statements that compute |g(u) - u| for each unknown u, and the sum of these numbers."""
         changes = self.named("change")
         sequence: list[Statement] = [
             Assign(change, size(x - u))
