@@ -73,10 +73,10 @@ class RunRequest:
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Raise :class:`MethodError` if one of ``options`` is requested.
+    """Raise :class:`MethodError` if one of ``options`` is requested together with compensated summation.
 
-    The function must be called only if compensated summation is requested. Each key of ``options`` is the
-    name of an option that cannot be combined with compensated summation. The value is True if the option is
+    The caller has already tested that compensated summation is requested. Each key of ``options`` is the name
+    of an option that cannot be combined with compensated summation. The value is True if the option is
     requested. The message of the error names ``method``.
     """
     for option, requested in options.items():

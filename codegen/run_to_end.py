@@ -42,10 +42,10 @@ class RunToEnd(ABC):
         """Integrate from t to end, with output at the times ``t_eval``, and find zeros of event functions.
 
         An adaptive module chooses step sizes between ``least`` and ``greatest``. The first step size is
-        ``h``. If ``h`` is 0, the module chooses the first step size. All other modules make steps of size
-        ``h``, but the last step can be shorter. All other modules ignore ``rtol``, ``atol``, ``least`` and
-        ``greatest``. Output times and events do not change the step sizes. By default, ``end`` is the last
-        output time.
+        ``h``. If ``h`` is 0, the module chooses the first step size. A module without step control makes
+        steps of size ``h``, but the last step can be shorter. A module without step control ignores ``rtol``,
+        ``atol``, ``least`` and ``greatest``. Output times and events do not change the step sizes. By
+        default, ``end`` is the last output time.
 
         TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised if
         output times are not monotone, or if an output time is not between t and end. StepFailed is raised if

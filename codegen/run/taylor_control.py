@@ -341,8 +341,8 @@ class _Controlled:
         n, p = self.size, self.degree
         epsilon, smaller, reached = real("epsilon"), real("smaller"), real("reached")
         body: list[Statement] = [Assign(epsilon, ATOL + RTOL * largest(self.start))]
-        # Every second Taylor coefficient of an even function is zero. Therefore the step size depends on
-        # two coefficients.
+        # The last Taylor coefficient alone can mislead: it may be zero, because every second Taylor
+        # coefficient of an even function is zero. Therefore the last two coefficients are used.
         for k, result in ((p - 1, smaller), (p, reached)):
             norm = real(f"norm_{k}")
             body.append(Assign(norm, largest(self.series.part((k - 1) * n, n))))

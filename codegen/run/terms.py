@@ -205,8 +205,8 @@ def record(name: str, of: str, *shape: int, optional: bool = False) -> Term:
 
 
 def signal(name: str) -> Term:
-    """Return a term called ``name``. The term denotes a function: its argument is the time t, and its results
-    are the values of all run-time inputs at the time t.
+    """Return the function ``name`` as a term. The function maps a time to an array with the values of all
+    run-time inputs at this time.
     """
     return Term("name", (), Kind.SIGNAL, name)
 
@@ -241,7 +241,7 @@ def truth(x: bool) -> Term:
 
 def value(x: Expr) -> Term:
     """Return the expression ``x`` as a term. A symbol becomes the variable with the name of the symbol."""
-    # A symbol becomes a variable: a term with the ``op`` "name", not "value".
+    # A single symbol gets the ``op`` "name", because passes and printers recognise variables by this ``op``.
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
@@ -339,13 +339,13 @@ def absent(parameter: Term) -> Term:
 
     ``parameter`` is the parameter of the called function for which no argument is given.
     """
-    # The new term keeps the kind and the shape of ``parameter``, because kind and shape determine how it is
-    # printed.
+    # The printers read the kind and the shape of every argument. Therefore only ``op`` and ``args`` change
+    # here.
     return replace(parameter, op="none", args=())
 
 
 def holding(inputs: Term) -> Term:
-    """Return the signal (a function of time) that has the values ``inputs`` at all times."""
+    """Return a constant signal: a function of time that has the value ``inputs`` at all times."""
     return Term("holding", (inputs,), Kind.SIGNAL)
 
 

@@ -134,8 +134,8 @@ def own_memory(plan: Plan) -> list[Statement]:
 
     If steps store no data for later steps, the list is empty.
     """
-    # The memory is a local variable of the emitted function. Therefore several threads can call the emitted
-    # function at the same time.
+    # The data for later steps are in a local variable of the emitted function. Therefore several threads can
+    # call the emitted function at the same time.
     return [Array(plan.memories, zero=True)] if plan.remembers else []
 
 
@@ -240,8 +240,8 @@ def run(plan: Plan) -> Function:
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
     if carried:
-        # If LEAVE fails, ``state`` is still the initial state, so the number of completed steps is set to
-        # zero.
+        # Only LEAVE changes ``state``, and only if it succeeds. After a failure, ``state`` is the initial
+        # state, so the number of completed steps is set to zero.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))

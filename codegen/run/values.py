@@ -48,7 +48,10 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 
 
 def _part(arguments: Sequence[Expr]) -> Term | None:
-    """Return ``arguments`` as a slice of one result array, or None if they are not consecutive entries."""
+    """Return ``arguments`` as a slice of the array that contains the results of an earlier call.
+
+    If no such slice exists, return None.
+    """
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
     # The lists ``results`` and ``arguments`` have the same length. If this length is 1, None is returned,
     # because the only argument may be stored in a scalar variable. A scalar variable has no slices.

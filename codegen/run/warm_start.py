@@ -272,8 +272,8 @@ class WarmStart:
             Assign(moved, number(0.0)),
             *each(self.n, added),
             # ``first`` is the error of the extrapolated guess, and ``moved`` is the distance between the
-            # previous and the new solution. If ``first`` is not much smaller than ``moved``, the previous
-            # solution is about as good a guess, so the extrapolation is useless.
+            # previous and the new solution. If ``first`` is not much smaller than ``moved``, the extrapolated
+            # guess is hardly closer to the new solution than the previous solution is.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
@@ -312,8 +312,8 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
-        # ``place`` decreases by one in each step, modulo ``depth``. SELDOM divides ``depth``, so the test of
-        # ``place`` is true once in SELDOM steps.
+        # ``place`` decreases by one in each step, modulo ``depth``. Because ``depth`` is a multiple of
+        # SELDOM, ``place`` is divisible by SELDOM in every SELDOM-th step.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(f"adapt the degree in each step until the ring buffer is full, then every {SELDOM} steps"),

@@ -1,8 +1,9 @@
 """Classical forms of a scene: its equations in the coordinates that are usual for a general ODE solver.
 
 A form is a problem on R^n with a map to the state of the scene. The first form uses the coordinates of the
-scene. Another form can use the body frame (:mod:`codegen.scene.body_frame`). If a factor of the group has a
-covering group, the last form can use the coordinates of the covering group.
+scene. Another form can use the body frame (:mod:`codegen.scene.body_frame`). If a nonabelian group acts on
+itself, and a factor of the group has a covering group, the last form uses the coordinates of the covering
+group.
 """
 
 from __future__ import annotations
@@ -134,7 +135,7 @@ class _Leaf:
 
     @property
     def noun(self) -> str:
-        """A phrase that describes the coordinates ``own``, for example "unit quaternion"."""
+        """A noun for the coordinates of the factor in the classical form, for example "unit quaternion"."""
         return (self.group if self.cover is None else self.cover.cover).coordinates
 
     def element(self, d: Domain, own: Vector[S]) -> Vector[S]:

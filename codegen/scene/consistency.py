@@ -198,8 +198,8 @@ def check_flow(
                 for k, (x, y) in enumerate(zip(left or (), right or (), strict=True)):
                     if not orbit.sized(x - y, (x, y)):
                         raise SceneError(
-                            f"the coordinate {orbit.symbols[k]} of the flow of {name} {verb} {orbit.text(x)} "
-                            f"at {elapsed} = {orbit.text(there[elapsed])}",
+                            f"in the flow of {name}, the formula for {orbit.symbols[k]} {verb} "
+                            f"{orbit.text(x)} at the time {elapsed} = {orbit.text(there[elapsed])}",
                             where=orbit.name,
                             expected=f"{orbit.text(y)}, by the differential equations of the part {name}",
                             hint="if the part is a sum of terms whose flows do not commute, "

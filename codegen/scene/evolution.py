@@ -46,7 +46,8 @@ class Evolution:
     - ``outer``: the scene as a field y' = f(y).y.
     - ``body``: the group of the configuration if the coordinates contain the momentum in the body frame,
       otherwise None.
-    - ``missing``: the indices of the omitted coordinates of the state.
+    - ``missing``: the indices of coordinates of the state that the equations omit, because they follow from
+      the other coordinates.
     """
 
     inner: Problem
@@ -138,7 +139,7 @@ class Evolution:
         return tuple(y[: self.body.size]), tuple(y[self.body.size :])
 
     def _completed(self, domain: Domain, moved: Vector[S]) -> Vector[S]:
-        """Insert the coordinates with the indices ``missing`` into ``moved``, and return the result."""
+        """Compute the omitted coordinates from the coordinates ``moved``, and return all coordinates."""
         if not self.missing:
             return moved
         group, own = _of_element(self.outer.group), iter(moved)
@@ -168,8 +169,8 @@ def evolution(scene: Problem) -> Evolution:
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
     if scene.sites is not None:
-        # The equations of the neighbouring sites may contain all coordinates of a site. Therefore all
-        # coordinates of the scene are kept.
+        # The equations of other sites may contain each coordinate of this site. Therefore no coordinate is
+        # omitted.
         return forms[0]
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:
@@ -188,7 +189,8 @@ def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequenc
 
 def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) -> Problem:
     space = roots[0].space
-    # The zeros are not used, because each step begins with the current values of the coordinates.
+    # A problem needs initial values. Zeros suffice, because each step begins with the current values of the
+    # coordinates.
     start = tuple(space.zero for _ in symbols)
     return replace(
         scene,

@@ -28,10 +28,10 @@ def extended(problem: Problem) -> Problem:
     The problem must have a Hamiltonian that depends on time, or it must be a linear Hamiltonian equation
     y' = A(t).y. For all other problems SceneError is raised.
 
-    The new coordinate of a linear equation is u, the momentum conjugate to the time. Other problems get two
-    new coordinates: u and the time tau. If a name is already used, underscores are appended. If the
-    Hamiltonian has parts, u is added to the first part that does not depend on time. If all parts depend on
-    time, u becomes a new part.
+    A linear equation gets one new coordinate: u, the momentum conjugate to the time. The time does not become
+    a coordinate, because A(t).y would then be nonlinear. Other problems get two new coordinates: u and the
+    time tau. If a name is already used, underscores are appended. If the Hamiltonian has parts, u is added to
+    the first part that does not depend on time. If all parts depend on time, u becomes a new part.
     """
     if problem.linear and not problem.paired and not problem.carries_momentum:
         return extended_linear(problem, _fresh("u", {*problem.symbols, *problem.parameters}))

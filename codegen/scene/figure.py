@@ -1,4 +1,4 @@
-"""The figures of a scene, which draw the values of formulas along runs of emitted code.
+"""The figures of a scene. A figure shows values of formulas along numerical solutions of emitted code.
 
 A scene file lists its figures in the variable ``figures``. Formulas are sympy formulas in the symbols of the
 scene, in its parameters and in the time ``t``. The name of an invariant

@@ -4,7 +4,8 @@ The site i has the Hamiltonian h(q_i, mu_i). A bond with the offset d has the en
 total energy E is the sum of h over all sites and of V over all bonds.
 
 The equations are q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i. Here xi_i is the derivative of h with
-respect to mu_i. Let D_i be the derivative of E with respect to q_i. The force is n_i = -D_i.q_i^-1
+respect to mu_i. Let e_a be the basis elements of the Lie algebra. Component a of the force n_i is the
+derivative of -E with respect to eps at eps = 0, if q_i is replaced by exp(eps e_a) q_i in E
 (:mod:`codegen.scene.canonical_equations`).
 """
 

@@ -88,7 +88,7 @@ def _hamiltonian(problem: Problem) -> Expr:
     hamiltonian = _constant(space, Fraction(1, 2)) * total
     slopes = gradient(hamiltonian, symbols)
     normal = NormalForms(space)
-    # If A(t) is not in sp(2n), y' = A(t).y differs from Hamilton's equations for ``hamiltonian``.
+    # The linear equation and Hamilton's equations for ``hamiltonian`` agree exactly if A(t) is in sp(2n).
     canonical = (*slopes[n:], *(-s for s in slopes[:n]))
     if not all(normal(a - b).is_zero for a, b in zip(rates, canonical, strict=True)):
         raise SceneError(

@@ -384,7 +384,8 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
         return ConstantMatrix(name, given.rows, given.columns, (), entry)
     matrix = ConstantMatrix(name, given.rows, given.columns)
     diagonals = []
-    # The main diagonal comes first. For square matrices, it has an entry in every row.
+    # The main diagonal comes first, because it has an entry in every row of a square matrix. Then the first
+    # loop of the emitted matrix product assigns all rows, and the result need not be set to zero before.
     for offset in sorted(given.diagonals, key=lambda x: (abs(x), x)):
         length = matrix.length(Diagonal(offset, ()))
         entry = _entry(reader, given.diagonals[offset], (row,), length, f"the diagonal {offset}")

@@ -336,7 +336,10 @@ class Logarithm(Unary):
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this logarithm, followed by the closed forms in its argument."""
+        """Yield the exponentials and logarithms in this formula that are computed by closed forms.
+
+        The first of them is this logarithm itself, because every logarithm is computed by a closed form.
+        """
         yield self
         yield from super().closed_forms()
 

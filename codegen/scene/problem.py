@@ -74,8 +74,8 @@ class Problem:
     - ``paired``: True if the state is (q, mu).
     - ``parts``: summands of the Hamiltonian, by name.
     - ``flows``: the exact flows that a step of a splitting method uses, by name.
-    - ``stated``: formulas for exact flows, by the name of the part. The scene gives these formulas for some
-      parts or for none. The formulas give (q, mu) after the time ``tau``.
+    - ``stated``: the exact flows that the scene gives by formulas, by the name of the part. The formulas give
+      (q, mu) after the time ``tau``. The flows of other parts are derived by :mod:`codegen.flows`.
     - ``runtime``: the parameters that are arguments of emitted code.
     - ``fixed``: pairs (name, value) of the parameters that the user has set.
     - ``signals``: the formula of each signal, by the name of the signal.

@@ -115,7 +115,10 @@ class _Parser:
         self.reader.coordinates = []
 
     def symbol(self, L: sympy.Expr) -> tuple[Expr, ...]:
-        """Return the Fourier symbol of L: its real part, and its imaginary part if this is not zero."""
+        """Return the Fourier symbol of L as the pair (real part, imaginary part).
+
+        If the imaginary part is zero, the result contains only the real part.
+        """
         import sympy
 
         real = sympy.Symbol(self.k, real=True)
@@ -153,7 +156,7 @@ class _Parser:
                 raise SceneError(
                     f"the nested derivative {atom}",
                     where=self.name,
-                    expected="Dx(g, m), where g contains no derivatives except Dx(u), Dx(u, 2) and so on",
+                    expected="Dx(g, m), where all derivatives in g are derivatives of u, such as Dx(u, 2)",
                 )
             dummies[sympy.Dummy()] = atom
         linear = formula.subs({atom: dummy for dummy, atom in dummies.items()})

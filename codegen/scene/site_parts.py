@@ -124,7 +124,8 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
             values = orbit.values(terms, _two(scene, orbit, part.symbols, number))
             if values is not None and not orbit.sized(sum(values[1:], values[0]), values):
                 raise SceneError(
-                    f"generator {k} of the part {part.name} is not constant along the flow of the part",
+                    f"generator {k} of the part {part.name}, a function of the state y, is not constant "
+                    "along the exact flow",
                     where=scene.name,
                     expected="generators f(y) for which the exact flow over a time tau is exp(tau f(y)).y",
                     hint="split the part, or use constant generators that give the same velocity; for two "
@@ -171,8 +172,8 @@ def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
                         f"is {orbit.text(x)}{where}",
                         where=scene.name,
                         expected=f"{orbit.text(y)}, the velocity of the field f",
-                        hint='list all terms of f in the argument "parts"; each Pair must contain the '
-                        "generators of both sites",
+                        hint='list all terms of f in the argument "parts"; in a Pair, list the terms for '
+                        'site i in "first", and the terms for site i + offset in "second"',
                     )
 
 

@@ -16,7 +16,8 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 MOST_DIMENSIONS, MOST_DISTANCE = 4, 8
-"""The largest dimension of a lattice, and the largest absolute value of an entry of an offset."""
+"""MOST_DIMENSIONS is the largest dimension of a lattice. MOST_DISTANCE is the largest distance of a neighbour
+from a site along each axis of the lattice."""
 
 HALF = Number.rational(1, 2)
 

@@ -3,9 +3,10 @@
 The equation u' = L u + N(u) with N(u) = u - u^3 is from section 2.2.2 of H. Marthinsen's thesis. L is eps
 times the second difference quotient. The points have the spacing 1/7, and u = 0 at both ends. The group
 consists of the maps u -> exp(t L) u + c. An element (A, c) of its Lie algebra consists of a multiple A of L
-and a translation c. The field is the element with A = L and c = N(u). Lie-Euler is the exponential Euler
-method exp(h L) u + h phi(h L) N(u) with phi(z) = (exp(z) - 1)/z. The bracket of (A1, c1) and (A2, c2) has the
-translation A1 c2 - A2 c1. In the thesis, this translation has an additional term c1, which is an error.
+and a translation c. The equation is u' = f(u).u, where f(u) is the element with A = L and c = N(u). Lie-Euler
+is the exponential Euler method exp(h L) u + h phi(h L) N(u) with phi(z) = (exp(z) - 1)/z. The bracket of
+(A1, c1) and (A2, c2) has the translation A1 c2 - A2 c1. In the thesis, this translation has an additional
+term c1, which is an error.
 
 Methods with negative coefficients, for example ``cg3``, integrate diffusion backwards in a part of each step.
 With long steps, such a method gives no correct digit.

@@ -44,7 +44,8 @@ figures = [
     Orders(
         name="orders",
         title="Errors for the dipole against the step size",
-        caption="The error at t = 1/2 is |mu - mu_ref| + |g - g_ref|. Matrices have the spectral norm.",
+        caption="The error at t = 1/2 is |mu - mu_ref| + |g - g_ref|: the Euclidean norm for the momentum "
+        "mu, and the spectral norm for the matrix g.",
         source="Fig. 3.2 of Marthinsen's thesis",
         halvings=5,
         orders=(2, 3, 4, 6),

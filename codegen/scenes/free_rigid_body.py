@@ -47,7 +47,7 @@ figures = [
     ),
     Scan(
         name="best_isotropy",
-        title="Error of one step of Lie-Euler against the isotropy alpha",
+        title="Error of one Lie-Euler step as a function of the parameter alpha",
         caption="One step of size 1.",
         source="Fig. 2.2 of Marthinsen's thesis",
         runs=(isotropy,),

@@ -4,8 +4,8 @@ The equation is q' = f(q) q with f(q) = q v q^c and v = I^-1 E(q^c) m0/2 (H. Mar
 2.6). Here q^c is the conjugate of q, and E maps a unit quaternion to its rotation matrix. I is the inertia.
 The angular momentum m0 in space is constant.
 
-The initial angular velocity I^-1 m0 is (1, 1/2, -1), and the energy is 31.125. The thesis prints
-I m0 = (1, 1/2, -1), but this value gives the energy 0.501.
+The initial angular velocity I^-1 m0 is (1, 1/2, -1), and the energy is 31.125. In the thesis, the exponent -1
+of I is missing. The printed equation I m0 = (1, 1/2, -1) would give the energy 0.501.
 """
 
 from sympy import Expr, Matrix, Rational, diag

@@ -65,7 +65,7 @@ figures = [
     ),
     TimeSeries(
         name="close_up",
-        title="The energies H and −u of Lie-Euler beside the exact energy",
+        title="Lie-Euler: numerical values of H and −u, and the exact energy",
         caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
         "eps = 0.3, alpha = 0.1, h = 0.6. "
         'The curve "exact" is the result of Lie-Gauss with h = 0.03.',
@@ -79,7 +79,7 @@ figures = [
     ),
     TimeSeries(
         name="symmetric_canonical",
-        title="Energies of four methods, which are symmetric, canonical, both or neither",
+        title="Energies of four methods: symmetric and canonical, only symmetric, only canonical, neither",
         caption="The energies are H and −u, where u is the momentum conjugate to the time; −u = H on exact "
         "solutions. "
         "eps = 0.1, alpha = 0.123, h = 0.3. "
@@ -98,7 +98,7 @@ figures = [
         name="energy_errors",
         title="Energy errors: the maximum over each block of 500 steps",
         caption="eps = 0.1, alpha = 0.123. All curves are for h = 0.3. "
-        "The exact energy is replaced by the energy that Lie-Gauss gives with h = 0.02.",
+        "The energy errors are differences from the energy that Lie-Gauss gives with h = 0.02.",
         source="Fig. 4.3 of Marthinsen's thesis",
         quantity=H,
         axis="largest difference from the exact energy",

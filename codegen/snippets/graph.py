@@ -26,7 +26,9 @@ LIBRARY = (ANGLE, "fabs", "isfinite", *sorted(MATHEMATICAL))
 
 @dataclass(frozen=True)
 class Snippet:
-    """A helper of emitted code: a template, values for the template, and the functions to call."""
+    """A helper function of emitted code: its template, the values for the template, and the functions that
+    the helper calls.
+    """
 
     name: str
     template: str
@@ -90,7 +92,7 @@ def _without_exceptions(name: str) -> Snippet:
 def _shared_angle(
     orders: tuple[int, ...], switch: Sequence[float], precision: Precision, batch: bool
 ) -> list[Snippet]:
-    """Return the helpers that compute c_k(z) for all k in ``orders`` at one z."""
+    """Return the helpers that compute the Stumpff functions c_k(z) for one z and all k in ``orders``."""
     listed: list[Snippet] = []
     name = "stumpff_" + "".join(map(str, orders))
     library = ["sqrt"]

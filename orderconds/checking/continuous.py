@@ -50,10 +50,10 @@ def extension_order(tableau: Tableau) -> ExtensionOrder | None:
 def _judged(
     method: RungeKutta, extension: Extension, ring: Ring, n: int
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Test whether the continuous extension satisfies the conditions of order n.
+    """Return the verdicts on the conditions of order n for dense output, and the conditions that fail.
 
-    Both sides of each condition are polynomials in theta. For p = 1, 2, ..., compare the coefficients of
-    theta^p on both sides. Stop at the first p with a condition that fails.
+    Both sides of each condition are polynomials in theta. The coefficients of theta^p on both sides are
+    compared for p = 1, 2, ... If conditions fail, the results contain only the first p with a failure.
     """
     family = families.get("rk")
     verdicts: set[str] = set()

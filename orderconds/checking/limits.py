@@ -50,9 +50,10 @@ class Meter:
         self.of_order += conditions
 
     def stops(self, more: int) -> bool:
-        """Return True if the time or the memory of the check exceeds its limit.
+        """Return True if the check exceeds a limit on time, on memory or on the number of conditions.
 
-        Also return True if ``of_order + more`` exceeds ``limits.conditions``.
+        ``more`` is the number of conditions to be evaluated next. The limit ``limits.conditions`` applies to
+        the conditions of the current order, including these conditions.
         """
         limits = self.limits
         if self.of_order + more > limits.conditions:

@@ -48,7 +48,8 @@ class FamilyOrder:
     - ``error_norm`` is the 2-norm of the residuals of all failing conditions, or None if it is unknown.
     - ``claimed`` is the order that the file claims, or None.
     - ``required`` is the least acceptable order, or None. If ``required`` is given, ``claimed`` is ignored.
-    - ``limit`` is equal to ``order`` if a limit on order or work ended the search, else None.
+    - ``limit`` is equal to ``order`` if a limit on order or work ended the search. Then ``order`` is only a
+      lower bound for the order of the method. In all other cases, ``limit`` is None.
     - ``stopped`` is the number of evaluated conditions if a limit on the work ended the search
       (:class:`~orderconds.checking.limits.Limits`), else None.
     """

@@ -134,7 +134,7 @@ class Report:
     """The result of ``check`` for one tableau.
 
     ``orders`` contains the orders of the main method, with a verdict on each claimed order. ``broken_claims``
-    describes the failures that are not in ``orders``.
+    describes all other failures: for example false claims about properties, or missing claims.
     """
 
     name: str

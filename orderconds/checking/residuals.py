@@ -30,9 +30,11 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""Suppose that the residual of a condition of order n is a ball that contains zero and other numbers. The
-verdict on the condition is ``supported`` if the radius of the ball is at most RESOLUTION/n!, and
-``undecided`` if the radius is larger."""
+"""A bound that separates the verdicts ``supported`` and ``undecided`` on a condition of order n.
+
+Both verdicts mean that the residual is a ball that contains zero and other numbers. The verdict is
+``supported`` if the radius of the ball is at most RESOLUTION/n!, and ``undecided`` if the radius is larger.
+"""
 
 BITS = 256
 """The precision, in bits, of the balls that contain elements of a number field."""

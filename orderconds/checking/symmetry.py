@@ -21,7 +21,8 @@ from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
 MOST_ROOTED, MOST_ORDERED = 8, 6
-"""The largest numbers of vertices in the test of symmetry: for rooted trees, and for ordered forests."""
+"""The test of symmetry uses rooted trees with at most MOST_ROOTED vertices, and ordered forests with at most
+MOST_ORDERED vertices."""
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:

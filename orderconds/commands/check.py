@@ -66,7 +66,7 @@ WIDTH = 200
     "--complete",
     is_flag=True,
     help="Require a claim in every family to which the method belongs, and report each missing claim. "
-    "Families whose order always follows from the order in another family need no claim.",
+    "A claim is not required if it follows from the claim in another family.",
 )
 @click.option(
     "--certified",
@@ -364,8 +364,8 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         click.echo(f"  {_register_form(report.low_storage)}")
     if report.effective_symmetry is not None:
         click.echo(
-            "  effectively symmetric: a step of size -h undoes a step of size h, apart from terms of higher "
-            f"order than h^{report.effective_symmetry}"
+            "  effectively symmetric: a step of size h followed by a step of size -h agrees with the "
+            f"identity up to and including h^{report.effective_symmetry}"
         )
     for reason in dict.fromkeys(report.undecided.values()):
         names = [name for name, why in report.undecided.items() if why == reason]

@@ -43,7 +43,8 @@ FORMATS = ("text", "latex", "sympy", "json")
     "--all",
     "every",
     is_flag=True,
-    help="Print the conditions of all trees. Express the dependent conditions by the independent ones.",
+    help="Print the conditions of all trees, and state how the dependent conditions follow from the "
+    "independent ones.",
 )
 @click.option("--explain", is_flag=True, help="Draw each tree and name its elementary differential.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")

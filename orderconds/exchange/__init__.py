@@ -92,7 +92,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Add ``name`` to a tableau without a name. Compute a missing order of the embedded method."""
+    """Add ``name`` and the order of the embedded method, if the file states no name or no such order."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:

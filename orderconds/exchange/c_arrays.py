@@ -61,7 +61,7 @@ def _cell(text: str, roots: str) -> str:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the keys and values of the tableau file that the C arrays represent.
+    """Read a tableau from C arrays, and return a dictionary with the keys of a tableau file.
 
     >>> read(b"double m_A[1][1] = {{1.0/2}}; double m_b[1] = {1};", "m.c")["A"]
     [['1.0/2']]

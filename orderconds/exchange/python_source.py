@@ -37,7 +37,7 @@ ARRAYS = (*MATRICES, *ROWS)
 COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha", "beta"))
 """A module contains a tableau if it assigns all arrays of one of these groups."""
 
-HINT = "write the numbers themselves, or execute the file with 'orderconds check --execute'"
+HINT = "write the values as numbers, or execute the file with 'orderconds check --execute'"
 SAFE_FUNCTIONS = ("print", "len", "sum", "abs", "min", "max", "range", "round", "repr", "str")
 SAFE_METHODS = ("sum", "mean", "copy", "tolist", "transpose", "all", "any", "allclose", "isclose")
 """A call of a function in SAFE_FUNCTIONS or of a method in SAFE_METHODS changes no variable if the call has
@@ -48,7 +48,7 @@ UNSAFE_NAMES = {
     *("exec", "eval", "compile", "globals", "locals", "vars", "setattr", "delattr"),
     *("builtins", "__builtins__", "__import__", "__dict__", "importlib", "modules"),
 }
-"""A statement that contains a name in UNSAFE_NAMES may change all variables."""
+"""After a statement that contains a name in UNSAFE_NAMES, the values of all variables count as unknown."""
 Definition: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 _TEXT = re.compile(r"# (\w{1,64}): (.*)")
 
@@ -101,7 +101,7 @@ def reason_to_skip(content: bytes) -> str:
 def is_plainly_other(content: bytes) -> bool:
     """Return True if the values of the variables A, a and b contain no list or tuple.
 
-    Return False for invalid source, because it may contain a tableau.
+    If Python cannot parse the source, the values are unknown, and the result is False.
 
     >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
     [True, False, True]
@@ -310,8 +310,8 @@ def _may_change(node: ast.AST, values: Values) -> bool:
     >>> [_may_change(ast.parse(x), values) for x in ("len(A) + A.sum(axis=1)", "A.pop()", "f(A)", "(A := 1)")]
     [False, True, True, True]
     """
-    # ``values.active`` may contain the name of an object x whose class overloads the operator ``+``. Then
-    # even ``x + 1`` may change a variable.
+    # The value of a variable x in ``values.active`` may be an instance of a class that overloads the operator
+    # ``+``. Then even ``x + 1`` may change a variable.
     if _mentioned(node) & values.active:
         return True
     for x in ast.walk(node):

@@ -53,11 +53,10 @@ class Array:
     items: list[Value]
     integral: bool = False
     memory: int = field(default_factory=count().__next__, compare=False)
-    """If this integer is equal for two arrays, a change of one array may change the other."""
+    """Two arrays with the same integer may share memory: a change of one array may change the other."""
 
     def parts(self) -> set[int]:
-        """Return a set of integers: the attribute :attr:`memory` of this array, and the attribute
-        :attr:`memory` of each array that is nested in this array, such as a row."""
+        """Return the integers :attr:`memory` of this array and of all arrays in this array, such as rows."""
         return {self.memory}.union(*(x.parts() for x in self.items if isinstance(x, Array)))
 
 
@@ -434,7 +433,7 @@ def texts(value: Value, where: str) -> Cells:
             f"the value is not known without executing the file: {value.reason}",
             where=f"{where}: line {value.line}",
             expected="a number",
-            hint="write the numbers themselves, or execute the file with 'orderconds check --execute'",
+            hint="write the values as numbers, or execute the file with 'orderconds check --execute'",
         )
     if isinstance(value, str):
         return value

@@ -42,9 +42,9 @@ def hamiltonian(tree: levels.Tree) -> str:
 def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
-    ``f[x]`` is the derivative of the vector field f along the vector field x. ``f[x y]`` is the derivative of
-    ``f[y]`` along x, where y is treated as constant. A constant vector field is a linear combination of
-    invariant vector fields with constant coefficients.
+    ``f[x]`` is the derivative of the vector field f along the vector field x. To compute ``f[x y]``, write y
+    as a linear combination of invariant vector fields. Then ``f[x y]`` is the derivative of ``f[y]`` along x,
+    with the coefficients of y held constant.
 
     The operator of a forest is the product of the operators of its trees (Munthe-Kaas and Wright, Found.
     Comput. Math. 8 (2008) 227).

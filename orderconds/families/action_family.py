@@ -107,9 +107,9 @@ class ActionFamily(Family):
     def dependence_holds(self, order: int) -> bool:
         """Return True if the polynomials ``relations(order)`` pass a test in rational arithmetic.
 
-        The method :meth:`relations` returns one polynomial for each dependent condition. The test evaluates
-        the polynomial and the left-hand side of the dependent condition, for the exact flow and for one
-        method with random rational coefficients. The test passes if both values are always equal.
+        Each polynomial expresses the left-hand side of a dependent condition by the left-hand sides of
+        independent conditions. The test compares both sides of this equation twice: for the exact flow, and
+        for one method with random rational coefficients. The test passes if both sides are always equal.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 
@@ -203,9 +203,8 @@ def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...]
 
 @lru_cache(maxsize=1 << 14)
 def longest_word(tree: Velocity) -> int:
-    """Return the length of the longest word that is needed to compute the coefficient of ``tree``.
-
-    The coefficient is a sum of products of coefficients of words.
+    """The coefficient of the action tree ``tree`` is computed from coefficients of words, whose letters are
+    smaller trees. Return the length of the longest of these words.
 
     >>> from orderconds.series.action_trees import velocity
     >>> longest_word(velocity((velocity(), velocity())))
