@@ -24,8 +24,9 @@ import pytest
 FLAGS = {
     "--orderconds": "collect tableau files (TOML, JSON, CSV, NPZ, Python, LaTeX, C) and check their claims",
     "--orderconds-require-claims": "like --orderconds; a tableau that claims no order fails",
-    "--orderconds-complete": "like --orderconds; a test fails if a claim is missing in a family to which the "
-    "method belongs. Families whose order always follows from the order in another family need no claim.",
+    "--orderconds-complete": "like --orderconds; a file must claim an order in every family to which the "
+    "method belongs, otherwise its test fails. Families whose order always follows from the order in another "
+    "family need no claim.",
     "--orderconds-certified": "like --orderconds; a test fails if a claimed order is not proved",
     "--orderconds-execute": "like --orderconds; also execute each Python file and read its arrays",
 }
@@ -108,7 +109,8 @@ class NoTests(pytest.File):
     from the file."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Return an empty tuple, because the file contains no tests."""
+        """Return no tests. Pytest needs a collector for every Python file, and its own collector would import
+        the file. :class:`TableauFile` contains the test of the tableau."""
         return ()
 
 
