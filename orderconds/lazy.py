@@ -19,7 +19,8 @@ class _LazyPackage(ModuleType):
         return value
 
     def __setattr__(self, name: str, value: object) -> None:
-        # A module must not replace an exported object with the same name.
+        # When Python imports a submodule, it assigns the submodule to the attribute of the package with the
+        # name of the submodule. The assignment must not replace an exported object that has this name.
         if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
             super().__setattr__(name, value)
 

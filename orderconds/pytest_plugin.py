@@ -108,7 +108,8 @@ class NoTests(pytest.File):
     from the file."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Return an empty tuple, because the file contains no tests."""
+        """Return no tests. Pytest needs a collector for every Python file, and its own collector would import
+        the file. :class:`TableauFile` contains the test of the tableau."""
         return ()
 
 

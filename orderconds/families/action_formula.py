@@ -1,10 +1,10 @@
 """The conditions of action trees as sums over indices, such as ``sum_i b_i c_i^2 = 1/3``.
 
 The conditions contain coefficients of words in a product of exponentials. The letters of a word are trees.
-Let u be a word of k letters. The coefficient of u is a sum over all indices with ``j_1 <= ... <= j_k``. In
-each term, the n-th letter of u comes from the exponential with index j_n. The term is a product of k factors.
-The n-th factor is the coefficient of the n-th letter in the exponent with index j_n. If r letters come from
-the same exponential, the term has the additional factor 1/r!.
+Let u = t_1 ... t_k be a word of k letters. Let phi_j(t) be the coefficient of the letter t in the exponent of
+exponential j. The coefficient of u is a sum over all indices with ``j_1 <= ... <= j_k``. In each term, the
+letter t_1 comes from exponential j_1, and so on. The term is ``phi_{j_1}(t_1) ... phi_{j_k}(t_k)``. If r
+letters come from the same exponential, the term has the additional factor 1/r!.
 
 This sum is split into sums whose indices increase strictly. A run consists of all letters that come from one
 exponential. Each way to cut u into runs gives one sum. This sum has one index for each run.
@@ -49,8 +49,9 @@ tree."""
 def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    In a product of exponentials, the coefficient of a word of k equal letters has the denominator k!. Each
-    ``Velocity`` in the tree contributes k! to the factor if its ``word`` consists of k equal letters.
+    In a product of exponentials, the coefficient of a word of k equal letters has the denominator k!. If the
+    ``word`` of a ``Velocity`` in the tree consists of k equal letters, this ``Velocity`` gives the number k!.
+    The result is the product of these numbers.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -231,13 +232,12 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of a word in the series of a group element.
+        """Return the coefficient of the word (``before``, x, ``after``) in the series of a group element.
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The velocity of each stage is a linear combination of letters. A new letter x is added to the velocity
-        of stage ``stage``, with the coefficient one. The velocities of all other stages do not contain x. The
-        word consists of the letters of ``before``, the letter x, and the letters of ``after``.
+        The words ``before`` and ``after`` consist of trees. The letter x is not a tree: the velocity xi of
+        stage ``stage``, a linear combination of trees, is replaced by xi + x.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -268,13 +268,12 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of a word in the series of a group element.
+        """Return the coefficient of the word (``before``, x, ``after``) in the series of a group element.
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The velocity of each stage is a linear combination of letters. A new letter x is added to the velocity
-        of stage ``stage``, with the coefficient one. The velocities of all other stages do not contain x. The
-        word consists of the letters of ``before``, the letter x, and the letters of ``after``.
+        The words ``before`` and ``after`` consist of trees. The letter x is not a tree: the velocity xi of
+        stage ``stage``, a linear combination of trees, is replaced by xi + x.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -305,7 +304,7 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i), where i is ``row``.
+        """Return the coefficient of a word in the series of the group element of stage ``row``.
 
         If the word consists of k equal letters, return k! times the coefficient instead (see
         :func:`multiplier`).
@@ -315,13 +314,12 @@ class MuntheKaasFormula(ActionFormula):
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of a word in the series of an exponential.
+        """Return the coefficient of the word (``before``, x, ``after``) in the series of an exponential.
 
         The exponential belongs to stage ``row``, or to the update if ``row`` is None.
 
-        The velocity of each stage is a linear combination of letters. A new letter x is added to the velocity
-        of stage ``stage``, with the coefficient one. The velocities of all other stages do not contain x. The
-        word consists of the letters of ``before``, the letter x, and the letters of ``after``.
+        The words ``before`` and ``after`` consist of trees. The letter x is not a tree: the velocity xi of
+        stage ``stage``, a linear combination of trees, is replaced by xi + x.
         """
         return self._exponential(row, (*before, stage, *after))
 

@@ -86,7 +86,8 @@ class Family(ABC):
     low_order: ClassVar[str | None] = None
     """The name of a family whose conditions of orders 1 and 2 equal those of this family, or None."""
     bounds_others: ClassVar[bool] = False
-    """True if ``check`` uses the order in this family to find bounds of the orders in other families."""
+    """True if ``check`` uses the order that a method has in this family to bound the order that the same
+    method has in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
     """Names of families. If a low-storage (2N) scheme has order p in this family, the scheme has at least
     order p in each named family."""
@@ -150,10 +151,11 @@ class Family(ABC):
         """
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the :meth:`conditions` of the given order without dependent conditions.
+        """Return conditions of the given order. Together with the conditions of lower order, the returned
+        conditions imply all :meth:`conditions` of the given order.
 
-        Together with the conditions of lower order, the returned conditions imply all :meth:`conditions` of
-        the given order. By default, return all :meth:`conditions`.
+        The base class returns all :meth:`conditions`. A subclass overrides this method in order to omit
+        dependent conditions.
         """
         return self.conditions(order)
 
@@ -297,17 +299,18 @@ class Family(ABC):
         return None
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknown coefficients of a method with ``stages`` stages, for use in a search.
+        """Return the unknown coefficients of a method with ``stages`` stages.
 
-        Raises :class:`~orderconds.errors.InputError` if ``stages`` does not determine which coefficients
-        exist.
+        The base class returns the coefficients of a Runge-Kutta tableau. If the methods of the family have
+        another tableau format, the base class raises :class:`~orderconds.errors.InputError`. For example, the
+        number of stages of a commutator-free method does not determine the number of exponentials.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 
         if FORMATS.get(self.formats[0]) is RungeKuttaFile:
             return tableau_form(stages, explicit, self.needs_nonzero_weights)
         raise InputError(
-            f"the number of stages does not determine which coefficients exist in family {self.label()}",
+            f"cannot expand the conditions of family {self.label()} for a given number of stages",
             where="stages",
             expected="a family such as rk or splitting",
             hint="omit the number of stages",
@@ -335,10 +338,11 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a substitute for this family, or None if no substitute is known.
+        """Return another family whose conditions imply the conditions of this family, or None.
 
-        If ``method`` satisfies the conditions of the substitute, ``method`` satisfies the conditions of this
-        family.
+        The implication holds for ``method``, and may fail for other methods. The result also contains
+        ``method``, converted to a tableau format that the other family reads. None means that no such family
+        is known.
         """
         return None
 

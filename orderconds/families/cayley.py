@@ -1,7 +1,7 @@
-"""Cayley methods for Y' = A(t) Y on quadratic groups. One step is Y_1 = cay(Omega) Y_0.
+"""Cayley methods for Y' = A(t) Y on quadratic groups.
 
-The Cayley transform is cay(x) = (1 - x/2)^-1 (1 + x/2). If a step is a product of several Cayley transforms,
-Omega is the matrix for which cay(Omega) is this product.
+The Cayley transform is cay(x) = (1 - x/2)^-1 (1 + x/2). One step is Y_1 = P Y_0, where P is a Cayley
+transform or a product of several Cayley transforms. Let Omega be the matrix with cay(Omega) = P.
 
 Omega is a linear combination of the values A_i = h A(c_i h) at the nodes c_i, of commutators such as
 A_i A_j - A_j A_i, and of sums such as A_i A_j A_k + A_k A_j A_i.

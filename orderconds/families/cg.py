@@ -38,8 +38,8 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
     name = "cg"
     description = (
-        "Crouch-Grossman methods: the update is exp(h b_s k_s) ... exp(h b_1 k_1) y0; in stage i, a_ij "
-        "replaces b_j (HLW IV.8.1)."
+        "Crouch-Grossman methods: stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0, and the update is "
+        "exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1)."
     )
     formats = ("rk",)
     illustrates = ("ordered", "forests", "lyndon")

@@ -78,9 +78,10 @@ class CompositionFamily(WordFamily):
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient of a word in the exact flow.
+        """Return the coefficient of a word in the exact flow exp(h X_1).
 
-        If all n letters of the word are 1, the coefficient is 1/n!, otherwise zero.
+        Here X_1 is the vector field of the problem, and the letter 1 denotes X_1. The coefficient is 1/n! for
+        the word 1 1 ... 1 with n letters. The coefficient is zero for a word with another letter.
         """
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 

@@ -87,10 +87,9 @@ class DexpinvCut(Family):
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
         """Return an object that tests whether the truncation of dexpinv changes a condition.
 
-        The attribute :attr:`abelian` names the family to which this family reduces on an abelian group. The
-        test uses the order of the method in that family, ``orders[abelian]``, because this order equals the
-        order without truncation. Return None if :attr:`abelian` is None, or if ``method`` is not a
-        Runge-Kutta tableau.
+        The test uses ``orders[abelian]``, the order p of the method on abelian groups. By the theorems in the
+        module docstring, the method has the same order p on all groups if dexpinv is not truncated. Return
+        None if :attr:`abelian` is None, or if ``method`` is not a Runge-Kutta tableau.
         """
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
@@ -98,7 +97,8 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return the largest n for which the truncation of dexpinv changes no coefficient of a word of n letters.
+    """Return a length n of words. The truncation of dexpinv changes only coefficients of words with more than
+    n letters, and changes some coefficients of words with n + 1 letters.
 
     The series of dexpinv ends with the power ``cutoff`` of ad. If ``cutoff`` is None, the result is 2^30.
 

@@ -68,7 +68,11 @@ class FerFamily(MagnusFamily):
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the exponents are not those of a Fer method."""
+        """Raise :class:`~orderconds.errors.InputError` if ``method`` is not a Fer method.
+
+        A step of a Fer method is a product of exponentials. The exponent that acts last contains no
+        commutators, and all terms of the other exponents are commutators.
+        """
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
         if last[1] > 1 or any(least == 1 for least, _ in others):

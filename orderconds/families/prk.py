@@ -1,5 +1,5 @@
-"""Partitioned Runge-Kutta methods: one condition for each rooted tree with vertices of two colours (HLW
-III.2.2).
+"""Partitioned Runge-Kutta methods: one condition for each rooted tree with vertices of two colours (Hairer,
+Lubich and Wanner, *Geometric Numerical Integration* (HLW), III.2.2).
 
 The variables of the system are divided into two sets, and each tableau is applied to one set. If a file
 contains a single tableau, this tableau is applied to both sets.
@@ -48,7 +48,7 @@ class PartitionedFamily(Family):
     name = "prk"
     description = (
         "Partitioned Runge-Kutta methods: one condition for each rooted tree with "
-        "vertices of two colours (HLW III.2.2)."
+        "vertices of two colours (Hairer, Lubich and Wanner, Geometric Numerical Integration, III.2.2)."
     )
     formats = ("prk", "rk")
     trees = "bicoloured"
@@ -79,9 +79,11 @@ class PartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None for a symplectic pair of tableaux, otherwise this family. If the program cannot decide
-        whether the pair is symplectic, return this family. The tableau file of a symplectic pair claims an
+        """Return None for a symplectic pair of tableaux, because the file of a symplectic pair claims an
         order in the family ``sprk_separable``.
+
+        Return this family for every other pair, and also if the program cannot decide whether a pair is
+        symplectic. Return None for a tableau that is not a pair.
         """
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):

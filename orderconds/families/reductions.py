@@ -58,10 +58,11 @@ class UnseenCut(Struct, frozen=True):
 
 
 class Reductions(Struct, frozen=True):
-    """The reductions that apply to one method in one family.
+    """The reductions that apply to one method in one family F.
 
-    ``even`` is true if the method is symmetric. ``substitute`` is None, or contains a family whose conditions
-    imply the conditions of the original family. ``cut`` is None or an :class:`UnseenCut`.
+    ``even`` is true if the method is symmetric. ``substitute`` is None or a :class:`Substitute`. For the
+    method, the conditions of ``substitute.family`` imply the conditions of F. ``cut`` is None or an
+    :class:`UnseenCut`.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]

@@ -137,7 +137,7 @@ def with_conditions() -> tuple[str, ...]:
 
 
 def installed_names() -> tuple[str, ...]:
-    """Return :func:`names`, followed by the names of unregistered families from installed packages.
+    """Return :func:`names`, followed by the names of all other families that installed packages provide.
 
     >>> set(names()) <= set(installed_names())
     True

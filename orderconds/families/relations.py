@@ -93,7 +93,7 @@ class RootSwitching:
         self._known: dict[bytes, Polynomial] = {}
 
     def __call__(self, tree: bytes) -> Polynomial:
-        """Return the polynomial for the elementary weight of ``tree``."""
+        """Return the elementary weight of ``tree`` as a polynomial in the weights of independent trees."""
         if tree not in self._known:
             self._known[tree] = self._reduced(tree)
         return self._known[tree]

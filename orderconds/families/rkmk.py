@@ -100,9 +100,10 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
         If dexpinv is not truncated or ``order`` < 3, return None.
 
-        Let r be ``self.cutoff``. Let R = r + 1 for even r >= 2, and R = r for all other r. If ``order``
-        is R + 3, this condition contradicts the other conditions of orders 1, ..., R + 3. Therefore no method
-        of ``rkmk(r)`` has an order above R + 2. If ``order`` <= R + 2, there is no contradiction.
+        Let r be ``self.cutoff``, and let p be the highest order of a method of ``rkmk(r)``: p is r + 3 for
+        even r >= 2, and r + 2 for all other r. No method has order p + 1, because no method satisfies the
+        condition that is returned for ``order`` = p + 1 and all other conditions of orders 1, ..., p + 1. If
+        ``order`` <= p, every method of order p satisfies the returned condition.
         """
         if self.cutoff is None or order < 3:
             return None
@@ -138,10 +139,10 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
             f" Above order {RANKED} the conditions of all Lyndon words are listed." if order > RANKED else ""
         )
         return (
-            f"Each Lyndon word over ordered trees gives one condition. Starting with order 1, the numbers of "
-            f"these conditions are {counts}. The conditions of all Lyndon words are sufficient for every "
-            f"method on a group. For {self.label()} methods, the "
-            f"conditions in the list above imply the conditions of all Lyndon words.{beyond}"
+            f"For every method on a group, one condition for each Lyndon word over ordered trees is "
+            f"sufficient. Starting with order 1, the numbers of these conditions are {counts}. "
+            f"For {self.label()} methods, the conditions in the list above are sufficient, because they "
+            f"imply the conditions of all Lyndon words.{beyond}"
         )
 
     def highest_order(self, limit: int) -> int:

@@ -127,8 +127,11 @@ class NystroemFamily(Family):
         """Return the pairs ("rkn", ``order``) and ("splitting", min(``order``, 4)).
 
         Each pair contains a family and a lower bound for the order of a symmetric method in this family. The
-        argument ``order`` is the order of the method in the family ``rkn``. Both families have the same
-        conditions up to order 3, and a symmetric method of order 3 also has order 4.
+        argument ``order`` is the order of the method in the family ``rkn``.
+
+        Up to order 3, the families ``rkn`` and ``splitting`` have the same conditions. If ``order`` >= 3, the
+        method therefore has at least order 3 in the family ``splitting``. The order of a symmetric method is
+        even, so the method has at least order 4 in the family ``splitting``.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
@@ -188,8 +191,7 @@ def formula(functional: Functional) -> Formula:
 
 
 def _scale(functional: Functional) -> int:
-    """Return the least positive integer factor that turns the coefficients of the left-hand side of a
-    condition into integers."""
+    """Return the least common denominator of the coefficients in the left-hand side of a condition."""
     splitting = SplittingFamily()
     return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
 
@@ -198,9 +200,10 @@ def _scale(functional: Functional) -> int:
 def functionals(order: int) -> tuple[Functional, ...]:
     """Return one functional for each condition of order ``order`` of Runge-Kutta-Nystroem splittings.
 
-    A functional is a linear combination of words over T and V. The bracket [V,[V,[T,V]]] is zero, because V
-    and [V,[T,V]] are functions of q alone. All brackets of functions of q alone generate an ideal of the free
-    algebra over T and V (see the module docstring). The returned functionals are a basis of the vector space
+    A functional is a linear combination of words over T and V. If x and y are functions of q alone, the
+    bracket [x,y] is zero. For example, [V,[V,[T,V]]] is zero, because V and [V,[T,V]] are functions of q
+    alone. These brackets [x,y] generate an ideal of the free algebra over T and V (see the module docstring).
+    The returned functionals are a basis of the vector space
     of all functionals on words of length ``order`` that are zero on this ideal.
 
     >>> [len(functionals(n)) for n in (1, 2, 3, 4)]

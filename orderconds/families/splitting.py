@@ -190,8 +190,9 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # In each stage the letters act in alphabetical order. Therefore two consecutive blocks with the
-            # letters ``one`` and ``two`` can be in the same stage only if ``one`` < ``two``.
+            # A block consists of equal letters in one stage. In each stage the letters act in alphabetical
+            # order. Therefore a block of letters ``one`` and the next block, of letters ``two``, can be in
+            # the same stage only if ``one`` < ``two``.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -219,7 +220,7 @@ def two_part_formula(word: Word) -> Formula:
         i = fresh()
         return product(*[index_sum((i,), (), coefficient("a", i))] * len(word))
     *gaps, tail = "".join("AB"[letter] for letter in word).split("B")
-    # Each pair contains a number of letters A, and the number of letters B that follow them.
+    # A pair (m, n) represents m letters A, followed by n letters B.
     runs: list[tuple[int, int]] = []
     for gap in map(len, gaps):
         if gap or not runs:
@@ -263,7 +264,7 @@ def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ..
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
     """Return the step sizes of all parts in all stages, as a map from names to lists.
 
-    The names ``a``, ``b``, ... denote the first part, the second part, .... If a part does not act in a
+    The name ``a`` belongs to the first part, ``b`` to the second part, and so on. If a part does not act in a
     stage, its step size in this stage is zero. For two parts, the map also contains ``c``, the list of the
     sums c_i = a_1 + ... + a_i.
 

@@ -4,11 +4,11 @@ is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 Each order condition belongs to a rooted tree with directed edges. An edge that points away from the root
 gives a factor a_ij in the elementary weight. An edge that points towards the root gives a factor ahat_ij.
 
-Let i and j be the two vertices of an edge in a free tree. The root of the tree can be i or j. If the edge
-points from i to j, it gives the factor a_ij for the root i and the factor ahat_ji for the root j. Because
-b_i a_ij + b_j ahat_ji = b_i b_j, the elementary weights of these two rooted trees add up to a product of
-elementary weights of smaller trees. Hence one condition for each free tree (a tree without a root) is
-sufficient (Abia and Sanz-Serna 1993; HLW VI.7).
+A free tree is a tree without a root. Choose an edge from a vertex i to a vertex j of a free tree. The choice
+of i as the root, and the choice of j as the root, give two rooted trees. The edge gives the factor a_ij for
+the root i, and the factor ahat_ji for the root j. Because b_i a_ij + b_j ahat_ji = b_i b_j, the elementary
+weights of the two rooted trees add up to a product of elementary weights of smaller trees. Hence one
+condition for each free tree is sufficient (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -122,8 +122,8 @@ class SymplecticPartitionedFamily(Family):
         bound is p.
 
         For all other tableaux, let m be the largest integer such that 2m <= p and Butcher's simplifying
-        assumptions C(m) and D(m) hold. The bound is min(p, 2m + 1). The tableau (ahat, bhat) for the momenta
-        then also satisfies C(m) and D(m). Jay (1996) proves this for Lobatto pairs.
+        assumptions C(m) and D(m) hold. The tableau (ahat, bhat) for the momenta then also satisfies C(m) and
+        D(m). Therefore the bound is min(p, 2m + 1). For Lobatto pairs, Jay (1996) proves this bound.
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

@@ -88,8 +88,8 @@ class SymmetricCompositionFamily(CompositionFamily):
     def polynomial(self, word: Word) -> Polynomial:
         """Return the coefficient of ``word`` in the series of one step, as a polynomial.
 
-        The variables of the polynomial are the coefficients of Lyndon words of odd weight (sum of the
-        letters). Each variable is denoted by its Lyndon word.
+        The weight of a word is the sum of its letters. The variables of the polynomial are the coefficients
+        of Lyndon words of odd weight. Each variable is denoted by its Lyndon word.
         """
         return dict(_polynomial(word))
 

@@ -69,9 +69,10 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         """Return the condition of the action tree o(o|L(o ... o)) with ``order`` vertices. If dexpinv is not
         truncated or ``order`` < 3, return None.
 
-        Let r be ``self.cutoff``. The highest possible order p of a method of ``vrkmk(r)`` is r + 3 for even
-        r >= 2, and r + 2 for all other r. If ``order`` is p + 1, the returned condition contradicts the other
-        conditions of orders 1, ..., p + 1. If ``order`` <= p, there is no contradiction.
+        Let r be ``self.cutoff``, and let p be the highest order of a method of ``vrkmk(r)``: p is r + 3 for
+        even r >= 2, and r + 2 for all other r. No method has order p + 1, because no method satisfies the
+        condition that is returned for ``order`` = p + 1 and all other conditions of orders 1, ..., p + 1. If
+        ``order`` <= p, every method of order p satisfies the returned condition.
         """
         if self.cutoff is None or order < 3:
             return None

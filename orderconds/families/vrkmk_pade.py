@@ -34,7 +34,8 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """The family ``vrkmk_pade(r)``. A tableau (A, b) in which no weight b_i is zero defines a method. The
     option ``cutoff`` is r, the last power of ad in the series of dexp.
 
-    If ``cutoff`` is None, the methods are those of ``vrkmk`` without truncation.
+    If ``cutoff`` is None, the series of dexp is not truncated. In this case the family contains the same
+    methods as the family ``vrkmk`` with ``cutoff`` None.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss = Tableau.load(find("gauss1"))

@@ -83,8 +83,8 @@ class WordFamily(Family):
         return " ".join(map(str, word))
 
     def polynomial(self, word: Word) -> Polynomial:
-        """In the series of one step, express the coefficient of ``word`` as a polynomial in the coefficients
-        of Lyndon words."""
+        """Express the coefficient of ``word`` as a polynomial in the coefficients of Lyndon words. All these
+        coefficients belong to the series of one step."""
         return {tuple(sorted(monomial)): value for monomial, value in in_lyndon_words(word).items()}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:

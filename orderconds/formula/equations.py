@@ -84,8 +84,8 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split a LaTeX formula before plus and minus signs. Signs inside braces or inside more than ``within``
-    pairs of brackets are skipped."""
+    """Split a LaTeX formula before plus and minus signs. Signs inside braces are skipped. A sign inside n
+    nested pairs of brackets is skipped if n > ``within``."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")

@@ -127,8 +127,8 @@ def product(*factors: Formula) -> Formula:
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
     # Factors with equal keys are collected into one power. A coefficient is its own key. The key of every
-    # other factor is computed by ``_shape``, which is slow. Suppose that all factors except one are
-    # coefficients. In this case the key of this one factor is None, and ``_shape`` is not called.
+    # other factor is computed by ``_shape``, which is slow. If there is only one other factor, its key is
+    # None, because a single factor needs no comparison.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -315,9 +315,10 @@ def _powers(factors: Iterable[Formula]) -> list[tuple[Formula, int]]:
 
 
 def _shape(formula: Formula, depths: Mapping[str, int]) -> Hashable:
-    """Return a key that identifies a formula up to the names of bound indices.
+    """Return a key that identifies a formula up to the names of bound indices. In the key, numbers replace
+    the names of these indices.
 
-    ``depths`` maps the indices of outer sums to the numbers that replace them in the key.
+    If ``formula`` is inside other sums, ``depths`` maps the indices of these sums to their numbers.
     """
     match formula:
         case Coefficient(name, indices):

@@ -59,8 +59,9 @@ class Certificate:
     lower_facts: tuple[Fact, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the proved statement as a dictionary for JSON. The value of the key "pins" is a list: the
-        names of the decimals that the proof treats as exact numbers."""
+        """Return the proved statement as a dictionary for JSON. The key "unknowns" lists the names of the
+        decimals that approximate a solution. The key "pins" lists the names of the decimals that the proof
+        treats as exact numbers."""
         proof = self.tableau.proof
         assert proof is not None
         return {
@@ -153,7 +154,8 @@ def _mismatch(conditions: int, unknowns: int) -> str:
         f'add {unknowns - conditions} of the unknowns to "pins", a list of names in [proof]; '
         "the proof then treats the decimals of these unknowns as exact numbers"
         if unknowns > conditions
-        else "name a reduction: a theorem by which some of the equations follow from the others"
+        else 'add the key "reduction" to [proof]; its value, such as "symmetric", names a theorem by which '
+        "some of the equations follow from the others"
     )
     return f"{conditions} equations for {unknowns} unknowns; {advice}"
 

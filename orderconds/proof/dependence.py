@@ -221,8 +221,9 @@ class _Sampling:
     read: Reading | None
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
-        """Return the two sides of each condition. The left-hand side is evaluated for ``count`` random
-        methods."""
+        """Return both sides of each condition modulo ``prime``. The left-hand side has one value for each of
+        ``count`` random methods. The right-hand side is one number. If ``root`` is an integer, it replaces
+        every square root in the coefficients."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}

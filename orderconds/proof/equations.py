@@ -7,10 +7,10 @@ exactly, from the formulas in the file and not from the decimals:
 
 - ``symmetric``, for a palindromic composition of a symmetric method: the conditions of even order follow
   from conditions of lower order. There is one condition for each Lyndon word in the letters 1, 3, 5, ...
-  (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). A composition of
-  midpoint rules is a Runge-Kutta method (family ``rk``) on a vector space, and a Crouch-Grossman method
-  (family ``cg``) on a group. Both methods have the same order (Bogfjellmo and Marthinsen, Lemma 3.5.4), so a
-  proof of the order of one method proves the order of both methods.
+  (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). If the symmetric method is the
+  midpoint rule, one proof is sufficient for two families: on a vector space, the composition is a Runge-Kutta
+  method (family ``rk``), and on a group, it is a Crouch-Grossman method (family ``cg``). Both methods have
+  the same order (Bogfjellmo and Marthinsen, Lemma 3.5.4).
 - ``symmetric``, for a Magnus method on s Gauss nodes: up to order 2s, the conditions for words in the letters
   1, ..., s are sufficient (Iserles and Norsett 1999).
 - ``low-storage``, for a scheme with two registers (2N scheme): the conditions for vector spaces are
@@ -63,7 +63,8 @@ class Equations:
     letters: int | None = None
     """If the value is an integer s, only conditions for words in the letters 1, ..., s are used."""
     kept: tuple[OrderCondition, ...] | None = None
-    """If the value is a tuple, only these conditions of the main method are used."""
+    """A selection of the conditions of the main method. Only the selected conditions become equations. None
+    means that no selection is made."""
     lower: tuple[OrderCondition, ...] = ()
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
     conditions follow the conditions of the scheme."""
@@ -127,7 +128,8 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
-                f"some conditions of order {n} of family {label} are dependent modulo primes, but not over Q"
+                f"family {label}, order {n}: a relation between conditions was computed modulo primes and "
+                "does not hold over Q"
             )
     conditions = [c for n in orders for c in family.conditions(n)]
     return tuple(c for c in conditions if letters is None or max(c.key) <= letters)
@@ -225,8 +227,11 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
-    """Return s if the method is a Magnus method on s exact Gauss nodes and the order in ``proof`` is at most
-    2s, else None."""
+    """Return s if the conditions for words in the letters 1, ..., s are sufficient, else None.
+
+    The conditions are sufficient if two assumptions hold. The method is a Magnus method whose s nodes are
+    proved to be the Gauss nodes, and the order in ``proof`` is at most 2s.
+    """
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:
         return None

@@ -94,7 +94,7 @@ class ExactMember:
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Return True if a condition holds at this random member."""
+        """Return True if the random method satisfies ``condition``."""
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
@@ -164,8 +164,8 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """Converts the numbers in formulas to elements of Q(sqrt(d)). Rounded decimals and roots of polynomials
-    are replaced by random rational numbers."""
+    """Converts the numbers in formulas to elements of Q(sqrt(d)). The rounded decimals and the roots of
+    polynomials are treated as variables. The value of each variable is a random rational number."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd

@@ -15,7 +15,8 @@ Fact = tuple[str, int]
 
 
 def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
-    """Return True if ``facts`` about a method imply that the method has order ``order`` in ``family``.
+    """Return True if ``facts`` imply that a method has order ``order`` in ``family``. A pair (label, n) in
+    ``facts`` means that the method has at least order n in the family with this label.
 
     >>> facts = [("cg", 4)]
     >>> implied(facts, families.get("rk"), 4), implied(facts, families.get("rkmk(1)"), 3)

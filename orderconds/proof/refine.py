@@ -46,9 +46,9 @@ class Refined:
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """Compute the unknowns of the ``[proof]`` table of a tableau file to ``digits`` decimal places.
 
-    If the equations do not determine all unknowns, some unknowns keep their digits. The list ``pins`` of the
-    resulting file contains the names of these unknowns. The table ``[proof.printed]`` contains the original
-    digits.
+    If the equations do not determine all unknowns, some unknowns keep the digits that they have in ``text``.
+    The list ``pins`` of the resulting file contains the names of these unknowns. The table
+    ``[proof.printed]`` contains the original digits of the other unknowns.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
     decimals.

@@ -141,8 +141,8 @@ class NumberField:
 
     @cached_property
     def _parent_powers(self) -> tuple[fmpq_poly, ...]:
-        """The powers of the parent's primitive element, as polynomials in the primitive element of this
-        field."""
+        """The powers 1, a, a^2, ... as polynomials in b. Here a is the primitive element of the parent field,
+        and b is the primitive element of this field."""
         assert self.parent is not None
         powers = [fmpq_poly([1])]
         for _ in range(self.parent.degree - 1):
@@ -336,7 +336,8 @@ class Algebraic:
         return self.polynomial.xgcd(self.field.modulus)[1]
 
     def _solved(self) -> fmpq_poly:
-        """Return the polynomial that represents the inverse of this number, by solving a linear system."""
+        """Return the polynomial that represents 1/x for this number x. The coefficients of the polynomial are
+        the solution of a linear system."""
         degree = self.field.degree
         unit = fmpq_mat(degree, 1, [1] + [0] * (degree - 1))
         return fmpq_poly(_columns(self._multiples(), degree).solve(unit).entries())

@@ -45,8 +45,8 @@ class NodalAlgebra:
     For a collocation method, P modulo M represents the vector A v, and the scalar product of b and v is P(1).
     For other methods, two attributes store corrections of P and of P(1):
 
-    - ``corrections[kind]``: a list of pairs (k, d) for the matrix with index ``kind``. Multiplication by the
-      matrix maps z^k to the polynomial z^(k+1)/(k+1) + d, modulo M.
+    - ``corrections[kind]``: a list of pairs (k, d) for the matrix A with index ``kind``. If z^k represents
+      the vector v, the polynomial z^(k+1)/(k+1) + d modulo M represents A v.
     - ``moments``: a list of pairs (k, d). The scalar product of the weights with the vector of the powers
       c_i^k is 1/(k+1) + d.
 

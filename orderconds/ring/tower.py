@@ -4,8 +4,8 @@ a method.
 Let K = Q(a) be a real number field, and b a real root of a polynomial p over K. The root is adjoined in three
 steps:
 
-1. In the algebra K[x]/(p), find an element c whose powers span the algebra over Q. The element is c = x + m a
-   with an integer m, or c = a x.
+1. In the algebra K[x]/(p), find an element c whose powers span the algebra over Q. The program tries c = x
+   (the residue class of the variable), then c = a x, then c = x + m a for m = 1, -1, 2, -2, ....
 2. Factor the characteristic polynomial of c over Q.
 3. Insert x = b into c. The result is a real number r. Choose the irreducible factor with the root r.
 
@@ -36,8 +36,8 @@ MAX_DIMENSION."""
 
 
 class DegreeError(ArithmeticError):
-    """The degree of a field would exceed MAX_DEGREE, or the dimension of an algebra would exceed
-    MAX_DIMENSION."""
+    """This error is raised if the degree of a field would exceed MAX_DEGREE, or if the dimension of an
+    algebra would exceed MAX_DIMENSION."""
 
 
 class Tower:
@@ -194,14 +194,13 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Return a pair. The first entry is an integer m or None. The second entry describes the algebra K[x]/(p)
-    (:class:`_Relation`), where K is ``field``.
+    """Find an element c of the algebra K[x]/(p), where K is ``field``, whose powers span the algebra over Q.
 
     Let a be the generator of K over Q, and let k be the length of ``powers``. The polynomial p is
     x^k - powers[k-1] x^(k-1) - ... - powers[0].
 
-    If m is an integer, the powers of the element c = x + m a span the algebra over Q. If m is None, the
-    powers of the element c = a x span the algebra over Q.
+    Return a pair. The first entry is an integer m if c = x + m a, and None if c = a x. Here x is the residue
+    class of the variable. The second entry describes the algebra (:class:`_Relation`).
     """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):

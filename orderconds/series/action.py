@@ -11,10 +11,10 @@ tree p in the momentum of stage i.
 
 The coefficient of a tree t = (w, M) is ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)``.
 
-The update is the group element that takes q0 to the final position. To compute psi_p(i), replace the
-velocity xi_i of stage i by xi_i + x, where x is an additional letter, and keep the velocities of all other
-stages. The group elements of the stages and of the update are now expanded with these velocities. Therefore
-the expansions contain words with the letter x.
+The update is the group element that takes q0 to the final position. For psi_p(i), the velocity of stage i is
+perturbed. The velocity xi_i is a linear combination of trees. A new letter x is added to xi_i, and the
+velocities of all other stages remain unchanged. The expansions of the group elements of the stages and of the
+update then contain words with the letter x.
 
 - For a tree p = H(u*v|M), let z_j be the coefficient of the word (u, x, v) in the group element of stage
   j. Then ``psi_p(i) = (1/b_i) sum_j b_j z_j prod_{q in M} psi_q(j)``.
@@ -167,12 +167,13 @@ class ActionSeries(ABC):
         """Return a map from words to their coefficients in the group element of the update. The map contains
         all words with at most ``vertices`` vertices in total.
 
-        Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Each tree t
-        denotes a function of position and momentum with values in g (:mod:`orderconds.series.action_trees`).
-        Let v_t be the value of this function at (q0, mu1), divided by the order of the symmetry group of t.
-        The vector v_t in g defines a right-invariant vector field ``F(t)`` on the group. For every smooth
-        function f on the group, ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all
-        words ``w = t_1 ... t_k``.
+        Let q0 and q1 be the positions before and after the step, and mu1 the momentum after the step. Each
+        tree t denotes a function of position and momentum with values in g
+        (:mod:`orderconds.series.action_trees`). Insert the position q0 and the momentum mu1 into this
+        function, and divide the value by the order of the symmetry group of t. The result is a vector in g.
+        This vector defines a right-invariant vector field ``F(t)`` on the group. For every smooth function f
+        on the group, ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words
+        ``w = t_1 ... t_k``.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -206,9 +207,9 @@ class CommutatorFreeSeries(ActionSeries):
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of the word t_1 ... t_k in the group element with index ``row``.
 
-        Let phi_J(t) be the coefficient of the letter t in the exponent of exponential J. Let n_J be the
-        number of times that J occurs in a sequence J_1 <= ... <= J_k of indices. The coefficient of the word
-        is the sum of ``prod_l phi_{J_l}(t_l) / prod_J n_J!`` over all such sequences.
+        Let phi_J(t) be the coefficient of the letter t in the exponent of exponential J. The coefficient of
+        the word is a sum over all sequences J_1 <= ... <= J_k of indices of exponentials. Each sequence gives
+        the term ``prod_l phi_{J_l}(t_l) / prod_J n_J!``, where n_J counts how often J occurs in the sequence.
         """
         return self._before(row, word)[-1]
 

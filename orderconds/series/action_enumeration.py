@@ -28,7 +28,8 @@ from orderconds.series.action_trees import (
 )
 
 LIMITS = (8, 16, 32, 64, math.inf)
-"""The limits on the cost of a tree, one for each pass of the enumeration."""
+"""The trees are enumerated in several passes. For each pass, the tuple contains an upper bound of the cost of
+a tree. The cost measures how difficult the order condition of the tree is to read."""
 
 
 def velocities_in_turn(vertices: int) -> Iterator[Velocity]:

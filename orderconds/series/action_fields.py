@@ -179,10 +179,10 @@ class ActionFields:
         """Return the coefficients of h^(p+1) in the local errors of position and momentum, for a method of
         order p with the step size h.
 
-        The results are a matrix and the coordinates of a covector. ``defects`` maps words to numbers. The
-        number is the coefficient of the word in the update minus the coefficient in the exact flow.
-        ``defects`` contains all words with p + 1 vertices in total. Words with at most p vertices must be
-        missing or have the value zero.
+        The results are a matrix and the coordinates of a covector. ``defects`` maps each word to a
+        difference: the coefficient of the word in the update minus the coefficient of the word in the exact
+        flow. ``defects`` contains all words with p + 1 vertices in total. Words with at most p vertices must
+        be missing or have the value zero.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)

@@ -71,9 +71,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word (``before``, x, ``after``) in a group element. The letter x is a
-        perturbation of the velocity of stage ``stage``. The group element belongs to stage ``row``, or to the
-        update if ``row`` is the number of stages."""
+        """Return the coefficient of the word (``before``, x, ``after``) in a group element. The group element
+        belongs to stage ``row``, or to the update if ``row`` is the number of stages. The words ``before``
+        and ``after`` consist of trees. The letter x is not a tree: the velocity xi of stage ``stage``, a
+        linear combination of trees, is replaced by xi + x."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -93,13 +94,14 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return coefficients of the word (``before``, x, ``after``), where x is a new letter. The result is
-        a list of maps (:data:`Varied`).
+        """Return coefficients of the word (``before``, x, ``after``), as a list of maps (:data:`Varied`).
+
+        Here x is a new letter. For entry ``[j][i]``, the velocity xi_i of stage i is replaced by xi_i + x.
 
         - If ``update`` is 0, the list has one map for each stage. Entry ``[j][i]`` is the coefficient of the
-          word in the group element of stage j, after x has been added to the velocity of stage i.
+          word in the group element of stage j.
         - If ``update`` is 1, the list has one map. Entry ``[0][i]`` is the coefficient of the word in the
-          group element of the update, after x has been added to the velocity of stage i.
+          group element of the update.
         """
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
@@ -259,7 +261,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return the terms of the truncated series dexpinv_X xi with at most ``most`` factors X."""
+        """Return the terms of the truncated series dexpinv_X xi. Terms with more than ``most`` factors X are
+        omitted."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 
@@ -271,9 +274,9 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 class PadeActionSeries(MuntheKaasActionSeries):
     """The action series of variational Runge-Kutta-Munthe-Kaas methods with a truncated series dexp.
 
-    The exponent of stage i is X_i = h sum_j a_ij v_j. The vector v_j solves the equation dexp_{(r),X_j} v_j =
-    xi_j, where xi_j is the velocity of stage j. The map dexp_{(r),X} is the series dexp_X, truncated after
-    the power r = ``cutoff`` of X.
+    Let dexp_{(r),X} be the series dexp_X, truncated after the power r = ``cutoff`` of X. The exponent of
+    stage i is X_i = h sum_j a_ij v_j. The vector v_j solves the equation dexp_{(r),X_j} v_j = xi_j, where
+    xi_j is the velocity of stage j.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities

@@ -56,7 +56,10 @@ WRONG: dict[str, tuple[Call, str]] = {
     ),
     "derive order 60": (lambda: derive("rk", 60), "order: 60; expected an integer from 1 to 20"),
     "derive many trees": (lambda: derive("rk", 20), "rk: there are 12486 trees of order 13"),
-    "stages of a cf": (lambda: derive("cf", 2, stages=2), "stages: the number of stages does not determine"),
+    "stages of a cf": (
+        lambda: derive("cf", 2, stages=2),
+        "stages: cannot expand the conditions of family cf",
+    ),
     "solve with stages as text": (lambda: solve("rk", "2", 2), "stages: '2' of type str"),  # type: ignore[arg-type]
     "solve with one text": (
         lambda: solve("rk", 2, 2, fix="a21=1"),

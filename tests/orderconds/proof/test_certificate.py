@@ -82,7 +82,7 @@ REFUSED: dict[str, tuple[str, str]] = {
     ),
     "too many equations": (
         kutta3(ZEROS, 'conditions = "rk"\norder = 4\npins = ["x"]'),
-        "7 equations for 3 unknowns; name a reduction",
+        '7 equations for 3 unknowns; add the key "reduction" to [proof]',
     ),
     "not symmetric": (
         text("yoshida6").replace('"g3", "g2", "g1"]', '"g3", "g1", "g2"]'),

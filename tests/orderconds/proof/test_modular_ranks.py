@@ -77,7 +77,7 @@ def test_a_proof_is_refused_where_dependence_does_not_hold(monkeypatch: pytest.M
     proof_equations._up_to.cache_clear()
     with monkeypatch.context() as patched:
         patched.setattr(vcg, "dependence_holds", lambda self, order: order != 1)
-        with pytest.raises(NotProved, match="modulo primes, but not over Q"):
+        with pytest.raises(NotProved, match="modulo primes and does not hold over Q"):
             certify(Tableau.loads(FILE))
     proof_equations._up_to.cache_clear()
     assert certify(Tableau.loads(FILE)).facts
