@@ -28,10 +28,10 @@ RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
 these methods. Each value of the series is a vector with one residue for each method."""
 
 SPARE_SAMPLES = 24
-"""The left-hand sides of conditions, and products of left-hand sides, form a matrix with one row for each
-random method (sample). The number of samples is ``SPARE_SAMPLES`` plus an upper bound for the rank of this
-matrix (:func:`_largest_rank`). With fewer samples, independent conditions would be more likely to seem
-dependent."""
+"""The left-hand sides of conditions, and products of left-hand sides, are evaluated for random methods
+(samples). The values for one sample form one row of a matrix. The number of samples is ``SPARE_SAMPLES`` plus
+an upper bound for the rank of this matrix (:func:`_largest_rank`). With fewer samples, independent conditions
+would be more likely to seem dependent."""
 
 BLOCK = 256
 """The number of samples that are evaluated together. A larger number would require more memory."""

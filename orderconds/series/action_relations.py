@@ -6,10 +6,10 @@ polynomial are computed from random methods and from the exact flow.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
 commutator-free methods. Let psi_p be the coefficient of a g*-valued tree p in the momentum of a stage
-(:mod:`orderconds.series.action`). A g-valued tree ``o(w | M)`` consists of a root, a word w and a multiset M
-(:mod:`orderconds.series.action_trees`). Let o be the g-valued tree with one vertex. Let t be the g-valued
-tree ``o(|L(o))``, in which the word w is empty, and the multiset M contains only the tree L(o). Each stage of
-a variational Crouch-Grossman method satisfies ``psi_{L(t)} = 3 psi_{L(o o)} - psi_{L(o)}^2``. This equation
+(:mod:`orderconds.series.action`). The g*-valued tree L(w) is the :class:`Transport` with the word w. The
+module :mod:`orderconds.series.action_trees` explains these trees. Let s be the g-valued tree with one vertex.
+Let t be the g-valued tree with an empty word and the multiset that contains only L(s). Each stage of a
+variational Crouch-Grossman method satisfies ``psi_{L(t)} = 3 psi_{L(s s)} - psi_{L(s)}^2``. This equation
 implies the three relations.
 """
 
@@ -49,8 +49,9 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
     The result is a map. The keys are the trees with n vertices that are not in ``independent[-1]``. The value
     of a key is a formula for the left-hand side of the order condition of this tree. The formula is a
     polynomial (:data:`Polynomial`) in the left-hand sides of the order conditions of the trees in
-    ``independent``. The formulas hold for each method of the family. The polynomials are wrong with a
-    probability of about 10^-8.
+    ``independent``. The coefficients of the polynomials are computed from random methods, and are wrong with
+    a probability of about 10^-8. If the coefficients are correct, the formulas hold for each method of the
+    family.
 
     >>> from functools import partial
     >>> from orderconds.families import get

@@ -16,8 +16,8 @@ right-invariant vector field on G. There are three kinds of trees:
   different list t_1, ..., t_k. The list consists of the elements of g that the letters of u denote, then x,
   and then the elements of g that the letters of v denote.
 - A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. The tree denotes the covector that
-  maps an element x of g to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here
-  ``<mu, y>`` is the pairing of mu with y.
+  maps an element x of g to ``<mu, ad t_1 ... ad t_k x>``. Here t_1, ..., t_k are the elements of g that the
+  letters of w denote, and ``<mu, y>`` is the pairing of mu with y.
 
 Each :class:`Velocity` also defines an elementary Hamiltonian (:func:`hamiltonian`). The elementary
 Hamiltonians are the terms of the generating function of a step of a method. Equal trees are identical
@@ -170,10 +170,11 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return the cost that a word adds to a tree because the letters of the word differ. If all letters are
-    equal, this cost is zero.
+    """Return one summand of the cost of a :class:`Velocity` with the word ``word``. If all letters of the
+    word are equal, the summand is zero. If a word of k letters has different letters, the summand is
+    5 (k - 1).
 
-    The cost measures how difficult an order condition is to read.
+    The cost of a tree measures how difficult the order condition of the tree is to read.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -182,8 +183,8 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of the :class:`Force` with the words ``before`` and ``after`` and an empty multiset. If
-    the cost is low, an order condition with this ``Force`` is easy to read.
+    """Return the cost of the tree f(u * v) with the words u = ``before`` and v = ``after``
+    (:class:`Force`). The cost measures how difficult an order condition with this tree is to read.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)

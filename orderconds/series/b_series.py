@@ -162,7 +162,9 @@ class Sums:
 def runge_kutta_series(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]
 ) -> ElementaryWeights[Tree]:
-    r"""Return the elementary weights of a tableau on canonical rooted trees (HLW III.1, (1.18)).
+    r"""Return the elementary weights of the Runge-Kutta method (A, b). The result is a function that maps a
+    canonical rooted tree to its elementary weight (Hairer, Lubich and Wanner, *Geometric Numerical
+    Integration*, III.1, (1.18)).
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

@@ -58,13 +58,12 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return a map from letters to polynomials, computed from the polynomial x.
+    """Return a map from new letters n to the polynomials P_n in the linear part of x (module docstring).
 
-    A word is a tuple of letters, and a letter is a number. The numbers below ``first`` are old letters, and
-    all other numbers are new letters. Select the words of x that have at least two letters, and in which only
-    the last letter is new. Remove the last letter n of each selected word. The value of the key n is the
-    polynomial that consists of these shortened words. If x is a sum of letters and brackets, the result
-    contains the polynomials P_n in the module docstring.
+    The polynomial x is a linear combination of letters and (nested) brackets, expanded into words. A word is
+    a tuple of letters, and a letter is a number. The numbers below ``first`` are old letters, and all other
+    numbers are new letters. The linear part of x is sum_n ad_(P_n) q_n. In P_n, the coefficient of a word w
+    of old letters is the coefficient of the word w n in x. If P_n is zero, n is not a key of the map.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}

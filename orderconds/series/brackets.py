@@ -43,8 +43,8 @@ class BracketProgram:
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program that computes the arguments.
-    - ``grades``: the grades of q_1, q_2, .... The module docstring defines the linear combinations q_j and
-      their grades.
+    - ``grades``: for each stage j, the number g such that h q_j is of order h^g. Here q_j is the sum of k_j
+      and certain multiples of k_1, ..., k_(j-1) (module docstring).
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -164,8 +164,8 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return a map from stages to lists of polynomials. The polynomials are candidates for intermediate
-    results of a program that computes all arguments."""
+    """Return candidates for intermediate results of a program that computes all arguments. The result maps an
+    index i to the polynomials that the program can compute before ``arguments[i]``."""
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
     for i, argument in enumerate(stages):
@@ -188,9 +188,10 @@ class _Shape:
     The pool is the list of elements that are known before the brackets are added. The first element of the
     pool is q_1. The symbols x, y, z_n and w_n denote unknown linear combinations of elements of the pool.
 
-    - ``inner``: the number k of nested brackets C_1, ..., C_k. The bracket C_n is [q_1, z_n + C_(n+1)], where
-      C_(k+1) is zero.
-    - ``outer``: True if the bracket [q_1 + x, y + C_1] with unknown x and y is added.
+    - ``inner``: the number k of nested brackets C_k, ..., C_1, which are added in this order. The first one
+      is C_k = [q_1, z_k]. The bracket after C_(n+1) is C_n = [q_1, z_n + C_(n+1)].
+    - ``outer``: True if, after C_1, the bracket [q_1 + x, y + C_1] is added. If k is zero, this bracket is
+      [q_1 + x, y].
     - ``leading``: True if x may be nonzero.
     - ``extra``: indices of pool elements, counted from 0. For each index n in ``extra``, there is a bracket
       [e_n, w_n], where e_n is the pool element with the index n.
@@ -238,7 +239,7 @@ class _Search:
     ) -> BracketProgram | None:
         """Return a program that computes ``arguments[0]``, ``arguments[1]``, ... in this order. Before
         ``arguments[i]``, the program computes the elements ``before[i]``. Return None if the search finds no
-        program with the allowed number of brackets."""
+        program with at most ``most`` brackets (:class:`_Search`)."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:
@@ -263,9 +264,9 @@ class _Search:
         return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
-        """Return a row that represents ``argument`` up to grade ``limit``, or None if no row is found. A row
-        is a linear combination of stage values and brackets (:class:`BracketProgram`). ``shape`` describes
-        the brackets that are added to the program.
+        """Return a linear combination of stage values and brackets that equals ``argument`` up to grade
+        ``limit``. Return None if no such combination is found. ``shape`` describes the brackets that are
+        added to the program.
 
         If both factors of one added bracket are unknown, the equations contain products of two unknowns, and
         are solved by iteration. Otherwise, the equations are linear."""

@@ -69,9 +69,12 @@ class Character:
 
     def then(self, other: Character) -> Character:
         """Return the composition of two steps of size h: this step acts first, and the step ``other`` acts
-        second (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.1.4, Theorem 1.10).
+        second.
 
-        For ordered forests, left admissible cuts are used (Munthe-Kaas and Wright 2008, Theorem 5).
+        Each coefficient of the composition is a sum over cuts. For a rooted tree, the sum runs over all
+        admissible cuts (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.1.4, Theorem 1.10).
+        For an ordered forest, the sum runs over the left admissible cuts (Munthe-Kaas and Wright 2008,
+        Theorem 5).
         """
 
         def value(forest: bytes) -> Element:
@@ -102,7 +105,7 @@ class Character:
         return self.inverse().scaled(self.ring.rational(-1))
 
     def scaled(self, factor: Element) -> Character:
-        """Return the step with ``factor`` times h in place of the step size h."""
+        """Return the same step with the step size c h instead of h, where c is ``factor``."""
 
         def value(forest: bytes) -> Element:
             power = self.ring.one

@@ -132,8 +132,9 @@ class DexpinvSeries:
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
         """Let x be a letter, and let u be a linear combination of non-empty words. Return those terms of the
         truncated series dexpinv_u x that can contain a word (v, x, w), where v is a word of ``before``
-        letters, and w is a word of ``behind`` letters. A triple (q, m, n) denotes the term q u^n x u^m with
-        the coefficient q. In this term, u^m acts first, then x, then u^n.
+        letters, and w is a word of ``behind`` letters. Each term has the form q u^n x u^m with a coefficient
+        q, and is returned as the triple (q, m, n). The rightmost factor u^m acts first. Therefore the number
+        m comes before n in the triple, and v comes before w in the word.
 
         - The factor u^m gives the word v. If ``before`` is zero, m is zero. If ``before`` is positive, m is
           one of the numbers 1, ..., ``before``.

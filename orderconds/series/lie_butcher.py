@@ -1,15 +1,15 @@
 """Lie-Butcher series of products of exponentials, and of the exact flow.
 
-A series has one coefficient for each ordered forest, which is a word of ordered trees. Let the exponents X_1,
-..., X_m be linear combinations of trees, where x_J(t) is the coefficient of the tree t in X_J. In the product
-exp(X_m) ... exp(X_1), the coefficient of the forest t_1 ... t_n is a sum over all sequences of indices
-J_1 <= ... <= J_n. Let r_1, r_2, ... be the multiplicities of the distinct indices in a sequence. The summand
-of this sequence is
+A series has one coefficient for each ordered forest, which is a word of ordered trees. In a product
+exp(X_m) ... exp(X_1), each exponent X_J is a linear combination of trees. In the series of this product, the
+coefficient of the forest t_1 ... t_n is a sum over all sequences of indices J_1 <= ... <= J_n. The summand of
+a sequence is
 
 x_{J_1}(t_1) ... x_{J_n}(t_n) / (r_1! r_2! ...).
 
-The factor exp(X_1) and the tree t_1 act first (Owren and Marthinsen, BIT 39 (1999) 116; Hairer, Lubich and
-Wanner, *Geometric Numerical Integration*, IV.8).
+Here x_J(t) is the coefficient of the tree t in X_J, and r_1, r_2, ... are the multiplicities of the distinct
+indices in the sequence. The factor exp(X_1) and the tree t_1 act first (Owren and Marthinsen, BIT 39 (1999)
+116; Hairer, Lubich and Wanner, *Geometric Numerical Integration*, IV.8).
 """
 
 from __future__ import annotations
@@ -115,8 +115,8 @@ class ExponentialsSeries:
         return way[::-1]
 
     def _word(self, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word`` in each partial product of exponentials. The partial products
-        are numbered as in ``self._places``."""
+        """Return the coefficients of ``word``, one for each partial product P_0, P_1, ... (``self._places``).
+        A partial product consists of the first exponentials of a stage or of the update."""
         values = self._words.get(word)
         if values is None:
             values = self._words[word] = self._along(word, self._places)
@@ -124,9 +124,9 @@ class ExponentialsSeries:
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
         """Return a list of coefficients of a non-empty word, with one entry for each partial product P_0,
-        P_1, ... of exponentials. The list ``places`` contains triples (p, q, r). A triple states that
-        P_p = exp(X_r) P_q, where X_r is the exponent ``self._rows[r]``. For each triple in ``places``, entry
-        p is the coefficient of the word in P_p. All other entries are zero."""
+        P_1, ... of exponentials. Each triple (p, q, r) in ``places`` selects the partial product
+        P_p = exp(X_r) P_q, where X_r is the exponent ``self._rows[r]``. If P_p is selected, entry p is the
+        coefficient of the word in P_p. Otherwise, entry p is zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # ``heads[r - 1][p]`` is the coefficient of a shorter word in the product of exponentials with the

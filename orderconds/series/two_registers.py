@@ -120,10 +120,9 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return a selection of the rooted trees with ``order`` vertices. Let t be a tree with ``order`` vertices
-    that is not selected. For two-register (2N) schemes, the elementary weight of t is a function of the
-    following elementary weights: the weights of the selected trees, and the weights of the trees with fewer
-    vertices.
+    """Return a selection of the rooted trees with ``order`` vertices. For two-register (2N) schemes, the
+    elementary weights of all other trees with ``order`` vertices are functions of the elementary weights of
+    the selected trees and of the trees with fewer vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)
@@ -195,7 +194,10 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Use the product rule to apply the operator D (drift) to ``product`` (:data:`Operator`)."""
+    """Apply the operator D (drift) to ``product``, a product of derivatives along vector fields
+    (:data:`Operator`). D is the derivative along the vector field y' = k y. By the product rule, the result
+    is a sum. In the first term of this sum, D is a new leftmost factor of ``product``. In each other term, D
+    is applied to one factor of ``product``."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)

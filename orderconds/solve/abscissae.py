@@ -71,10 +71,10 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
     With these formulas, sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column
     j. Here m_i are the abscissae and b_i are the weights.
 
-    ``b`` contains the texts of the weights. ``fixed`` maps the names of known entries to their values. The
-    nodes of a graph are the rows and columns of A. Each unknown entry a_ij is an edge between row i and
-    column j. There is one formula for each edge of a spanning tree of this graph. Raises
-    :class:`~orderconds.errors.InputError` if the graph is not connected.
+    ``b`` contains the texts of the weights. ``fixed`` maps the names of known entries to their values. A
+    graph determines which entries get a formula. The nodes of this graph are the rows and columns of A, and
+    each unknown entry a_ij is an edge between row i and column j. The edges of a spanning tree get formulas.
+    Raises :class:`~orderconds.errors.InputError` if the graph is not connected.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
@@ -111,7 +111,8 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
         raise InputError(
             "the free entries of A do not connect all rows and columns",
             where=WHERE,
-            expected="more free entries (a free entry a_ij connects row i and column j)",
+            expected="more free entries: the rows and columns must form a connected graph, in which each "
+            "free entry a_ij is an edge between row i and column j",
         )
     return kept
 
@@ -145,9 +146,9 @@ def symmetric_transport(
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
     With the formulas, sum_j a_ij = m_i for each i, and sum_i b_i a_ij = b_j (1 - m_j) for each j, where b_i
-    are the weights. There are formulas for x_1s, ..., x_rs, for x_r1, ..., x_rr, and for auxiliary numbers
-    C1, ..., Cr. The other entries of ``own`` remain free. The formulas contain the abscissae m1, m2, ..., the
-    weights b1, b2, ..., and the sums y1, y2, ... of the rows of ``update``.
+    are the weights. There are formulas for the last column of ``own``, for the first r entries of the last
+    row of ``own``, and for auxiliary numbers C1, ..., Cr. The other entries of ``own`` remain free. The
+    formulas contain the numbers m_i, b_i and y_J, where y_J is the sum of all entries in row J of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

@@ -1,9 +1,10 @@
 """Recognition of high-precision numbers as algebraic numbers, by lattice reduction.
 
-Let x be an approximate root of a polynomial of degree n with small integer coefficients c_0, ..., c_n. For a
-large number N, the vector v_k is the k-th unit vector with an additional entry N x^k. The lattice vector
-sum_k c_k v_k is short: its entries are c_0, ..., c_n and N times the value of the polynomial at x. Lattice
-reduction finds short vectors in a lattice (Lenstra, Lenstra and Lovasz 1982).
+Let x be an approximate root of a polynomial of degree n with small integer coefficients c_0, ..., c_n. Choose
+a large number N. For k = 0, ..., n, append the entry N x^k to the unit vector e_k of length n + 1. The
+resulting vectors v_0, ..., v_n generate a lattice. The lattice contains the vector sum_k c_k v_k with the
+entries c_0, ..., c_n and N p(x), where p is the polynomial. This vector is short, because p(x) is almost
+zero. Lattice reduction finds short vectors in a lattice (Lenstra, Lenstra and Lovasz 1982).
 
 The caller must verify the recognised number by exact arithmetic.
 """
@@ -48,8 +49,8 @@ def closed_forms(
     :data:`MAX_DEGREE`. A closed form is a rational combination of basis elements. Three bases are tried:
 
     - 1 and the square roots
-    - the products of an element of the first basis and a power r^0, ..., r^(d-1), where r is one of the
-      numbers, and d is the degree of r
+    - the elements of the first basis, multiplied by r^0, ..., r^(d-1). Consider the numbers that are not
+      rational combinations of the first basis. Of these, r is a number of the lowest degree d.
     - the powers r^0, ..., r^(d-1) of an algebraic number r of degree d, where d is the largest of the degrees
       of the numbers
 
@@ -87,8 +88,9 @@ def closed_forms(
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
 ) -> dict[str, ClosedForm] | None:
-    """Compute closed forms in the first basis of :func:`closed_forms`, or else in the second basis. Return
-    None if no closed forms are found."""
+    """Return the numbers as combinations of the first basis of :func:`closed_forms`. If some number is not a
+    combination of the first basis, use the second basis for all numbers. Return None if no closed forms are
+    found."""
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:

@@ -57,8 +57,8 @@ class Infeasible:
     - If ``weight`` is the name of a weight, this weight is zero in each real solution of the equation. This
       is impossible: the formulas of the family divide by the weight.
 
-    The proof is valid for the methods that satisfy the options of the search and all ``assumptions``. Each
-    assumption is a clause.
+    The proof is valid for the methods that satisfy the options of the search and all ``assumptions``. An
+    assumption is a text such as ``all weights b_i are nonzero``.
 
     Entry k of ``equations`` is the numerator of the residual of condition k: left-hand side minus right-hand
     side.
@@ -75,7 +75,8 @@ class Infeasible:
 
     @property
     def reason(self) -> str:
-        """The reason why no method with real coefficients satisfies the equation ``consequence`` = 0."""
+        """A text that says why no method with real coefficients satisfies ``conditions``. The conditions
+        imply the equation ``consequence`` = 0, and the text says why this equation cannot hold."""
         if not self.real:
             return f"{self.consequence} = 0 is false"
         if self.weight:
@@ -190,17 +191,15 @@ def _subsystems(
 def _consequence(
     nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
-    """Return a pair (polynomial, name of a weight). Return None if no such pair is found.
+    """Prove that the polynomials in ``members`` have no common real zero at which all weights in ``nonzero``
+    are different from zero. Return None if no proof is found.
 
-    The polynomial lies in the ideal of ``members`` and has at most one variable. ``nonzero`` contains the
-    names of weights that must not be zero. There are two kinds of pairs:
+    The proof is a pair (polynomial, text). The polynomial lies in the ideal of ``members`` and has at most
+    one variable. There are two kinds of proofs:
 
-    - The polynomial has no real root, and the name is empty.
-    - The only real root of the polynomial is zero. The variable of the polynomial is a weight in ``nonzero``,
-      and the name is the name of this weight.
-
-    In both cases, the polynomials in ``members`` have no common real zero at which all weights in ``nonzero``
-    are different from zero.
+    - The polynomial has no real root. The text is empty.
+    - The only real root of the polynomial is zero, but the variable of the polynomial is a weight in
+      ``nonzero``. The text is the name of this weight.
     """
     import sympy
 
@@ -253,8 +252,9 @@ def _certificate(
     weight: str,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Return a proof that the conditions in ``members`` imply the equation ``consequence`` = 0. Return None
-    if no multipliers with a degree below :data:`MAX_DEGREE` are found."""
+    """Return a proof that the conditions in ``members`` imply the equation ``consequence`` = 0. The proof
+    multiplies the polynomial of each condition by another polynomial, such that the sum of the products is
+    ``consequence``. Return None if no multipliers of a degree below :data:`MAX_DEGREE` are found."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:

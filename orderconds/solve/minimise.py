@@ -1,8 +1,9 @@
 """Minimisation of the principal error over the solutions of the order conditions.
 
 Let F be the vector of residuals of the conditions. The principal error is the norm of a vector E. Let F' and
-E' be the Jacobians of F and E. Among all solutions of the linearised conditions F + F' p = 0, the step p
-minimises |E + E' p|^2 + d |p|^2, where d is a damping parameter. A few iterations of
+E' be the Jacobians of F and E. Each step adds a vector p to the coefficients. The vector p minimises
+|E + E' p|^2 + d |p|^2 under the constraint F + F' p = 0, where d is a damping parameter. The constraint is
+the linearisation of the conditions at the current coefficients. A few iterations of
 :func:`orderconds.solve.least_squares.least_squares` then solve the conditions again.
 
 The method is sequential quadratic programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical

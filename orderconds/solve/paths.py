@@ -6,15 +6,13 @@ an exponent, let bar X be the exponent with the s coefficients of X in reverse o
 it satisfies the following two conditions:
 
 - Y_(m+1-J) = bar Y_J for J = 1, ..., m.
-- Let stage i begin with the first k exponentials of the update, where k may be zero. Let X_1, ..., X_r be the
-  exponents of the later exponentials of stage i:
+- For each i, the stages i and s + 1 - i have the form
 
-      Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0.
-
-  Then stage s + 1 - i begins with the first m - k exponentials of the update, and the exponents of its later
-  exponentials are -bar X_1, ..., -bar X_r:
-
+      Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
       Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0.
+
+  The number k, which may be zero, and the exponents X_1, ..., X_r depend on i. Stage i begins with the first
+  k exponentials of the update, and stage s + 1 - i begins with the first m - k exponentials of the update.
 
 A step of length -h of a symmetric method is the inverse of a step of length h.
 """
@@ -35,8 +33,9 @@ list of exponentials, the exponential with index 0 acts first."""
 
 
 def full_paths(spec: Spec) -> Paths:
-    """Return the parametrisation of all methods. Each exponential has one coefficient for each stage. For
-    explicit and diagonally implicit methods, constraints set some coefficients to zero.
+    """Return the parametrisation of all commutator-free methods with the numbers of stages and exponentials
+    in ``spec``. Each exponential has one coefficient for each stage. For explicit and diagonally implicit
+    methods, constraints set some coefficients to zero.
 
     >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update

@@ -142,8 +142,9 @@ class Problem:
         return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the violations of the bounds on the coefficients, with one row for each point. Also return
-        the derivatives of the violations with respect to the free coefficients.
+        """Return the violations of the bounds on the coefficients. Also return the derivatives of the
+        violations with respect to the free coefficients. Each row of ``points`` contains values of the free
+        coefficients, and gives one row of violations.
 
         If a bound is satisfied, its violation is zero.
         """

@@ -141,7 +141,8 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
     """Return the indices of all inputs, and the indices of all operations on which the outputs ``wanted``
-    depend. The indices are sorted by the level and the kind of the operations."""
+    depend. The level of an input or constant is 0. The level of any other operation is larger by 1 than the
+    highest level of its operands. The indices are sorted by level, and within each level by kind."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

@@ -261,8 +261,8 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
     - The degree of the factor is one or two. The roots are expressed by square roots.
     - The roots are symmetric about their mean m. Each pair of roots is m + sqrt(x) and m - sqrt(x), where x
       is a root of a polynomial g of half the degree. The numbers x are computed by ``roots(g, tower)``.
-    - In all other cases, the largest root is expressed in terms of the other roots. The other roots get the
-      names c1, c2, ... in ascending order.
+    - In all other cases, all roots except the largest get the names c1, c2, ... in ascending order. The
+      largest root is computed from these roots and the sum of all roots, which is known.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

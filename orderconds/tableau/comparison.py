@@ -18,9 +18,9 @@ COMPARED = 160
 def equal_coefficients(one: Tableau, other: Tableau) -> bool:
     """Return True if two tableaux have equal coefficients, including the coefficients of embedded methods.
 
-    Two balls (intervals) count as equal if they intersect, and if the larger width is at most 4 w + 2^-100.
-    Here w is the smaller width. The balls of equal coefficients can differ, because the centre and the radius
-    of a ball may be rounded in a file.
+    Let w be the smaller width of two balls (intervals). The balls count as equal if they intersect, and if
+    the larger width is at most 4 w + 2^-100. The balls of equal coefficients can differ, because the centre
+    and the radius of a ball may be rounded in a file.
 
     >>> from orderconds.tableau import find
     >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))

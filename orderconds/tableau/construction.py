@@ -20,8 +20,11 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
     """Return the keys and values of the tableau file of a Runge-Kutta method. The method has the matrix A,
     the weights b, the abscissae c and the embedded weights ``bhat``.
 
-    If A is lower triangular, the zeros to the right of the diagonal may be omitted in all rows. If A is
-    strictly lower triangular, all rows may end before the diagonal.
+    The matrix A with s rows is given in one of three forms:
+
+    - Each row has s entries.
+    - Row i has i entries, for i = 1, ..., s. The omitted entries above the diagonal are zero.
+    - Row i has i - 1 entries, for i = 1, ..., s. The omitted entries on and above the diagonal are zero.
 
     Raises :class:`~orderconds.errors.TableauError` for a wrong entry, or if the lengths do not match.
 

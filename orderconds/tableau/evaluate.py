@@ -8,8 +8,9 @@ The first of these rules that applies determines the ring:
   most :data:`orderconds.ring.tower.MAX_DEGREE`, the ring is this field.
 - If the degree is larger, all coefficients are balls.
 
-Equal expressions in one file are evaluated only once, so their values are the same Python object. Two
-coefficients with the same ball object are equal, although balls cannot prove equality in general.
+Equal expressions in one file are evaluated only once, so their values are the same Python object. Therefore
+two coefficients are known to be equal if their ball is the same object. Different ball objects in general
+cannot prove that two coefficients are equal.
 """
 
 from __future__ import annotations

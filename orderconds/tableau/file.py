@@ -258,7 +258,8 @@ def _verify_names(entry: Format, where: str) -> None:
             raise TableauError(
                 f"the name {name!r}",
                 where=f"{where}: numbers",
-                expected="a letter, then letters, digits and _; sqrt is reserved",
+                expected="a name of letters, digits and _ that begins with a letter or _; the name sqrt is "
+                "reserved for square roots",
             )
 
 

@@ -204,12 +204,12 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class StageEntry(Struct, forbid_unknown_fields=True):
-    """A product of exponentials. The integer ``from`` is the number of a stage, where the first stage has the
-    number 1. The product acts on the value of this stage. If ``from`` is missing, the product acts on the
-    initial value y0.
+    """A product of exponentials, which acts on a point of the manifold. Let Y_j be the point of stage j,
+    where the first stage is Y_1. If ``from`` is the integer j, the product acts on Y_j. If ``from`` is
+    missing, the product acts on the initial value y0.
 
     A row beta of ``exp`` defines exp(h sum_j beta_j k_j), where h is the step size and k_j is the vector
-    field at stage j. The exponential of the first row acts first.
+    field at Y_j. The exponential of the first row acts first.
     """
 
     exp: list[list[Coefficient]] = []
@@ -220,7 +220,7 @@ class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
     """The embedded update, for an error estimate. The embedded update is a product of exponentials. Let s be
     the number of stages.
 
-    - If ``from`` is an integer i from 1 to s, the product acts on the value of stage i.
+    - If ``from`` is an integer i from 1 to s, the product acts on the point of stage i.
     - If ``from`` is s + 1, the product acts on the result of the main update.
     - If ``from`` is missing, the product acts on the initial value y0.
     """

@@ -51,9 +51,9 @@ class Constant(Struct, frozen=True, cache_hash=True):
 
     @property
     def is_double(self) -> bool:
-        """True if the constant is a double. Doubles are recognised by their radius: an exact number has the
-        radius 0, a rounded decimal with n decimal places has the radius 1/10^n, and a double has another
-        radius."""
+        """True if the constant is a double. The radius ``unit`` shows the kind of the constant: 0 for an
+        exact number, 1/10^n for a rounded decimal with n decimal places, and a multiple of 2^-53 max(1, |x|)
+        for a double x (:func:`orderconds.tableau.doubles.radius`)."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 

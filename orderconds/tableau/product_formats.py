@@ -121,7 +121,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"rkn = {self.rkn!r} with parts {known}",
                 where=f"{where}: rkn",
-                expected="two names in the key parts, and one of these names as the value of rkn, such as "
+                expected="two parts, and the name of one part as the value of rkn, such as "
                 'parts = ["T", "V"] and rkn = "V"',
             )
 
@@ -241,7 +241,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                     raise TableauError(
                         f"for some quadratic Lie groups, exponent number {k + 1} is not in the Lie algebra",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="products only in combinations that lie in the Lie algebra: A*B - B*A for "
-                        "an even number of factors, A*B*C + C*B*A for an odd number of factors",
+                        expected="each product together with the product of the same factors in reverse "
+                        "order, such as A*B - B*A (minus for an even number of factors) or A*B*C + C*B*A "
+                        "(plus for an odd number of factors)",
                     )
         return method, None

@@ -162,8 +162,8 @@ class Magnus:
 
     def is_expandable(self) -> bool:
         """Return True if the estimated number of products in the expansion of all exponents is at most
-        :data:`MOST_WORDS`. For s nodes and products of at most m factors, the estimate for an exponent is
-        s^m."""
+        :data:`MOST_WORDS`. If the products in an expanded exponent have at most m factors A_i, the estimate
+        for this exponent is s^m, where s is the number of nodes."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 

@@ -4,9 +4,9 @@ The coefficients of the method are rational functions of the replaced numbers. A
 rational functions is tested at one random point. If the identity holds for all points, it also holds for the
 exact decimals and radicals.
 
-Each coordinate of the random point is drawn from 2^128 numbers. For two different functions, let D be the
-degree of the numerator of their difference. The probability that their values at the point are equal is at
-most D / 2^128 (Schwartz 1980; Zippel 1979).
+Each coordinate of the random point is drawn from 2^128 numbers. Let f and g be two different functions, and
+let D be the degree of the numerator of f - g. The probability that f and g have the same value at the random
+point is at most D / 2^128 (Schwartz 1980; Zippel 1979).
 
 The random numbers are computed from a digest of all coefficients in the file. Hence nobody can choose
 coefficients for which the random numbers satisfy a false identity.
@@ -29,17 +29,17 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""The number of bits of a random number. The limit :data:`orderconds.tableau.evaluate.MAX_SIZE` keeps the
-degree D of tested functions far below 2^40. A non-zero function of degree D vanishes at random numbers with
-probability at most D / 2^128."""
+"""The number of bits of a random number. A non-zero function of degree D vanishes at random numbers with
+probability at most D / 2^128. This probability is small, because the degree D of tested functions is far
+below 2^40. The limit :data:`orderconds.tableau.evaluate.MAX_SIZE` keeps D small."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """The errors that :meth:`RandomMember.method` raises."""
 
 
 class RandomMember(Rationals):
-    """The ring of rational numbers, with random numbers in place of the rounded decimals and the radicals of
-    a tableau file."""
+    """The ring of rational numbers, for the evaluation of a tableau file. In this ring, each rounded decimal
+    and each radical in the file has a random rational number as its value."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws | None = None) -> None:
         self._symbolic, self._draws = symbolic, draws or Draws(description(symbolic))

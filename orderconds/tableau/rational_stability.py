@@ -52,7 +52,8 @@ def _modulus(p: fmpq_poly) -> fmpq_poly:
 
 
 def _nowhere_negative(E: fmpq_poly) -> bool:
-    """Return True if E(x) >= 0 for all x >= 0."""
+    """Return True if the polynomial E satisfies E(x) >= 0 for all x >= 0. Negative numbers x do not matter,
+    because x is the square of a real number (:func:`_modulus`)."""
     if E == 0:
         return True
     if E.leading_coefficient() < 0:

@@ -52,9 +52,8 @@ class RealNumber:
 
 
 Value = Fraction | float | RealNumber
-"""A coefficient in the Python interface. An exact rational number is a Fraction. Every coefficient that is
-not an exact rational number is a float if the tableau contains doubles, and a RealNumber if the tableau
-contains no doubles."""
+"""A coefficient in the Python interface. An exact rational number is a Fraction. In a tableau with doubles,
+all other coefficients are floats. In a tableau without doubles, all other coefficients are RealNumbers."""
 
 
 def value_of(x: Element, ring: Ring, doubles: bool = False) -> Value:

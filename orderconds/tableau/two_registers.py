@@ -143,8 +143,9 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
             return rows[m][i - 1] / denominator
         if ring.is_zero(rows[m][i - 1]) is False and not above:
             above = (
-                f"in the increment of stage {m + 1}, k_{i} has the coefficient {ring.text(rows[m][i - 1])}, "
-                f"but a 2N scheme requires the coefficient 0, because k_{i + 1} has the coefficient 0"
+                f"the increment of stage {m + 1} contains k_{i} (coefficient {ring.text(rows[m][i - 1])}) "
+                f"but not k_{i + 1}; in a 2N scheme, this increment can contain k_{i} only together with "
+                f"k_{i + 1}"
             )
     return Rewriting(False, reason=above) if above else ring.zero
 
@@ -176,8 +177,10 @@ def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
 
 
 def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
-    """Return the increments of a commutator-free method. Return an error text if the first stage differs from
-    the start value y0, or if two successive stages differ by more than one exponential."""
+    """Each stage of a commutator-free method is a product of exponentials, applied to the start value y0, and
+    so is the update. Increment i is the exponent of the exponential that leads from stage i to stage i + 1,
+    or from the last stage to the update. Return all increments. Return an error text if the first stage is
+    not y0, or if an increment would need more than one exponential."""
     *paths, update = (
         [row for row in method.from_start(stage) if any(ring.is_zero(x) is not True for x in row)]
         for stage in (*method.stages, method.update)

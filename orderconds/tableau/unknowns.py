@@ -58,9 +58,10 @@ class Unknown(Struct, frozen=True):
 class Proof:
     """The table ``[proof]`` of a file.
 
-    The equations are the order conditions of the family ``conditions`` up to order ``order``. ``unknowns``
-    contains the decimals that are the unknowns of the equations. The decimals in ``pinned`` count as exact
-    numbers. ``printed`` maps the names of numbers in the file to their decimals in the cited publication.
+    The equations are the order conditions of the family ``conditions`` up to order ``order``. The rounded
+    decimals in ``unknowns`` are approximate values of the unknowns in these equations. The rounded decimals
+    in ``pinned`` count as exact numbers. ``printed`` maps the names of numbers in the file to their decimals
+    in the cited publication.
     """
 
     conditions: str

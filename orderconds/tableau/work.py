@@ -134,8 +134,8 @@ def _needed(method: RungeKutta, ring: Ring) -> list[int]:
 
 
 def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
-    """Return the arguments of the exponentials in the update and in all stages on which the update
-    depends."""
+    """Return the arguments of all exponentials that are needed for a step: the exponentials in the update,
+    and those in each stage on which the update depends."""
     rows: list[tuple[Element, ...]] = []
     reached: set[int] = set()
     waiting = [method.update]

@@ -136,8 +136,9 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 def representative(tree: DirectedTree) -> DirectedTree:
     """Move the root of the tree to the vertex that gives the simplest order condition.
 
-    Let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1 after the move. The root minimizes the
-    tuple (min(n_0, n_1), height, n_1, byte string) in lexicographic order.
+    Let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1 after the move. The new root minimizes
+    min(n_0, n_1). If several roots are possible, the height of the tree decides, then n_1, and then the byte
+    string that encodes the tree. The smallest value is chosen in each case.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'

@@ -35,7 +35,8 @@ def free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
-    """Return the free trees that are not superfluous (see :func:`superfluous`; HLW VI.7.1).
+    """Return the free trees that are not superfluous (:func:`superfluous`; Hairer, Lubich and Wanner,
+    *Geometric Numerical Integration*, VI.7.1).
 
     >>> [len(essential_free_trees(n)) for n in range(1, 8)]
     [1, 0, 1, 1, 3, 4, 11]
@@ -64,9 +65,9 @@ def representative(tree: Tree) -> Tree:
 
 
 def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
-    r"""Yield three trees (u, v, v o u) for each edge at the root of a canonical tree.
-
-    The edge separates the tree into two parts u and v, and u contains the root. Here o is Butcher's product.
+    r"""Yield three trees (u, v, w) for each edge at the root of a canonical tree. The removal of the edge
+    gives two trees: u contains the root, and v does not. The tree w is the given tree, but its root is the
+    root of v. Thus w is Butcher's product v o u.
 
     >>> list(moves(b"\0\1\1"))[0]
     (b'\x00\x01', b'\x00', b'\x00\x01\x02')

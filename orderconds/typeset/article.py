@@ -74,8 +74,8 @@ def _signs(diagram: Diagram) -> list[str]:
 MEANINGS = {
     "white": "a black vertex denotes a derivative of the first function of the system (f or T), and a white "
     "vertex denotes a derivative of the second function (g or V)",
-    "outward": "an arrow denotes two derivatives: the function at its tail is differentiated with respect to "
-    "the position, and the function at its head is differentiated with respect to the momentum",
+    "outward": "the function at a vertex is differentiated once with respect to the position for each arrow "
+    "that starts at the vertex, and once with respect to the momentum for each arrow that ends at the vertex",
     "transport": "a diamond denotes a coadjoint action on the momentum",
     "bracket": "a point with two branches denotes the commutator of the branches",
 }

@@ -95,13 +95,13 @@ def test_products_from_the_start_value_are_recognised() -> None:
     [
         (
             'family = "rk"\nA = [[], ["1/2"], ["1/4", "0"]]\nb = ["0", "0", "1"]\n',
-            "in the increment of stage 2, k_1 has the coefficient -1/4, but a 2N scheme requires the "
-            "coefficient 0, because k_2 has the coefficient 0",
+            "the increment of stage 2 contains k_1 (coefficient -1/4) but not k_2; in a 2N scheme, this "
+            "increment can contain k_1 only together with k_2",
         ),
         (
             'family = "rk"\nA = [[], ["1/2"]]\nb = ["1/3", "0"]\n',
-            "in the increment of stage 2, k_1 has the coefficient -1/6, but a 2N scheme requires the "
-            "coefficient 0, because k_2 has the coefficient 0",
+            "the increment of stage 2 contains k_1 (coefficient -1/6) but not k_2; in a 2N scheme, this "
+            "increment can contain k_1 only together with k_2",
         ),
         ('family = "rk"\nA = [["1/2"]]\nb = ["1"]\n', "the first stage is not the start value"),
         (
