@@ -22,6 +22,7 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
 from codegen.ir.number import Number
+from codegen.ir.summation import corrected
 
 
 class SO3(
@@ -246,8 +247,8 @@ class SO3(
         c1, c2 = d.call("stumpff1", z), d.call("stumpff2", z)
         v = cross(x, y)
         w = cross(x, v)
-        # These parentheses reduce the rounding error: for short steps, the small terms are added first.
-        return tuple(a + (c1 * b + c2 * c) for a, b, c in zip(y, v, w, strict=True))
+        # For short steps, v and w are small.
+        return tuple(corrected(d, a, (c1, b), (c2, c)) for a, b, c in zip(y, v, w, strict=True))
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return exp(x) g."""

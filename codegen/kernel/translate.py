@@ -35,6 +35,7 @@ from codegen.ir.kernel import (
 )
 from codegen.ir.program import EMBEDDED, Assign, Program, Solve
 from codegen.ir.scene_operations import BodyForce
+from codegen.ir.summation import ShortChains
 from codegen.ir.tangent import tangents
 from codegen.ir.values import Kind, Var
 from codegen.kernel import critical_path
@@ -92,6 +93,13 @@ def to_kernel(
     return _Translation(program, scene, solvers, variations, chains, whole, outlining).kernel()
 
 
+class _StepDomain(SharedArguments, ShortChains):
+    """The arithmetic of a step. The run time of a step is often the time of its longest chain of operations,
+    so sums have short chains. Loops over many sites are faster than their chains, so their sums do not need
+    short chains.
+    """
+
+
 class _Translation:
     """The symbolic execution of a program.
 
@@ -113,7 +121,7 @@ class _Translation:
         self.program, self.scene, self.solvers = program, scene, solvers
         self.variations, self.chains, self.outlining = variations, chains, outlining
         # This domain stores equal expressions only once.
-        self.domain = SharedArguments()
+        self.domain = _StepDomain()
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
         self.blocks: list[Block] = []
