@@ -13,7 +13,7 @@
  *             1.7 sweeps and 0.2 matrices a step, measured over the first 20 steps of size h =
  *             0.005
  * state:      [0..8] q: element of SO(3), row by row
- *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
+ *             [9..11] mu: right-trivialised momentum in the dual of the Lie algebra of SO(3)
  * left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms cancel
  *             4 Legendre transforms, 19 adjoint maps, 31 evaluations of dexp*, 1 exponential, 4
  *             sums: equal values are computed once
@@ -26,14 +26,15 @@
  *             arguments for constant parameters: beta = 1, depth = 3/2
  *             the time is not needed: no formula depends on the time
  * operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
- *             2 mul for an initial guess, in the first step of a run
+ *             2 mul once in each run, for the initial guess of the first step
  *             102 add, 184 mul for each matrix of the equations of xi1, xi2, xi3, xi4, n1, n2, n3,
  *             n4
  *             442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 for each sweep of the
  *             equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
  *             12 add, 18 mul at the start of a run, 12 add, 9 mul at the end of a run
- * stack:      at most 13440 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
- *             margin of 2536 bytes; the stack of mathematical library functions is not included
+ * stack:      at most 13440 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; 2536 of these
+ *             bytes are a safety margin; the stack of mathematical library functions is not
+ *             included
  * command:    orderconds emit dipole --method vcf:cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -668,8 +669,8 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         const double w39 = g22 * xE2_1_0 - g20 * xE2_1_2;
         const double w40 = g20 * xE2_1_1 - g21 * xE2_1_0;
         const double w41 = g21 * xE2_1_2 - g22 * xE2_1_1;
-        const double Q2_7 = w39 * c1_1 + (xE2_1_0 * w40 - xE2_1_2 * w41) * c2_1 + g21;
-        const double Q2_8 = w40 * c1_1 + (xE2_1_1 * w41 - xE2_1_0 * w39) * c2_1 + g22;
+        const double Q2_7 = g21 + w39 * c1_1 + (xE2_1_0 * w40 - xE2_1_2 * w41) * c2_1;
+        const double Q2_8 = g22 + w40 * c1_1 + (xE2_1_1 * w41 - xE2_1_0 * w39) * c2_1;
         const double w42 = 3.26 - 3.0 * Q2_8;
         const double w43 = 0.3 * Q2_7;
         const double w44 = w42 - w43;
@@ -684,7 +685,7 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         const double gE2_1_3 = w6 + w8;
         const double gE2_1_6 = w29 - w28;
         const double a_0 = xi2_0 * gE2_1_0 + xi2_1 * gE2_1_3 + xi2_2 * gE2_1_6;
-        const double Q2_6 = w41 * c1_1 + (xE2_1_2 * w39 - xE2_1_1 * w40) * c2_1 + g20;
+        const double Q2_6 = g20 + w41 * c1_1 + (xE2_1_2 * w39 - xE2_1_1 * w40) * c2_1;
         const double E4_2_0 = gE4_2_0 * gE2_1_0 + gE4_2_1 * gE2_1_3 + gE4_2_2 * gE2_1_6;
         const double E4_2_3 = gE4_2_3 * gE2_1_0 + gE4_2_4 * gE2_1_3 + gE4_2_5 * gE2_1_6;
         const double E4_2_6 = gE4_2_6 * gE2_1_0 + gE4_2_7 * gE2_1_3 + gE4_2_8 * gE2_1_6;
@@ -736,8 +737,8 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         const double w92 = g22 * xE3_1_0 - g20 * xE3_1_2;
         const double w93 = g20 * xE3_1_1 - g21 * xE3_1_0;
         const double w94 = g21 * xE3_1_2 - g22 * xE3_1_1;
-        const double Q3_7 = w92 * c1_3 + (xE3_1_0 * w93 - xE3_1_2 * w94) * c2_3 + g21;
-        const double Q3_8 = w93 * c1_3 + (xE3_1_1 * w94 - xE3_1_0 * w92) * c2_3 + g22;
+        const double Q3_7 = g21 + w92 * c1_3 + (xE3_1_0 * w93 - xE3_1_2 * w94) * c2_3;
+        const double Q3_8 = g22 + w93 * c1_3 + (xE3_1_1 * w94 - xE3_1_0 * w92) * c2_3;
         const double w95 = 3.26 - 3.0 * Q3_8;
         const double w96 = 0.3 * Q3_7;
         const double w97 = w95 - w96;
@@ -765,7 +766,7 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         const double gE3_1_3 = w81 + w83;
         const double gE3_1_6 = w90 - w89;
         const double a_3_0 = xi3_0 * gE3_1_0 + xi3_1 * gE3_1_3 + xi3_2 * gE3_1_6;
-        const double Q3_6 = w94 * c1_3 + (xE3_1_2 * w92 - xE3_1_1 * w93) * c2_3 + g20;
+        const double Q3_6 = g20 + w94 * c1_3 + (xE3_1_2 * w92 - xE3_1_1 * w93) * c2_3;
         const double w116 = a_3_2 * a_3_0 + w101 * Q3_6;
         const double s_p1_1 = mu1 + w59 * (sum_Nr4_1 - w115) - w103 * w116;
         const double Nr1_2 = 0.01 * (xi1_0 * xi1_1) - w117;
@@ -1322,7 +1323,7 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         + d_xi4_2 * w274;
     const double new_mu2 = w277 + d_xi3_0 * w278 + d_xi3_1 * w279 + d_xi4_0 * w280
         + d_xi4_1 * w281;
-    /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
+    /* The sum of finite values x may overflow. x - x is 0 if x is finite, and NaN otherwise. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -1447,7 +1448,8 @@ static inline void dipole_vcf_cf4_to_space(const double state[static 12],
 
 /*
  * Copy the state to 'moving', and convert the momentum in 'moving' to the body frame. Then convert
- * this momentum back to the space frame, and write the result into 'before'.
+ * this momentum back to the space frame, and write the result into 'before'. At the end of the run,
+ * 'before' is needed to compute the increase of the momentum.
  */
 static void dipole_vcf_cf4_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])

@@ -13,7 +13,8 @@ solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method
             unknowns; 1.7 sweeps and 0.2 matrices a step, measured over the first 20
             steps of size h = 0.005
 state:      [0..8] q: element of SO(3), row by row
-            [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
+            [9..11] mu: right-trivialised momentum in the dual of the Lie algebra of
+            SO(3)
 left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms
             cancel
             4 Legendre transforms, 19 adjoint maps, 31 evaluations of dexp*, 1
@@ -27,7 +28,7 @@ left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms
             arguments for constant parameters: beta = 1, depth = 3/2
             the time is not needed: no formula depends on the time
 operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
-            2 mul for an initial guess, in the first step of a run
+            2 mul once in each run, for the initial guess of the first step
             102 add, 184 mul for each matrix of the equations of xi1, xi2, xi3, xi4,
             n1, n2, n3, n4
             442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 for each
@@ -639,8 +640,8 @@ def _advance(state, h, memory, statistics):
             w39 = g22 * xE2_1_0 - g20 * xE2_1_2
             w40 = g20 * xE2_1_1 - g21 * xE2_1_0
             w41 = g21 * xE2_1_2 - g22 * xE2_1_1
-            Q2_7 = w39 * c1_1 + (xE2_1_0 * w40 - xE2_1_2 * w41) * c2_1 + g21
-            Q2_8 = w40 * c1_1 + (xE2_1_1 * w41 - xE2_1_0 * w39) * c2_1 + g22
+            Q2_7 = g21 + w39 * c1_1 + (xE2_1_0 * w40 - xE2_1_2 * w41) * c2_1
+            Q2_8 = g22 + w40 * c1_1 + (xE2_1_1 * w41 - xE2_1_0 * w39) * c2_1
             w42 = 3.26 - 3.0 * Q2_8
             w43 = 0.3 * Q2_7
             w44 = w42 - w43
@@ -655,7 +656,7 @@ def _advance(state, h, memory, statistics):
             gE2_1_3 = w6 + w8
             gE2_1_6 = w29 - w28
             a_0 = xi2_0 * gE2_1_0 + xi2_1 * gE2_1_3 + xi2_2 * gE2_1_6
-            Q2_6 = w41 * c1_1 + (xE2_1_2 * w39 - xE2_1_1 * w40) * c2_1 + g20
+            Q2_6 = g20 + w41 * c1_1 + (xE2_1_2 * w39 - xE2_1_1 * w40) * c2_1
             E4_2_0 = gE4_2_0 * gE2_1_0 + gE4_2_1 * gE2_1_3 + gE4_2_2 * gE2_1_6
             E4_2_3 = gE4_2_3 * gE2_1_0 + gE4_2_4 * gE2_1_3 + gE4_2_5 * gE2_1_6
             E4_2_6 = gE4_2_6 * gE2_1_0 + gE4_2_7 * gE2_1_3 + gE4_2_8 * gE2_1_6
@@ -706,8 +707,8 @@ def _advance(state, h, memory, statistics):
             w92 = g22 * xE3_1_0 - g20 * xE3_1_2
             w93 = g20 * xE3_1_1 - g21 * xE3_1_0
             w94 = g21 * xE3_1_2 - g22 * xE3_1_1
-            Q3_7 = w92 * c1_3 + (xE3_1_0 * w93 - xE3_1_2 * w94) * c2_3 + g21
-            Q3_8 = w93 * c1_3 + (xE3_1_1 * w94 - xE3_1_0 * w92) * c2_3 + g22
+            Q3_7 = g21 + w92 * c1_3 + (xE3_1_0 * w93 - xE3_1_2 * w94) * c2_3
+            Q3_8 = g22 + w93 * c1_3 + (xE3_1_1 * w94 - xE3_1_0 * w92) * c2_3
             w95 = 3.26 - 3.0 * Q3_8
             w96 = 0.3 * Q3_7
             w97 = w95 - w96
@@ -734,7 +735,7 @@ def _advance(state, h, memory, statistics):
             gE3_1_3 = w81 + w83
             gE3_1_6 = w90 - w89
             a_3_0 = xi3_0 * gE3_1_0 + xi3_1 * gE3_1_3 + xi3_2 * gE3_1_6
-            Q3_6 = w94 * c1_3 + (xE3_1_2 * w92 - xE3_1_1 * w93) * c2_3 + g20
+            Q3_6 = g20 + w94 * c1_3 + (xE3_1_2 * w92 - xE3_1_1 * w93) * c2_3
             w116 = a_3_2 * a_3_0 + w101 * Q3_6
             s_p1_1 = mu1 + w59 * (sum_Nr4_1 - w115) - w103 * w116
             Nr1_2 = 0.01 * (xi1_0 * xi1_1) - w117
@@ -1354,7 +1355,8 @@ def _to_space(state, momentum):
 def _enter_body(state, moving, before):
     """Copy the state to 'moving', and convert the momentum in 'moving' to the body
     frame. Then convert this momentum back to the space frame, and write the
-    result into 'before'.
+    result into 'before'. At the end of the run, 'before' is needed to compute the
+    increase of the momentum.
     """
     _to_body(state, before)
     moving[0:9] = state[0:9]

@@ -10,7 +10,8 @@ scene:      Dipole on a stick, T*SO(3), group SO(3)
 solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 1.55 sweeps and 1
             matrix a step, measured over the first 20 steps of size h = 0.005
 state:      [0..8] q: element of SO(3), row by row
-            [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
+            [9..11] mu: right-trivialised momentum in the dual of the Lie algebra of
+            SO(3)
 left out:   3 adjoint maps, 2 products: coefficients are zero, or terms cancel
             1 Legendre transform, 1 sum: equal values are computed once
             3 adjoint maps, 1 evaluation of the derivatives of H: no result depends
@@ -23,7 +24,7 @@ left out:   3 adjoint maps, 2 products: coefficients are zero, or terms cancel
             arguments for constant parameters: beta = 1, depth = 3/2
             the time is not needed: no formula depends on the time
 operations: 38 add, 58 mul, 1 stumpff_12 a step
-            2 mul for an initial guess, in the first step of a run
+            2 mul once in each run, for the initial guess of the first step
             11 add, 34 mul, 1 div for each matrix of the equations of xi1, n1
             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 for each sweep of the
             equations of xi1, n1
@@ -425,8 +426,8 @@ def _advance(state, h, memory, statistics):
             w4 = g22 * xE1_1_0 - g20 * xE1_1_2
             w6 = g20 * xE1_1_1 - g21 * xE1_1_0
             w7 = g21 * xE1_1_2 - g22 * xE1_1_1
-            Q1_7 = w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1 + g21
-            Q1_8 = w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1 + g22
+            Q1_7 = g21 + w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1
+            Q1_8 = g22 + w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1
             w8 = 3.26 - 3.0 * Q1_8
             w9 = 0.3 * Q1_7
             w10 = w8 - w9
@@ -438,7 +439,7 @@ def _advance(state, h, memory, statistics):
             Nr1_0 = Q1_7 * w14 + Q1_8 * w15 + 0.99 * (xi1_1 * xi1_2)
             w16 = w1 * Nr1_0
             w17 = mu0 + w16
-            Q1_6 = w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1 + g20
+            Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1
             w18 = xi1_0 * xi1_2 + w14 * Q1_6
             w19 = w1 * w18
             Nr1_2 = 0.01 * (xi1_0 * xi1_1) - w15 * Q1_6
@@ -648,7 +649,8 @@ def _to_space(state, momentum):
 def _enter_body(state, moving, before):
     """Copy the state to 'moving', and convert the momentum in 'moving' to the body
     frame. Then convert this momentum back to the space frame, and write the
-    result into 'before'.
+    result into 'before'. At the end of the run, 'before' is needed to compute the
+    increase of the momentum.
     """
     _to_body(state, before)
     moving[0:9] = state[0:9]

@@ -13,7 +13,7 @@
  * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 4.85 sweeps and 3 matrices a
  *             step, measured over the first 20 steps of size h = 0.005
  * state:      [0..8] q: element of SO(3), row by row
- *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
+ *             [9..11] mu: right-trivialised momentum in the dual of the Lie algebra of SO(3)
  * left out:   17 adjoint maps, 15 evaluations of dexp*, 2 evaluations of the derivatives of H, 10
  *             exponentials, 12 products, 16 sums: the step is a sequence of substeps
  *             3 adjoint maps, 2 products: coefficients are zero, or terms cancel
@@ -27,13 +27,14 @@
  *             arguments for constant parameters: beta = 1, depth = 3/2
  *             the time is not needed: no formula depends on the time
  * operations: 114 add, 174 mul, 3 stumpff_12 a step
- *             6 mul for an initial guess, in the first step of a run
+ *             6 mul once in each run, for the initial guess of the first step
  *             11 add, 34 mul, 1 div for each matrix of the equations of xi1, n1
  *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 for each sweep of the equations of xi1,
  *             n1
  *             12 add, 18 mul at the start of a run, 12 add, 9 mul at the end of a run
- * stack:      at most 7168 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
- *             margin of 1264 bytes; the stack of mathematical library functions is not included
+ * stack:      at most 7168 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; 1264 of these
+ *             bytes are a safety margin; the stack of mathematical library functions is not
+ *             included
  * command:    orderconds emit dipole --method vcg:triple_jump --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -428,8 +429,8 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
         const double w4 = g22 * xE1_1_0 - g20 * xE1_1_2;
         const double w6 = g20 * xE1_1_1 - g21 * xE1_1_0;
         const double w7 = g21 * xE1_1_2 - g22 * xE1_1_1;
-        const double Q1_7 = w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1 + g21;
-        const double Q1_8 = w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1 + g22;
+        const double Q1_7 = g21 + w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1;
+        const double Q1_8 = g22 + w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1;
         const double w8 = 3.26 - 3.0 * Q1_8;
         const double w9 = 0.3 * Q1_7;
         const double w10 = w8 - w9;
@@ -441,7 +442,7 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
         const double Nr1_0 = Q1_7 * w14 + Q1_8 * w15 + 0.99 * (xi1_1 * xi1_2);
         const double w16 = w1 * Nr1_0;
         const double w17 = mu0 + w16;
-        const double Q1_6 = w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1 + g20;
+        const double Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1;
         const double w18 = xi1_0 * xi1_2 + w14 * Q1_6;
         const double w19 = w1 * w18;
         const double Nr1_2 = 0.01 * (xi1_0 * xi1_1) - w15 * Q1_6;
@@ -565,7 +566,7 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
     const double new_mu0 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2;
     const double new_mu1 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0;
     const double new_mu2 = s_mu_2_seen + xi1_1 * w55 * d_xi1_0 + xi1_0 * w55 * d_xi1_1;
-    /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
+    /* The sum of finite values x may overflow. x - x is 0 if x is finite, and NaN otherwise. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -716,7 +717,8 @@ static inline void dipole_vcg_triple_jump_to_space(const double state[static 12]
 
 /*
  * Copy the state to 'moving', and convert the momentum in 'moving' to the body frame. Then convert
- * this momentum back to the space frame, and write the result into 'before'.
+ * this momentum back to the space frame, and write the result into 'before'. At the end of the run,
+ * 'before' is needed to compute the increase of the momentum.
  */
 static void dipole_vcg_triple_jump_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])

@@ -12,7 +12,7 @@
  * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns; 1.7 sweeps and 0.35
  *             matrices a step, measured over the first 20 steps of size h = 0.005
  * state:      [0..8] q: element of SO(3), row by row
- *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
+ *             [9..11] mu: right-trivialised momentum in the dual of the Lie algebra of SO(3)
  * left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4 sums: equal
  *             values are computed once
  *             1 adjoint map, 1 evaluation of dexp*, 1 evaluation of the derivatives of H, 3 sums:
@@ -26,13 +26,14 @@
  *             arguments for constant parameters: beta = 1, depth = 3/2
  *             the time is not needed: no formula depends on the time
  * operations: 47 add, 80 mul, 1 stumpff_12 a step
- *             2 mul for an initial guess, in the first step of a run
+ *             2 mul once in each run, for the initial guess of the first step
  *             48 add, 72 mul for each matrix of the equations of v1, v2, m1, m2
  *             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 for each sweep of the
  *             equations of v1, v2, m1, m2
  *             12 add, 18 mul at the start of a run, 12 add, 9 mul at the end of a run
- * stack:      at most 7360 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
- *             margin of 1280 bytes; the stack of mathematical library functions is not included
+ * stack:      at most 7360 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; 1280 of these
+ *             bytes are a safety margin; the stack of mathematical library functions is not
+ *             included
  * command:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -552,8 +553,8 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
         const double w18 = g22 * X2_0 - g20 * X2_2;
         const double w19 = g20 * X2_1 - g21 * X2_0;
         const double w20 = g21 * X2_2 - g22 * X2_1;
-        const double Q2_7 = w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1 + g21;
-        const double Q2_8 = w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1 + g22;
+        const double Q2_7 = g21 + w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1;
+        const double Q2_8 = g22 + w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1;
         const double w21 = 3.26 - 3.0 * Q2_8;
         const double w22 = 0.3 * Q2_7;
         const double w23 = w21 - w22;
@@ -585,8 +586,8 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
         const double w44 = g22 * X1_0 - g20 * X1_2;
         const double w45 = g20 * X1_1 - g21 * X1_0;
         const double w46 = g21 * X1_2 - g22 * X1_1;
-        const double Q1_7 = w44 * c1_2 + (X1_0 * w45 - X1_2 * w46) * c2_2 + g21;
-        const double Q1_8 = w45 * c1_2 + (X1_1 * w46 - X1_0 * w44) * c2_2 + g22;
+        const double Q1_7 = g21 + w44 * c1_2 + (X1_0 * w45 - X1_2 * w46) * c2_2;
+        const double Q1_8 = g22 + w45 * c1_2 + (X1_1 * w46 - X1_0 * w44) * c2_2;
         const double w47 = 3.26 - 3.0 * Q1_8;
         const double w48 = 0.3 * Q1_7;
         const double w49 = w47 - w48;
@@ -605,11 +606,11 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
         dipole_vrkmk2_gauss2_stumpff_23(w55, &c2_3, &c3_3);
         const double w57 = X2_1 * w14 - X2_2 * w4;
         const double a_6_0 = v2_0 + w12 * w13 + w16 * w57;
-        const double Q2_6 = w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1 + g20;
+        const double Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1;
         const double w58 = a_6_2 * a_6_0 + w27 * Q2_6;
         const double w59 = X1_1 * w40 - X1_2 * w30;
         const double a_2_0 = v1_0 + w38 * w39 + w42 * w59;
-        const double Q1_6 = w46 * c1_2 + (X1_2 * w44 - X1_1 * w45) * c2_2 + g20;
+        const double Q1_6 = g20 + w46 * c1_2 + (X1_2 * w44 - X1_1 * w45) * c2_2;
         const double w60 = a_2_2 * a_2_0 + w53 * Q1_6;
         const double s_L_1 = mu1 - w1 * (w58 + w60);
         const double Nn2_2 = 0.01 * (a_6_1 * a_6_0) - w28 * Q2_6;
@@ -861,7 +862,7 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
     const double new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6;
     const double new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7;
     const double new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8;
-    /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
+    /* The sum of finite values x may overflow. x - x is 0 if x is finite, and NaN otherwise. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + w128) + (w130 + w132)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -986,7 +987,8 @@ static inline void dipole_vrkmk2_gauss2_to_space(const double state[static 12],
 
 /*
  * Copy the state to 'moving', and convert the momentum in 'moving' to the body frame. Then convert
- * this momentum back to the space frame, and write the result into 'before'.
+ * this momentum back to the space frame, and write the result into 'before'. At the end of the run,
+ * 'before' is needed to compute the increase of the momentum.
  */
 static void dipole_vrkmk2_gauss2_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])

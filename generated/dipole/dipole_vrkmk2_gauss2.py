@@ -12,7 +12,8 @@ solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns; 1.7 sw
             and 0.35 matrices a step, measured over the first 20 steps of size h =
             0.005
 state:      [0..8] q: element of SO(3), row by row
-            [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
+            [9..11] mu: right-trivialised momentum in the dual of the Lie algebra of
+            SO(3)
 left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4
             sums: equal values are computed once
             1 adjoint map, 1 evaluation of dexp*, 1 evaluation of the derivatives of
@@ -26,7 +27,7 @@ left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4
             arguments for constant parameters: beta = 1, depth = 3/2
             the time is not needed: no formula depends on the time
 operations: 47 add, 80 mul, 1 stumpff_12 a step
-            2 mul for an initial guess, in the first step of a run
+            2 mul once in each run, for the initial guess of the first step
             48 add, 72 mul for each matrix of the equations of v1, v2, m1, m2
             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 for each
             sweep of the equations of v1, v2, m1, m2
@@ -523,8 +524,8 @@ def _advance(state, h, memory, statistics):
             w18 = g22 * X2_0 - g20 * X2_2
             w19 = g20 * X2_1 - g21 * X2_0
             w20 = g21 * X2_2 - g22 * X2_1
-            Q2_7 = w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1 + g21
-            Q2_8 = w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1 + g22
+            Q2_7 = g21 + w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1
+            Q2_8 = g22 + w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1
             w21 = 3.26 - 3.0 * Q2_8
             w22 = 0.3 * Q2_7
             w23 = w21 - w22
@@ -555,8 +556,8 @@ def _advance(state, h, memory, statistics):
             w44 = g22 * X1_0 - g20 * X1_2
             w45 = g20 * X1_1 - g21 * X1_0
             w46 = g21 * X1_2 - g22 * X1_1
-            Q1_7 = w44 * c1_2 + (X1_0 * w45 - X1_2 * w46) * c2_2 + g21
-            Q1_8 = w45 * c1_2 + (X1_1 * w46 - X1_0 * w44) * c2_2 + g22
+            Q1_7 = g21 + w44 * c1_2 + (X1_0 * w45 - X1_2 * w46) * c2_2
+            Q1_8 = g22 + w45 * c1_2 + (X1_1 * w46 - X1_0 * w44) * c2_2
             w47 = 3.26 - 3.0 * Q1_8
             w48 = 0.3 * Q1_7
             w49 = w47 - w48
@@ -574,11 +575,11 @@ def _advance(state, h, memory, statistics):
             c2_3, c3_3 = _stumpff_23(w55)
             w57 = X2_1 * w14 - X2_2 * w4
             a_6_0 = v2_0 + w12 * w13 + w16 * w57
-            Q2_6 = w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1 + g20
+            Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1
             w58 = a_6_2 * a_6_0 + w27 * Q2_6
             w59 = X1_1 * w40 - X1_2 * w30
             a_2_0 = v1_0 + w38 * w39 + w42 * w59
-            Q1_6 = w46 * c1_2 + (X1_2 * w44 - X1_1 * w45) * c2_2 + g20
+            Q1_6 = g20 + w46 * c1_2 + (X1_2 * w44 - X1_1 * w45) * c2_2
             w60 = a_2_2 * a_2_0 + w53 * Q1_6
             s_L_1 = mu1 - w1 * (w58 + w60)
             Nn2_2 = 0.01 * (a_6_1 * a_6_0) - w28 * Q2_6
@@ -935,7 +936,8 @@ def _to_space(state, momentum):
 def _enter_body(state, moving, before):
     """Copy the state to 'moving', and convert the momentum in 'moving' to the body
     frame. Then convert this momentum back to the space frame, and write the
-    result into 'before'.
+    result into 'before'. At the end of the run, 'before' is needed to compute the
+    increase of the momentum.
     """
     _to_body(state, before)
     moving[0:9] = state[0:9]

@@ -13,7 +13,8 @@ scene:      Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010),
 flows:      T.mean, rotation about the momentum; T.turn, turn about the axis (0, 1,
             0) fixed in the body; V, kick
 state:      [0..8] q: element of SO(3), row by row
-            [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
+            [9..11] mu: right-trivialised momentum in the dual of the Lie algebra of
+            SO(3)
 left out:   5 flows: two flows of one term of H are joined if they commute with all
             flows between them
             the time is not needed: no formula depends on the time
@@ -181,108 +182,108 @@ def _advance(state, h, lead_h):
         c1_1, c2_1 = _stumpff_12(w6)
         w12 = w4 * w10 - w2 * w11
         w19 = w3 * w11 - w4 * w8
-        q1_4 = w8 * c1_1 + w12 * c2_1 + g11
+        q1_4 = g11 + w8 * c1_1 + w12 * c2_1
         w16 = w13 * (mu0 - g11 * w14) - w8 * w15 * c1_1 - w12 * w15 * c2_1
         w20 = w13 * (mu1 - g01 * w17) - w10 * w18 * c1_1 - w18 * w19 * c2_1
         w23 = w16 * w16 + w20 * w20 + w22
-        q1_1 = w10 * c1_1 + w19 * c2_1 + g01
-        q1_7 = w11 * c1_1 + (w2 * w8 - w3 * w10) * c2_1 + g21
+        q1_1 = g01 + w10 * c1_1 + w19 * c2_1
+        q1_7 = g21 + w11 * c1_1 + (w2 * w8 - w3 * w10) * c2_1
         w25 = w21 * q1_1 - w16 * q1_7
         w27 = w20 * q1_7 - q1_4 * w21
         w28 = q1_4 * w16 - w20 * q1_1
         w32 = mu0 - q1_4 * w14
         w36 = mu1 - w17 * q1_1
-        q1_8 = w105 * c1_1 + (w2 * w106 - w3 * w107) * c2_1 + g22
-        q1_5 = w106 * c1_1 + (w4 * w107 - w2 * w105) * c2_1 + g12
-        q1_2 = w107 * c1_1 + (w3 * w105 - w4 * w106) * c2_1 + g02
+        q1_8 = g22 + w105 * c1_1 + (w2 * w106 - w3 * w107) * c2_1
+        q1_5 = g12 + w106 * c1_1 + (w4 * w107 - w2 * w105) * c2_1
+        q1_2 = g02 + w107 * c1_1 + (w3 * w105 - w4 * w106) * c2_1
         w108 = w16 * q1_5 - w20 * q1_2
         w109 = w21 * q1_2 - w16 * q1_8
         w110 = w20 * q1_8 - w21 * q1_5
         c1_2, c2_2 = _stumpff_12(w23)
         w29 = w21 * w27 - w16 * w28
         w39 = w20 * w28 - w21 * w25
-        w30 = w25 * c1_2 + w29 * c2_2 + q1_4
+        w30 = q1_4 + w25 * c1_2 + w29 * c2_2
         w35 = w31 * (w32 - q1_4 * w33) - w25 * w34 * c1_2 - w29 * w34 * c2_2
         w40 = w31 * (w36 - q1_1 * w37) - w27 * w38 * c1_2 - w38 * w39 * c2_2
         w43 = w35 * w35 + w40 * w40 + w42
-        w45 = w27 * c1_2 + w39 * c2_2 + q1_1
-        w46 = w28 * c1_2 + (w16 * w25 - w20 * w27) * c2_2 + q1_7
+        w45 = q1_1 + w27 * c1_2 + w39 * c2_2
+        w46 = q1_7 + w28 * c1_2 + (w16 * w25 - w20 * w27) * c2_2
         w47 = w41 * w45 - w35 * w46
         w49 = w40 * w46 - w30 * w41
         w50 = w30 * w35 - w40 * w45
         w53 = w32 - w30 * w33
         w57 = w36 - w37 * w45
-        w111 = w108 * c1_2 + (w16 * w109 - w20 * w110) * c2_2 + q1_8
-        w112 = w109 * c1_2 + (w21 * w110 - w16 * w108) * c2_2 + q1_5
-        w113 = w110 * c1_2 + (w20 * w108 - w21 * w109) * c2_2 + q1_2
+        w111 = q1_8 + w108 * c1_2 + (w16 * w109 - w20 * w110) * c2_2
+        w112 = q1_5 + w109 * c1_2 + (w21 * w110 - w16 * w108) * c2_2
+        w113 = q1_2 + w110 * c1_2 + (w20 * w108 - w21 * w109) * c2_2
         w114 = w35 * w112 - w40 * w113
         w115 = w41 * w113 - w35 * w111
         w116 = w40 * w111 - w41 * w112
         c1_3, c2_3 = _stumpff_12(w43)
         w51 = w41 * w49 - w35 * w50
         w60 = w40 * w50 - w41 * w47
-        w52 = w47 * c1_3 + w51 * c2_3 + w30
+        w52 = w30 + w47 * c1_3 + w51 * c2_3
         w56 = w31 * (w53 - w30 * w54) - w47 * w55 * c1_3 - w51 * w55 * c2_3
         w61 = w31 * (w57 - w45 * w58) - w49 * w59 * c1_3 - w59 * w60 * c2_3
         w62 = w56 * w56 + w61 * w61 + w42
-        w64 = w49 * c1_3 + w60 * c2_3 + w45
-        w65 = w50 * c1_3 + (w35 * w47 - w40 * w49) * c2_3 + w46
+        w64 = w45 + w49 * c1_3 + w60 * c2_3
+        w65 = w46 + w50 * c1_3 + (w35 * w47 - w40 * w49) * c2_3
         w66 = w41 * w64 - w56 * w65
         w68 = w61 * w65 - w41 * w52
         w69 = w52 * w56 - w61 * w64
         w72 = w53 - w52 * w54
         w75 = w57 - w58 * w64
-        w117 = w114 * c1_3 + (w35 * w115 - w40 * w116) * c2_3 + w111
-        w118 = w115 * c1_3 + (w41 * w116 - w35 * w114) * c2_3 + w112
-        w119 = w116 * c1_3 + (w40 * w114 - w41 * w115) * c2_3 + w113
+        w117 = w111 + w114 * c1_3 + (w35 * w115 - w40 * w116) * c2_3
+        w118 = w112 + w115 * c1_3 + (w41 * w116 - w35 * w114) * c2_3
+        w119 = w113 + w116 * c1_3 + (w40 * w114 - w41 * w115) * c2_3
         w120 = w56 * w118 - w61 * w119
         w121 = w41 * w119 - w56 * w117
         w122 = w61 * w117 - w41 * w118
         c1_4, c2_4 = _stumpff_12(w62)
         w70 = w41 * w68 - w56 * w69
         w77 = w61 * w69 - w41 * w66
-        w71 = w66 * c1_4 + w70 * c2_4 + w52
+        w71 = w52 + w66 * c1_4 + w70 * c2_4
         w74 = w13 * (w72 - w33 * w52) - w66 * w73 * c1_4 - w70 * w73 * c2_4
         w78 = w13 * (w75 - w37 * w64) - w68 * w76 * c1_4 - w76 * w77 * c2_4
         w79 = w74 * w74 + w78 * w78 + w22
-        w81 = w68 * c1_4 + w77 * c2_4 + w64
-        w82 = w69 * c1_4 + (w56 * w66 - w61 * w68) * c2_4 + w65
+        w81 = w64 + w68 * c1_4 + w77 * c2_4
+        w82 = w65 + w69 * c1_4 + (w56 * w66 - w61 * w68) * c2_4
         w83 = w21 * w81 - w74 * w82
         w85 = w78 * w82 - w21 * w71
         w86 = w71 * w74 - w78 * w81
         w89 = w72 - w33 * w71
         w92 = w75 - w37 * w81
-        w123 = w120 * c1_4 + (w56 * w121 - w61 * w122) * c2_4 + w117
-        w124 = w121 * c1_4 + (w41 * w122 - w56 * w120) * c2_4 + w118
-        w125 = w122 * c1_4 + (w61 * w120 - w41 * w121) * c2_4 + w119
+        w123 = w117 + w120 * c1_4 + (w56 * w121 - w61 * w122) * c2_4
+        w124 = w118 + w121 * c1_4 + (w41 * w122 - w56 * w120) * c2_4
+        w125 = w119 + w122 * c1_4 + (w61 * w120 - w41 * w121) * c2_4
         w126 = w74 * w124 - w78 * w125
         w127 = w21 * w125 - w74 * w123
         w128 = w78 * w123 - w21 * w124
         c1_5, c2_5 = _stumpff_12(w79)
         w87 = w21 * w85 - w74 * w86
         w94 = w78 * w86 - w21 * w83
-        w88 = w83 * c1_5 + w87 * c2_5 + w71
+        w88 = w71 + w83 * c1_5 + w87 * c2_5
         w91 = w1 * (w89 - w14 * w71) - w83 * w90 * c1_5 - w87 * w90 * c2_5
         w95 = w1 * (w92 - w17 * w81) - w85 * w93 * c1_5 - w93 * w94 * c2_5
         w96 = w91 * w91 + w95 * w95 + w5
-        w98 = w85 * c1_5 + w94 * c2_5 + w81
-        w99 = w86 * c1_5 + (w74 * w83 - w78 * w85) * c2_5 + w82
+        w98 = w81 + w85 * c1_5 + w94 * c2_5
+        w99 = w82 + w86 * c1_5 + (w74 * w83 - w78 * w85) * c2_5
         w100 = w4 * w98 - w91 * w99
         w102 = w95 * w99 - w4 * w88
         w103 = w88 * w91 - w95 * w98
-        w129 = w126 * c1_5 + (w74 * w127 - w78 * w128) * c2_5 + w123
-        w130 = w127 * c1_5 + (w21 * w128 - w74 * w126) * c2_5 + w124
-        w131 = w128 * c1_5 + (w78 * w126 - w21 * w127) * c2_5 + w125
+        w129 = w123 + w126 * c1_5 + (w74 * w127 - w78 * w128) * c2_5
+        w130 = w124 + w127 * c1_5 + (w21 * w128 - w74 * w126) * c2_5
+        w131 = w125 + w128 * c1_5 + (w78 * w126 - w21 * w127) * c2_5
         w132 = w91 * w130 - w95 * w131
         w133 = w4 * w131 - w91 * w129
         w134 = w95 * w129 - w4 * w130
         c1_6, c2_6 = _stumpff_12(w96)
-        w104 = w100 * c1_6 + (w4 * w102 - w91 * w103) * c2_6 + w88
-        w135 = w132 * c1_6 + (w91 * w133 - w95 * w134) * c2_6 + w129
-        w136 = w103 * c1_6 + (w91 * w100 - w95 * w102) * c2_6 + w99
-        w137 = w133 * c1_6 + (w4 * w134 - w91 * w132) * c2_6 + w130
-        w138 = w102 * c1_6 + (w95 * w103 - w4 * w100) * c2_6 + w98
-        w139 = w134 * c1_6 + (w95 * w132 - w4 * w133) * c2_6 + w131
+        w104 = w88 + w100 * c1_6 + (w4 * w102 - w91 * w103) * c2_6
+        w135 = w129 + w132 * c1_6 + (w91 * w133 - w95 * w134) * c2_6
+        w136 = w99 + w103 * c1_6 + (w91 * w100 - w95 * w102) * c2_6
+        w137 = w130 + w133 * c1_6 + (w4 * w134 - w91 * w132) * c2_6
+        w138 = w98 + w102 * c1_6 + (w95 * w103 - w4 * w100) * c2_6
+        w139 = w131 + w134 * c1_6 + (w95 * w132 - w4 * w133) * c2_6
         new_g00 = w104 * w135 - w136 * w137
         new_g10 = w136 * w139 - w135 * w138
         new_g20 = w137 * w138 - w104 * w139
@@ -351,7 +352,7 @@ def _finish(state, elapsed_h):
 
 
 def _complete_step(state, h):
-    """Make one step. No flow is deferred to a later step."""
+    """Make one step, and apply all flows of the step."""
     if not isfinite(h):
         return BAD_STEP
     if not all(map(isfinite, state)):

@@ -15,8 +15,8 @@
  *             arguments for constant parameters: alpha = 0
  *             the time is not needed: no formula depends on the time
  *             a solver for implicit equations: all stages are explicit
- * operations: 88 add, 149 mul, 5 stumpff_12 a step
- * stack:      at most 1152 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
+ * operations: 89 add, 149 mul, 5 stumpff_12 a step
+ * stack:      at most 1216 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
  *             mathematical library functions is not included
  * command:    orderconds emit free_rigid_body --method cf4 --target c -o .
  * version:    orderconds 0.1.0
@@ -168,68 +168,71 @@ static int free_rigid_body_cf4_loop(double state[static 3], double h, size_t ste
         const double w10 = m2 * w5 + m1 * w7;
         const double w12 = m1 * w3 + m0 * w5;
         const double w13 = m0 * w7 - m2 * w3;
-        const double w14 = m0 - (w10 * c1_1 + (w5 * w12 + w7 * w13) * c2_1);
+        const double w14 = m0 - w10 * c1_1 - (w5 * w12 + w7 * w13) * c2_1;
         const double w15 = w2 * w14;
-        const double w16 = w13 * c1_1 - (w7 * w10 + w3 * w12) * c2_1 + m1;
-        const double w17 = w4 * w16;
-        const double w18 = w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1 + m2;
-        const double w19 = w6 * w18;
-        const double w20 = w15 * w15 + w17 * w17 + w19 * w19;
+        const double w16 = (w7 * w10 + w3 * w12) * c2_1;
+        const double w17 = m1 + w13 * c1_1;
+        const double w18 = w16 - w17;
+        const double w19 = w4 * w18;
+        const double w20 = m2 + w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1;
+        const double w21 = w6 * w20;
+        const double w22 = w15 * w15 + w19 * w19 + w21 * w21;
         double c1_2, c2_2;
-        free_rigid_body_cf4_stumpff_12(w20, &c1_2, &c2_2);
-        const double w22 = m2 * w17 + m1 * w19;
-        const double w24 = m1 * w15 + m0 * w17;
-        const double w25 = m0 * w19 - m2 * w15;
-        const double w26 = m0 - (w22 * c1_2 + (w17 * w24 + w19 * w25) * c2_2);
-        const double w27 = 0.16666666666666666 * h;
-        const double w28 = (-0.5 * w14 - 0.5 * w26) * w27;
-        const double w29 = 0.25 * h;
-        const double w30 = -0.5 * h;
-        const double w31 = m0 * w29 + w26 * w30;
-        const double w32 = w25 * c1_2 - (w19 * w22 + w15 * w24) * c2_2 + m1;
-        const double w33 = m1 * w30 + h * w32;
-        const double w34 = w24 * c1_2 + (w15 * w25 - w17 * w22) * c2_2 + m2;
-        const double w35 = 0.75 * h * m2 - 1.5 * h * w34;
-        const double w36 = w31 * w31 + w33 * w33 + w35 * w35;
+        free_rigid_body_cf4_stumpff_12(w22, &c1_2, &c2_2);
+        const double w24 = m2 * w19 - m1 * w21;
+        const double w26 = m1 * w15 - m0 * w19;
+        const double w27 = m0 * w21 - m2 * w15;
+        const double w28 = m0 + w24 * c1_2 + (w19 * w26 - w21 * w27) * c2_2;
+        const double w29 = 0.16666666666666666 * h;
+        const double w30 = (-0.5 * w14 - 0.5 * w28) * w29;
+        const double w31 = 0.25 * h;
+        const double w32 = -0.5 * h;
+        const double w33 = m0 * w31 + w28 * w32;
+        const double w34 = m1 + w27 * c1_2 + (w21 * w24 - w15 * w26) * c2_2;
+        const double w35 = m1 * w32 + h * w34;
+        const double w36 = m2 + w26 * c1_2 + (w15 * w27 - w19 * w24) * c2_2;
+        const double w37 = 0.75 * h * m2 - 1.5 * h * w36;
+        const double w38 = w33 * w33 + w35 * w35 + w37 * w37;
         double c1_3, c2_3;
-        free_rigid_body_cf4_stumpff_12(w36, &c1_3, &c2_3);
-        const double w38 = w18 * w33 + w16 * w35;
-        const double w40 = w16 * w31 + w14 * w33;
-        const double w41 = w14 * w35 - w18 * w31;
-        const double w42 = w14 - (w38 * c1_3 + (w33 * w40 + w35 * w41) * c2_3);
-        const double w43 = 0.041666666666666664 * h;
-        const double w44 = m0 * w1 + w28 + w42 * w43;
-        const double w45 = w27 * (w16 + w32);
-        const double w46 = w41 * c1_3 - (w35 * w38 + w31 * w40) * c2_3 + w16;
-        const double w47 = -0.08333333333333333 * h;
-        const double w48 = m1 * w29 + w45 + w46 * w47;
-        const double w49 = -0.375 * h;
-        const double w50 = w27 * (-1.5 * w18 - 1.5 * w34);
-        const double w51 = w40 * c1_3 + (w31 * w41 - w33 * w38) * c2_3 + w18;
-        const double w52 = 0.125 * h;
-        const double w53 = m2 * w49 + w50 + w51 * w52;
-        const double w54 = w44 * w44 + w48 * w48 + w53 * w53;
+        free_rigid_body_cf4_stumpff_12(w38, &c1_3, &c2_3);
+        const double w40 = w17 - w16;
+        const double w41 = w20 * w35 + w37 * w40;
+        const double w43 = w14 * w35 + w33 * w40;
+        const double w44 = w14 * w37 - w20 * w33;
+        const double w45 = w14 - w41 * c1_3 - (w35 * w43 + w37 * w44) * c2_3;
+        const double w46 = 0.041666666666666664 * h;
+        const double w47 = m0 * w1 + w30 + w45 * w46;
+        const double w48 = w29 * (w18 - w34);
+        const double w49 = (w37 * w41 + w33 * w43) * c2_3 - (w40 + w44 * c1_3);
+        const double w50 = -0.08333333333333333 * h;
+        const double w51 = w48 - m1 * w31 + w49 * w50;
+        const double w52 = -0.375 * h;
+        const double w53 = w29 * (-1.5 * w20 - 1.5 * w36);
+        const double w54 = w20 + w43 * c1_3 + (w33 * w44 - w35 * w41) * c2_3;
+        const double w55 = 0.125 * h;
+        const double w56 = m2 * w52 + w53 + w54 * w55;
+        const double w57 = w47 * w47 + w51 * w51 + w56 * w56;
         double c1_4, c2_4;
-        free_rigid_body_cf4_stumpff_12(w54, &c1_4, &c2_4);
-        const double w56 = m2 * w48 + m1 * w53;
-        const double w58 = m1 * w44 + m0 * w48;
-        const double w59 = m0 * w53 - m2 * w44;
-        const double w60 = m0 - (w56 * c1_4 + (w48 * w58 + w53 * w59) * c2_4);
-        const double w61 = w28 + m0 * w43 + w1 * w42;
-        const double w62 = w45 + m1 * w47 + w29 * w46;
-        const double w63 = w50 + m2 * w52 + w49 * w51;
-        const double w64 = w61 * w61 + w62 * w62 + w63 * w63;
+        free_rigid_body_cf4_stumpff_12(w57, &c1_4, &c2_4);
+        const double w59 = m2 * w51 - m1 * w56;
+        const double w61 = m1 * w47 - m0 * w51;
+        const double w62 = m0 * w56 - m2 * w47;
+        const double w63 = m0 + w59 * c1_4 + (w51 * w61 - w56 * w62) * c2_4;
+        const double w64 = w30 + m0 * w46 + w1 * w45;
+        const double w65 = w48 - m1 * w50 + w31 * w49;
+        const double w66 = w53 + m2 * w55 + w52 * w54;
+        const double w67 = w64 * w64 + w65 * w65 + w66 * w66;
         double c1_5, c2_5;
-        free_rigid_body_cf4_stumpff_12(w64, &c1_5, &c2_5);
-        const double w66 = w58 * c1_4 + (w44 * w59 - w48 * w56) * c2_4 + m2;
-        const double w67 = w59 * c1_4 - (w53 * w56 + w44 * w58) * c2_4 + m1;
-        const double w68 = w62 * w66 + w63 * w67;
-        const double w70 = w60 * w62 + w61 * w67;
-        const double w71 = w60 * w63 - w61 * w66;
-        const double new_m0 = w60 - (w68 * c1_5 + (w62 * w70 + w63 * w71) * c2_5);
-        const double new_m1 = w71 * c1_5 - (w63 * w68 + w61 * w70) * c2_5 + w67;
-        const double new_m2 = w70 * c1_5 + (w61 * w71 - w62 * w68) * c2_5 + w66;
-        /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
+        free_rigid_body_cf4_stumpff_12(w67, &c1_5, &c2_5);
+        const double w69 = m2 + w61 * c1_4 + (w47 * w62 - w51 * w59) * c2_4;
+        const double w70 = m1 + w62 * c1_4 + (w56 * w59 - w47 * w61) * c2_4;
+        const double w71 = w65 * w69 - w66 * w70;
+        const double w73 = w64 * w70 - w63 * w65;
+        const double w74 = w63 * w66 - w64 * w69;
+        const double new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5;
+        const double new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5;
+        const double new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5;
+        /* The sum of finite values x may overflow. x - x is 0 if x is finite, and NaN otherwise. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

@@ -163,7 +163,7 @@ static int free_rigid_body_cg3_loop(double state[static 3], double h, size_t ste
         const double w6 = m2 * w2 + m1 * w3;
         const double w8 = m1 * w1 + m0 * w2;
         const double w9 = m0 * w3 - m2 * w1;
-        const double w10 = m0 - (w6 * c1_1 + (w2 * w8 + w3 * w9) * c2_1);
+        const double w10 = m0 - w6 * c1_1 - (w2 * w8 + w3 * w9) * c2_1;
         const double w11 = -0.375 * h * m0;
         const double w12 = 0.75 * h * m1;
         const double w13 = -1.125 * h * m2;
@@ -173,21 +173,21 @@ static int free_rigid_body_cg3_loop(double state[static 3], double h, size_t ste
         const double w16 = m2 * w12 + m1 * w13;
         const double w18 = m1 * w11 + m0 * w12;
         const double w19 = m0 * w13 - m2 * w11;
-        const double w20 = m0 - (w16 * c1_2 + (w12 * w18 + w13 * w19) * c2_2);
+        const double w20 = m0 - w16 * c1_2 - (w12 * w18 + w13 * w19) * c2_2;
         const double w21 = 0.3333333333333333 * h * w20;
-        const double w22 = w19 * c1_2 - (w13 * w16 + w11 * w18) * c2_2 + m1;
+        const double w22 = (w13 * w16 + w11 * w18) * c2_2 - (m1 + w19 * c1_2);
         const double w23 = -0.6666666666666666 * h * w22;
-        const double w24 = w18 * c1_2 + (w11 * w19 - w12 * w16) * c2_2 + m2;
+        const double w24 = m2 + w18 * c1_2 + (w11 * w19 - w12 * w16) * c2_2;
         const double w25 = h * w24;
         const double w26 = w21 * w21 + w23 * w23 + w25 * w25;
         double c1_3, c2_3;
         free_rigid_body_cg3_stumpff_12(w26, &c1_3, &c2_3);
-        const double w28 = w8 * c1_1 + (w1 * w9 - w2 * w6) * c2_1 + m2;
-        const double w29 = w9 * c1_1 - (w3 * w6 + w1 * w8) * c2_1 + m1;
-        const double w30 = w23 * w28 + w25 * w29;
-        const double w32 = w10 * w23 + w21 * w29;
+        const double w28 = m2 + w8 * c1_1 + (w1 * w9 - w2 * w6) * c2_1;
+        const double w29 = m1 + w9 * c1_1 - (w3 * w6 + w1 * w8) * c2_1;
+        const double w30 = w23 * w28 - w25 * w29;
+        const double w32 = w21 * w29 - w10 * w23;
         const double w33 = w10 * w25 - w21 * w28;
-        const double w34 = w10 - (w30 * c1_3 + (w23 * w32 + w25 * w33) * c2_3);
+        const double w34 = w10 + w30 * c1_3 + (w23 * w32 - w25 * w33) * c2_3;
         const double w35 = -0.27546296296296297 * h * m0;
         const double w36 = 0.5509259259259259 * h * m1;
         const double w37 = -0.8263888888888888 * h * m2;
@@ -197,36 +197,36 @@ static int free_rigid_body_cg3_loop(double state[static 3], double h, size_t ste
         const double w40 = m2 * w36 + m1 * w37;
         const double w42 = m1 * w35 + m0 * w36;
         const double w43 = m0 * w37 - m2 * w35;
-        const double w44 = m0 - (w40 * c1_4 + (w36 * w42 + w37 * w43) * c2_4);
+        const double w44 = m0 - w40 * c1_4 - (w36 * w42 + w37 * w43) * c2_4;
         const double w45 = -0.0787037037037037 * h * w20;
         const double w46 = 0.1574074074074074 * h * w22;
         const double w47 = -0.2361111111111111 * h * w24;
         const double w48 = w45 * w45 + w46 * w46 + w47 * w47;
         double c1_5, c2_5;
         free_rigid_body_cg3_stumpff_12(w48, &c1_5, &c2_5);
-        const double w50 = w42 * c1_4 + (w35 * w43 - w36 * w40) * c2_4 + m2;
-        const double w51 = w43 * c1_4 - (w37 * w40 + w35 * w42) * c2_4 + m1;
-        const double w52 = w46 * w50 + w47 * w51;
-        const double w54 = w44 * w46 + w45 * w51;
+        const double w50 = m2 + w42 * c1_4 + (w35 * w43 - w36 * w40) * c2_4;
+        const double w51 = m1 + w43 * c1_4 - (w37 * w40 + w35 * w42) * c2_4;
+        const double w52 = w46 * w50 - w47 * w51;
+        const double w54 = w45 * w51 - w44 * w46;
         const double w55 = w44 * w47 - w45 * w50;
         const double w56 = -0.7058823529411765 * h
-            * (w44 - (w52 * c1_5 + (w46 * w54 + w47 * w55) * c2_5));
+            * (w44 + w52 * c1_5 + (w46 * w54 - w47 * w55) * c2_5);
         const double w57 = 1.411764705882353 * h
-            * (w55 * c1_5 - (w47 * w52 + w45 * w54) * c2_5 + w51);
+            * (w51 + w55 * c1_5 + (w47 * w52 - w45 * w54) * c2_5);
         const double w58 = -2.1176470588235294 * h
-            * (w54 * c1_5 + (w45 * w55 - w46 * w52) * c2_5 + w50);
+            * (w50 + w54 * c1_5 + (w45 * w55 - w46 * w52) * c2_5);
         const double w59 = w56 * w56 + w57 * w57 + w58 * w58;
         double c1_6, c2_6;
         free_rigid_body_cg3_stumpff_12(w59, &c1_6, &c2_6);
-        const double w61 = w32 * c1_3 + (w21 * w33 - w23 * w30) * c2_3 + w28;
-        const double w62 = w33 * c1_3 - (w25 * w30 + w21 * w32) * c2_3 + w29;
+        const double w61 = w28 + w32 * c1_3 + (w21 * w33 - w23 * w30) * c2_3;
+        const double w62 = w29 + w33 * c1_3 + (w25 * w30 - w21 * w32) * c2_3;
         const double w63 = w57 * w61 + w58 * w62;
         const double w65 = w34 * w57 + w56 * w62;
         const double w66 = w34 * w58 - w56 * w61;
-        const double new_m0 = w34 - (w63 * c1_6 + (w57 * w65 + w58 * w66) * c2_6);
-        const double new_m1 = w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6 + w62;
-        const double new_m2 = w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6 + w61;
-        /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
+        const double new_m0 = w34 - w63 * c1_6 - (w57 * w65 + w58 * w66) * c2_6;
+        const double new_m1 = w62 + w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6;
+        const double new_m2 = w61 + w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6;
+        /* The sum of finite values x may overflow. x - x is 0 if x is finite, and NaN otherwise. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

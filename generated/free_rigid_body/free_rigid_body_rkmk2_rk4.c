@@ -169,17 +169,17 @@ static int free_rigid_body_rkmk2_rk4_loop(double state[static 3], double h, size
         const double w5 = m2 * w2 + m1 * u2_2;
         const double w7 = m1 * u2_0 + m0 * w2;
         const double w8 = m0 * u2_2 - m2 * u2_0;
-        const double k2_0 = -0.5 * (m0 - (w5 * c1_1 + (w2 * w7 + u2_2 * w8) * c2_1));
-        const double Y2_1 = w8 * c1_1 - (u2_2 * w5 + u2_0 * w7) * c2_1 + m1;
-        const double k2_2 = -1.5 * (w7 * c1_1 + (u2_0 * w8 - w2 * w5) * c2_1 + m2);
-        const double w9 = u2_2 * Y2_1 - w2 * k2_2;
-        const double w10 = w2 * k2_0 - u2_0 * Y2_1;
+        const double k2_0 = -0.5 * (m0 - w5 * c1_1 - (w2 * w7 + u2_2 * w8) * c2_1);
+        const double k2_2 = -1.5 * (m2 + w7 * c1_1 + (u2_0 * w8 - w2 * w5) * c2_1);
+        const double k2_1 = (u2_2 * w5 + u2_0 * w7) * c2_1 - (m1 + w8 * c1_1);
+        const double w9 = w2 * k2_2 + u2_2 * k2_1;
+        const double w10 = u2_0 * k2_1 + w2 * k2_0;
         const double w11 = u2_2 * k2_0 - u2_0 * k2_2;
-        const double w2_0 = k2_0 - 0.5 * w9 - 0.08333333333333333 * (w2 * w10 + u2_2 * w11);
+        const double w2_0 = k2_0 + 0.5 * w9 - 0.08333333333333333 * (w2 * w10 + u2_2 * w11);
         const double u3_0 = w1 * w2_0;
-        const double w2_1 = -0.5 * w11 - Y2_1 + 0.08333333333333333 * (u2_2 * w9 - u2_0 * w10);
+        const double w2_1 = k2_1 - 0.5 * w11 - 0.08333333333333333 * (u2_2 * w9 + u2_0 * w10);
         const double u3_1 = w1 * w2_1;
-        const double w2_2 = k2_2 - 0.5 * w10 + 0.08333333333333333 * (u2_0 * w11 + w2 * w9);
+        const double w2_2 = k2_2 - 0.5 * w10 + 0.08333333333333333 * (u2_0 * w11 - w2 * w9);
         const double u3_2 = w1 * w2_2;
         const double w12 = u3_0 * u3_0 + u3_1 * u3_1 + u3_2 * u3_2;
         double c1_2, c2_2;
@@ -187,9 +187,9 @@ static int free_rigid_body_rkmk2_rk4_loop(double state[static 3], double h, size
         const double w14 = m2 * u3_1 - m1 * u3_2;
         const double w16 = m1 * u3_0 - m0 * u3_1;
         const double w17 = m0 * u3_2 - m2 * u3_0;
-        const double k3_0 = -0.5 * (w14 * c1_2 + (u3_1 * w16 - u3_2 * w17) * c2_2 + m0);
-        const double k3_2 = -1.5 * (w16 * c1_2 + (u3_0 * w17 - u3_1 * w14) * c2_2 + m2);
-        const double Y3_1 = w17 * c1_2 + (u3_2 * w14 - u3_0 * w16) * c2_2 + m1;
+        const double k3_0 = -0.5 * (m0 + w14 * c1_2 + (u3_1 * w16 - u3_2 * w17) * c2_2);
+        const double k3_2 = -1.5 * (m2 + w16 * c1_2 + (u3_0 * w17 - u3_1 * w14) * c2_2);
+        const double Y3_1 = m1 + w17 * c1_2 + (u3_2 * w14 - u3_0 * w16) * c2_2;
         const double w18 = u3_1 * k3_2 + u3_2 * Y3_1;
         const double w19 = u3_0 * Y3_1 + u3_1 * k3_0;
         const double w20 = u3_2 * k3_0 - u3_0 * k3_2;
@@ -205,9 +205,9 @@ static int free_rigid_body_rkmk2_rk4_loop(double state[static 3], double h, size
         const double w23 = m2 * u4_1 - m1 * u4_2;
         const double w25 = m1 * u4_0 - m0 * u4_1;
         const double w26 = m0 * u4_2 - m2 * u4_0;
-        const double k4_0 = -0.5 * (w23 * c1_3 + (u4_1 * w25 - u4_2 * w26) * c2_3 + m0);
-        const double k4_2 = -1.5 * (w25 * c1_3 + (u4_0 * w26 - u4_1 * w23) * c2_3 + m2);
-        const double Y4_1 = w26 * c1_3 + (u4_2 * w23 - u4_0 * w25) * c2_3 + m1;
+        const double k4_0 = -0.5 * (m0 + w23 * c1_3 + (u4_1 * w25 - u4_2 * w26) * c2_3);
+        const double k4_2 = -1.5 * (m2 + w25 * c1_3 + (u4_0 * w26 - u4_1 * w23) * c2_3);
+        const double Y4_1 = m1 + w26 * c1_3 + (u4_2 * w23 - u4_0 * w25) * c2_3;
         const double w27 = u4_1 * k4_2 + u4_2 * Y4_1;
         const double w28 = u4_0 * Y4_1 + u4_1 * k4_0;
         const double w29 = u4_2 * k4_0 - u4_0 * k4_2;
@@ -225,10 +225,10 @@ static int free_rigid_body_rkmk2_rk4_loop(double state[static 3], double h, size
         const double w34 = m2 * u_1 - m1 * u_2;
         const double w36 = m1 * u_0 - m0 * u_1;
         const double w37 = m0 * u_2 - m2 * u_0;
-        const double new_m0 = w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4 + m0;
-        const double new_m1 = w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4 + m1;
-        const double new_m2 = w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4 + m2;
-        /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
+        const double new_m0 = m0 + w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4;
+        const double new_m1 = m1 + w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4;
+        const double new_m2 = m2 + w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4;
+        /* The sum of finite values x may overflow. x - x is 0 if x is finite, and NaN otherwise. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

@@ -16,12 +16,13 @@
  *             3 exponentials: exp(x).y is computed without exp(x)
  *             the time is not needed: no formula depends on the time
  * operations: 34 add, 59 mul, 1 stumpff_01 a step
- *             21 add, 42 mul for an initial guess, in the first step of a run
+ *             21 add, 42 mul once in each run, for the initial guess of the first step
  *             633 add, 839 mul, 1 div, 2 choose, 10 fabs, 5 quotient, 2 stumpff_23 for each matrix
  *             of the equations of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 for each sweep of the equations of xi
- * stack:      at most 8192 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
- *             margin of 1480 bytes; the stack of mathematical library functions is not included
+ * stack:      at most 8192 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; 1480 of these
+ *             bytes are a safety margin; the stack of mathematical library functions is not
+ *             included
  * command:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
  *             .
  * version:    orderconds 0.1.0
@@ -1080,7 +1081,7 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
     const double Y_1_ = q3 * w475 - q2 * w476 + (q0 * w474 + q1 * c0_3);
     const double Y_2_ = q1 * w476 - q3 * w474 + (q0 * w475 + q2 * c0_3);
     const double Y_3_ = q2 * w474 - q1 * w475 + (q0 * w476 + q3 * c0_3);
-    /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
+    /* The sum of finite values x may overflow. x - x is 0 if x is finite, and NaN otherwise. */
     if (!isfinite(Y_0_ + Y_1_ + (Y_2_ + Y_3_)) && !(Y_0_ - Y_0_ + (Y_1_ - Y_1_)
         + (Y_2_ - Y_2_ + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;

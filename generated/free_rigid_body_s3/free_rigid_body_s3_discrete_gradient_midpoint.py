@@ -15,7 +15,7 @@ left out:   1 sum: coefficients are zero, or terms cancel
             3 exponentials: exp(x).y is computed without exp(x)
             the time is not needed: no formula depends on the time
 operations: 34 add, 59 mul, 1 stumpff_01 a step
-            21 add, 42 mul for an initial guess, in the first step of a run
+            21 add, 42 mul once in each run, for the initial guess of the first step
             633 add, 839 mul, 1 div, 2 choose, 10 fabs, 5 quotient, 2 stumpff_23 for
             each matrix of the equations of xi
             148 add, 240 mul, 3 quotient, 2 stumpff_01 for each sweep of the

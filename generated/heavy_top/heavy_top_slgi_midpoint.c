@@ -11,15 +11,16 @@
  * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns; 4.85 sweeps and 1 matrix a
  *             step, measured over the first 20 steps of size h = 0.01
  * state:      [0..8] q: element of SO(3), row by row
- *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
+ *             [9..11] mu: right-trivialised momentum in the dual of the Lie algebra of SO(3)
  * left out:   the time is not needed: no formula depends on the time
  * operations: 50 add, 71 mul, 1 stumpff_1 a step
- *             3 mul for an initial guess, in the first step of a run
+ *             3 mul once in each run, for the initial guess of the first step
  *             105 add, 215 mul, 2 slope2, 2 slope3 for each matrix of the equations of xi1, n1
  *             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 for each sweep of the equations of xi1,
  *             n1
- * stack:      at most 6336 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
- *             margin of 1120 bytes; the stack of mathematical library functions is not included
+ * stack:      at most 6336 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; 1120 of these
+ *             bytes are a safety margin; the stack of mathematical library functions is not
+ *             included
  * command:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -857,7 +858,7 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* The sum of finite values x may overflow. The sum of x - x is 0 only if all x are finite. */
+    /* The sum of finite values x may overflow. x - x is 0 if x is finite, and NaN otherwise. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

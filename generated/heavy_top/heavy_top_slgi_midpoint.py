@@ -10,10 +10,11 @@ scene:      Heavy top with inertia fixed in space, T*SO(3), group SO(3)
 solved by:  the equations of xi1, n1: Newton's method, 6 unknowns; 4.85 sweeps and 1
             matrix a step, measured over the first 20 steps of size h = 0.01
 state:      [0..8] q: element of SO(3), row by row
-            [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
+            [9..11] mu: right-trivialised momentum in the dual of the Lie algebra of
+            SO(3)
 left out:   the time is not needed: no formula depends on the time
 operations: 50 add, 71 mul, 1 stumpff_1 a step
-            3 mul for an initial guess, in the first step of a run
+            3 mul once in each run, for the initial guess of the first step
             105 add, 215 mul, 2 slope2, 2 slope3 for each matrix of the equations of
             xi1, n1
             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 for each sweep of the
