@@ -65,9 +65,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         Call("to_space", (moving, before)),
     )
     about = (
-        "Copy the state to 'moving', and convert the momentum in 'moving' to the body frame. Then convert "
-        "this momentum back to the space frame, and write the result into 'before'. At the end of the run, "
-        "'before' is needed to compute the increase of the momentum."
+        "Copy the state to 'moving', and convert the momentum to the body frame. Then convert this momentum "
+        "back to the space frame, and write the result into 'before'."
     )
     return Function(ENTER, about, (state, moving, before), body)
 

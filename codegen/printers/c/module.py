@@ -255,10 +255,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
         )
     # Without optimisation, a call needs about ``size * numbers + frames`` bytes.
     margin = f"; {bound - size * numbers - frames} of these bytes are a safety margin" if each > size else ""
-    return (
-        f"at most {bound} bytes with {MEASURED}{margin}; "
-        "the stack of mathematical library functions is not included"
-    )
+    return f"at most {bound} bytes with {MEASURED}{margin}; mathematical library functions use more"
 
 
 def own_names(interface: Interface, unit: Unit) -> frozenset[str]:

@@ -406,14 +406,14 @@ def test_a_flow_may_be_stated_where_it_is_not_recognised():
     ("flow", "message"),
     [
         # Summands that do not commute: the flow of p^2/2, then that of 3 p q.
-        (lambda q, p: ([(q + TAU * p) * exp(3 * TAU)], [p * exp(-3 * TAU)]), "has the time derivative"),
-        (lambda q, p: ([q + 1], [p]), "has the value 2"),
+        (lambda q, p: ([(q + TAU * p) * exp(3 * TAU)], [p * exp(-3 * TAU)]), "the formula for q0 has the time derivative"),
+        (lambda q, p: ([q + 1], [p]), "the formula for q0 has the value 2"),
     ],
 )
 def test_what_is_stated_to_be_a_flow_and_is_none_is_refused(flow, message):
     with pytest.raises(SceneError) as failure:
         stated(flow)
-    assert f"the flow of T {message}" in str(failure.value)
+    assert f"in the flow of T, {message}" in str(failure.value)
     assert (
         "by the differential equations of the part T; if the part is a sum of terms whose flows do not"
         in str(failure.value)
