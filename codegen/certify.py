@@ -1,6 +1,8 @@
 """The order of a method, for the comment at the head of emitted code.
 
-For most methods the order is computed from the order conditions. The order in the tableau file is not used.
+The order in the tableau file is ignored for all methods. Most orders are computed from the order conditions.
+The order of a Taylor method is its degree. If a scene defines a step, the scene also states the order of the
+step.
 """
 
 from __future__ import annotations

@@ -192,17 +192,17 @@ class CompiledIntegrator(Integrator):
 class _Buffers:
     """The arguments for events in one call of the C function ``integrate``.
 
-    The C code calls the event functions before it stores an event. Each call of the event functions empties
-    the C arrays, so the arrays are never full, and the run never ends early.
+    The C code stores events in arrays, and ends the run when the arrays are full. Therefore each call of the
+    event functions first moves the stored events from the arrays to the list ``events``.
     """
 
     def __init__(self, ffi: Any, interface: Interface, values: EventValues) -> None:
         real, size = interface.format.c_type, interface.size
         self.size, self.null = size, ffi.NULL
         self.events: list[tuple[int, float, int, list[float]]] = []
-        # Let n be the number of event functions. Between two calls of the event functions, the C code stores
-        # at most n events. The C code ends the run if fewer than n entries of the arrays remain free.
-        # Therefore the arrays have 2 n entries.
+        # For n event functions, the arrays contain at most n events, because each call of the event functions
+        # empties the arrays. After storing these events, the C code ends the run unless n more events would
+        # fit. Therefore the arrays have 2 n entries.
         self.room = 2 * interface.events
 
         def write(t: float, state: Any, array: Any, data: Any) -> None:

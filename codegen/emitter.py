@@ -80,7 +80,8 @@ class Compiled(Optimised):
 
     - ``solvers`` are the solvers of the implicit equations.
     - ``asked`` is the value of the option ``--solver``.
-    - ``form`` is the classical form that the user chose, or None.
+    - ``form`` contains the equations on R^n that the user chose with the option ``--form``. If the step uses
+      the equations of the scene, ``form`` is None.
     """
 
     kernel: Kernel

@@ -145,12 +145,12 @@ def steps_of(kernel: Kernel) -> str:
     if kernel.expansion is not None:
         last = kernel.expansion.degree
         return (
-            f"constant, or computed from the solution's Taylor coefficients of degrees {last - 1} and {last}"
+            f"h is constant, or given by the solution's Taylor coefficients of degrees {last - 1} and {last}"
         )
     assert kernel.estimate is not None
     return (
-        f"constant, or chosen by a proportional-integral controller; "
-        f"the embedded method gives an error estimate O(h^{kernel.estimate.order})"
+        f"h is constant, or set by a proportional-integral controller; "
+        f"the embedded method's error estimate is O(h^{kernel.estimate.order})"
     )
 
 

@@ -171,7 +171,8 @@ class Integrator(RunToEnd):
             raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
         for time in monotone(t, times):
-            # If rounding increases an integer quotient, the factor 1 - 1e-12 prevents an additional step.
+            # If the exact quotient is an integer n, the computed quotient can be slightly larger than n. With
+            # the factor 1 - 1e-12, ``math.ceil`` still returns n, and not n + 1.
             quotient = abs((time - t) / h) * (1 - 1e-12)
             if not math.isfinite(quotient):
                 raise ValueError(

@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="The protocol 'strict' measures the orders on built-in scenes with 50 digits. With --protocol, omit "
-    "the argument SCENE.",
+    help="The protocol 'strict' measures the order of each method with 50 digits, on built-in scenes. With "
+    "--protocol, omit the argument SCENE.",
 )
 @click.option(
     "--stated",

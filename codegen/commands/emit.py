@@ -83,8 +83,8 @@ if TYPE_CHECKING:
     type=click.IntRange(0),
     default=0,
     metavar="N",
-    help="The number of event functions. This option implies --integrate. The function that integrates to a "
-    "given end time then finds zeros of the event functions.",
+    help="The number of event functions. This option implies --integrate: the function that integrates to a "
+    "given end time also finds zeros of the event functions.",
 )
 @click.option(
     "--compensate",
@@ -133,8 +133,8 @@ def command(
     For an implicit method, --solver auto tests solvers of the implicit equations. If no solver converges, the
     command prints a warning.
 
-    At least one of -o, --explain and --json is required. Without -o, the command only prints a description
-    of the module.
+    At least one of -o, --explain and --json is required. Without -o, the command writes no file
+    and only prints the output of --explain or --json.
 
     \b
     Examples:

@@ -30,8 +30,8 @@ NOTICED = 0.1
     "--need",
     "needs",
     multiple=True,
-    help="Required properties, separated by commas: manifold, symplectic, explicit, adaptive (step-size "
-    "control) or fixed (equal steps).",
+    help="One or more required properties, separated by commas. The properties are: manifold (the state "
+    "stays on the manifold), symplectic, explicit, adaptive (step-size control), fixed (equal steps).",
 )
 @click.option("--stack", type=click.IntRange(1), help="The largest allowed stack memory of a call, in bytes.")
 @click.option("--span", metavar="A:B", help="The time interval; by default the interval of the scene.")
@@ -146,10 +146,12 @@ def searched(result: Recommendation) -> str:
 
 
 def unreached(result: Recommendation) -> str:
-    """Return a message for a search in which no method reaches the requested error.
+    """Return a message for a search that does not recommend a method.
 
-    The message contains the smallest measured error. If no error was measured, or if every method that
-    reaches the requested error loses a conserved quantity, the message contains this reason instead.
+    The message states one of three reasons:
+    - No error was measured.
+    - Every method that reaches the requested error loses a conserved quantity.
+    - No method reaches the requested error. In this case the message contains the smallest measured error.
 
     A method reaches the requested error only if a second run with higher accuracy confirms the first run. If
     the smallest measured error is at most the requested error, the message says that no second run confirms
@@ -175,8 +177,8 @@ def unreached(result: Recommendation) -> str:
         # The error of a single run can be small by accident (codegen.lab.efficiency.race).
         missed += " in two consecutive runs"
         least += (
-            ", but no run with half the step size (or a tenth of the tolerance) confirms it: the error of "
-            "such a run must be at most twice the requested error"
+            ", but no second run with half the step size (or a tenth of the tolerance) has an error of at "
+            "most twice the requested error"
         )
     return f"{asked.scene}: {missed}; {least}; relax --error\n{searched(result)}"
 

@@ -52,7 +52,7 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 def _exponentials(
     d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
 ) -> tuple[S, S]:
-    """Return the coefficients of t and t^2 in a series, where t = ad_x.
+    """Return numbers b and c such that a series in t = ad_x is equal to b t + c t^2.
 
     The series is the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``, but the powers t^0 and t^-1
     are omitted. Because of t^3 = -z t, the powers t^3, t^4, ... are multiples of t or t^2. The number j is 0

@@ -74,9 +74,9 @@ class Coadjoint(LieGroup):
 
         The linear map D is the derivative of dexpinv(x, y, order) with respect to x.
 
-        The covector p is the sum of -B_k/k! ad*_z (ad*_x)^i mu over all i and k with 0 <= i < k <= order
-        (eq. 3.16 of H. Marthinsen's thesis). For each term, z = ad_x^{k-1-i} y. B_k are the Bernoulli
-        numbers.
+        Let B_k be the Bernoulli numbers, and let z(i, k) = ad_x^{k-1-i} y. The covector p is the sum of
+        -B_k/k! ad*_{z(i, k)} (ad*_x)^i mu over all i and k with 0 <= i < k <= order (eq. 3.16 of
+        H. Marthinsen's thesis).
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -188,10 +188,11 @@ class ClosedFormSeries(Coadjoint):
         Here f is a number, and W is a product of factors as in :meth:`series`. If ``dual`` is true, ad*_x
         replaces ad_x.
 
-        The caller may pass a function ``total`` that adds vectors f v faster. The argument of ``total`` is a
-        tuple of indices. ``total`` must return the sum of f v over the triples in ``terms`` with these
-        indices. The method chooses the indices, and need not call ``total``. If ``total`` is None, the method
-        itself adds the vectors f v.
+        The result contains the sum of the vectors f v, because the series of W begins with 1. If the caller
+        knows a faster way to compute this sum, the caller may pass a function ``total``. The argument of
+        ``total`` is a tuple of indices. ``total`` must return the sum of f v over the triples in ``terms``
+        with these indices. The method chooses the indices, and need not call ``total``. If ``total`` is None,
+        the method itself adds the vectors f v.
         """
 
 

@@ -13,8 +13,8 @@ from codegen.ir.domain import Domain
 class LargeGroup(LieGroup):
     """A group of large n x n matrices.
 
-    The operations raise :class:`codegen.errors.SceneError`, because the group is too large for formulas. The
-    text ``families`` in the error message lists the families of methods that work for the group.
+    The operations raise :class:`codegen.errors.SceneError`, because the group is too large for formulas.
+    ``families`` is a part of the error message: the names of the families of methods that work for the group.
     """
 
     def __init__(self, name: str, n: int, dim: int, families: str) -> None:

@@ -267,7 +267,7 @@ class IsometryGroup(MatrixGroup, Projection):
         return tuple(result)
 
     def opposite_exponential(self, d: Domain, a: Vector[S], exponential: Vector[S]) -> Vector[S]:
-        """Return exp(-a), the inverse of the matrix ``exponential``."""
+        """Return exp(-a), the inverse of exp(a). The argument ``exponential`` is the matrix exp(a)."""
         return self.inverse(d, exponential)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:

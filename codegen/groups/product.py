@@ -59,9 +59,9 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         Otherwise return None.
         """
         own = super().offers(capability)
-        # Every direct product has the operations of DirectProduct and of the base classes of DirectProduct.
-        # For these classes, the factors are not tested. For all other classes, each factor must have the
-        # operations, too.
+        # If ``capability`` is DirectProduct or one of the base classes of DirectProduct, every direct product
+        # has the operations of ``capability``, so the factors are not tested. If ``capability`` is another
+        # class, each factor must have the operations of ``capability``, too.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None

@@ -196,9 +196,9 @@ class AlgebraVectors(Representation):
     ) -> Pair[S]:
         """Apply ``word``, a product of functions of ad*_x, to p."""
         closed = group.require(ClosedFormSeries)
-        # The vectors y + v e and q + m e with e^2 = 0 represent x = (y, v) and p = (m, q). The order of m and
-        # q is reversed, because the pairing <m, y> + <q, v> of p and x must be the coefficient of e in the
-        # dot product of the two vectors.
+        # Let e^2 = 0. The vector y + v e represents x = (y, v), and the vector q + m e represents p = (m, q).
+        # Because of (q + m e).(y + v e) = q.y + (m.y + q.v) e, the pairing <m, y> + <q, v> of p and x is the
+        # coefficient of e.
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
         return tuple(a.rate for a in result), tuple(a.real for a in result)
 

@@ -24,6 +24,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     - The equation ad_x^3 = -w^2 ad_x implies dexp_x = 1 + c_2 ad_x + c_3 ad_x^2.
     """
 
+    # In emitted code, ``layout`` follows the name of the group, so the text begins with a comma.
     name, layout = "SE(2)", ", cosine and sine of the angle, then the translation"
     dim, size, point_size = 3, 4, 2
 

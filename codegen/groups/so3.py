@@ -45,8 +45,8 @@ class SO3(
     - The exponential is exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues).
     - The differential of the exponential is dexp_x = 1 + c_2 ad_x + c_3 ad_x^2, and dexp*_x = dexp_{-x}.
 
-    If ``dependent`` is the index of a column, :meth:`expmul` rotates the other two columns of g. The column
-    ``dependent`` of the result is the cross product of the rotated columns.
+    If ``dependent`` is a column index k, :meth:`expmul` rotates only the other two columns of g. Column k of
+    the result is the cross product of the two rotated columns.
     """
 
     name = "SO(3)"
@@ -286,10 +286,10 @@ class SO3(
         return matmul(g, defect, 3)
 
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return six tuples: the indices of the entries of each row and of each column, rows first.
+        """Return a tuple with the indices of the matrix entries for each row, and then for each column.
 
-        The entries of each tuple can be computed from the other entries, because a row (column) is the cross
-        product of the other two rows (columns).
+        If the entries of one row are unknown, the cross product of the other two rows gives these entries.
+        The same is true for columns.
         """
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))

@@ -22,9 +22,10 @@ class Unitriangular(MatrixGroup):
         super().__init__(f"UT({n})", [elementary(n, place) for place in self.places])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return a pair (name, residual) for each constant entry of g.
+        """Return a pair (name, residual) for each entry of g outside of ``self.places``.
 
-        A constant entry is 1 on the diagonal, and 0 off the diagonal.
+        In the group, these entries are 1 on the diagonal and 0 elsewhere. The entries at ``self.places`` are
+        arbitrary numbers.
         """
         fixed = [(i, j) for i in range(self.n) for j in range(self.n) if (i, j) not in self.places]
         unit: Vector[S] = self.identity(d)
@@ -36,8 +37,8 @@ class Heisenberg(Unitriangular):
     """The Heisenberg group of dimension 2 n + 1: unitriangular (n + 2) x (n + 2) matrices. Above the
     diagonal, only the first row and the last column have nonzero entries.
 
-    The basis of the algebra begins with the elementary matrices E_1j with 1 < j < n + 2. The matrices
-    E_i(n+2) with 1 < i < n + 2 follow. The last matrix is E_1(n+2).
+    The basis of the algebra begins with the elementary matrices E_{1,j} with 1 < j < n + 2. The matrices
+    E_{i,n+2} with 1 < i < n + 2 follow. The last matrix is E_{1,n+2}.
     """
 
     def __init__(self, n: int) -> None:

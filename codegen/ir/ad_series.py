@@ -71,7 +71,7 @@ def simplified(word: Word) -> Word:
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
-            # By this rule, dexp(-s t) replaces both dexp(s t) and exp(``rate`` t), so no exponential remains.
+            # The product exp(``rate`` t) dexp(s t) has become dexp(-s t), so no factor exp remains.
             rate = Fraction(0)
     # Sorting makes the result independent of the order of the factors in ``word``.
     factors = [Factor("exp", rate)] if rate else []

@@ -70,8 +70,8 @@ Entry = Expr | tuple[Number, ...]
 class Diagonal:
     """A diagonal of a matrix a: the entries a_{i, i + offset}.
 
-    ``entry`` is a tuple of these entries from top to bottom, or a formula for the entries in :data:`ROW` and
-    :data:`COLUMN`.
+    ``entry`` is a tuple of these entries from top to bottom, or one formula for all of these entries. In the
+    formula, the symbols :data:`ROW` and :data:`COLUMN` are the row index and the column index of an entry.
     """
 
     offset: int
@@ -139,7 +139,8 @@ def _valued(
     # ``evaluate`` needs a value for each symbol, so each symbol is mapped to itself.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # A formula may compare indices, so numbers replace the indices first.
+        # A formula may compare the indices i and j. The first call of ``evaluate`` decides the comparisons,
+        # because it replaces the symbols of the indices by numbers.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -257,8 +258,8 @@ class ArrayProgram:
         """
 
         def now(matrix: Matrix) -> Matrix:
-            # The matrices ``argument`` and ``result`` keep their names. Without the prefix ``name``, another
-            # matrix could have the same name as a matrix of the other program.
+            # ``argument`` and ``result`` belong to the surrounding program and keep their names. All other
+            # matrices get the prefix ``name``, because the surrounding program may use their names, too.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")

@@ -146,8 +146,8 @@ class BallDomain:
             return tuple(x.mid() for x in sums)
         if isinstance(called, MatrixInverse):
             with precision(2 * self.bits):
-                # For condition numbers up to 2^b (b = ``self.bits``), 2 b bits give an inverse with about b
-                # correct bits.
+                # If the condition number is at most 2^``self.bits``, the inversion loses at most about
+                # ``self.bits`` of these bits, so about ``self.bits`` correct bits remain.
                 inverse = arb_mat(block_matrix(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
         if isinstance(called, SpecialUnitaryExponential):
@@ -228,7 +228,7 @@ class BallDomain:
         - The change no longer decreases: it is at least ``previous``.
         """
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
-        # Without this test, a NaN would cause iterations up to the largest permitted number.
+        # Without this test, an iteration with a NaN could continue, because comparisons with a NaN are false.
         if not all(x.is_finite() for x in new):
             raise NotConverged("an iteration computed a number that is not finite")
         # The factor 4096 = 2^12 allows for the accumulated rounding errors of an iteration.

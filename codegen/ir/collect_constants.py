@@ -25,8 +25,9 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     If this does not reduce the number of operations, ``roots`` is returned unchanged.
 
     ``kept`` contains expressions that are needed outside ``roots``, too. Each of these expressions has the
-    form c x with a number c, which may be 1. The expression x is not rewritten in ``roots``, so that x is
-    computed only once. The number c is combined with other constants in ``roots``.
+    form c x with a number c, which may be 1. The expression x remains unchanged in ``roots``,
+    because otherwise x and a new form of x would both be computed. The number c is combined with other
+    constants in ``roots``.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -72,9 +73,8 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Find the powers of y = 1/sqrt x that are rewritten as quotients.
 
-    For example, y^3 is rewritten as 1/(x sqrt x). The result has one entry for each node that is equal to
-    c y^n with a number c and one of these powers y^n. The entry maps the node number of c y^n to the pair
-    (node number of y, n).
+    For example, y^3 is rewritten as 1/(x sqrt x). A power y^n may have a numeric factor c. If y^n is
+    rewritten, the result maps the node number of c y^n to the pair (node number of y, n).
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
@@ -85,28 +85,28 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
-            # This node is 1/sqrt x. Its entry in ``ranks`` contains its own node number and the exponent 1.
+            # This node is y = 1/sqrt x, that is, y^1. A pair in ``ranks`` is (node number of y, exponent).
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # The nodes in ``ranks`` have the form c y^n, where c is a number and y is a node 1/sqrt x. ``read``
-    # contains the pair (node number of y, n) in two cases. In the first case, c y^n is one of the ``roots``.
-    # In the second case, c y^n is an argument of a node outside ``ranks``.
+    # Each node in ``ranks`` has the form c y^n, where c is a number and y is a node 1/sqrt x. The dictionary
+    # ``ranks`` maps this node to the pair (node number of y, n). The set ``read`` contains the pairs of all
+    # nodes in ``ranks`` that are roots, or that are arguments of nodes outside ``ranks``.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # Let y be a node 1/sqrt x. ``bases`` contains the node number of y if ``read`` contains a pair
-    # (node number of y, n) with n = 1 or with an even n. Then no power of y is rewritten as a quotient.
+    # If a pair in ``read`` belongs to y itself or to an even power of y, no power of y is rewritten as a
+    # quotient. ``bases`` contains the node numbers of these nodes y.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
 
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
-    """Return True if ``node`` is a product, a power or a negation and has the form c y^n.
+    """Return True if ``node`` is a product, a power or a negation, and a number times a power of a node y.
 
-    Here c is a number, n is a positive integer, and y is 1/sqrt x for an expression x. The arguments of
-    ``node`` may also have this form. If an argument equals d z^m, where d is a number and z is 1/sqrt w for
-    an expression w, ``inside`` contains the pair (node number of z, m).
+    The node y must be 1/sqrt x for an expression x, and the exponent must be a positive integer. For each
+    argument of ``node`` that is a number times a power of such a node y, ``inside`` contains the pair (node
+    number of y, exponent). Different arguments may have different nodes y.
     """
     # The first argument may be a number.
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
@@ -209,8 +209,8 @@ class _Gathering:
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
-        # For n = 2 m + 1, the denominator is x^m sqrt x. A processor can compute x^m and sqrt x at the same
-        # time, because neither of these factors needs the other.
+        # If ``exponent`` is 2 m + 1, the term is c/(x^m sqrt x). A processor can compute x^m and sqrt x at
+        # the same time, because neither of these factors needs the other.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}

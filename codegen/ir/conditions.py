@@ -39,7 +39,10 @@ def both(a: Condition, b: Condition) -> Condition:
 
 
 def always(yes: Expr, no: Expr) -> Expr:
-    """Return ``yes``. As a :data:`Condition`, this function represents a condition that is always true."""
+    """Return ``yes``. This function is the :data:`Condition` that is always true.
+
+    A :data:`Condition` returns ``yes`` where it is true, and ``no`` elsewhere.
+    """
     return yes
 
 

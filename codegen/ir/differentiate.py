@@ -124,8 +124,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case "signed_stumpff1" | "signed_stumpff2" | "signed_stumpff3" as name:
             return [space.call(f"signed_slope{name[-1]}", x)]
         case "quotient":
-            # For b = 0 the derivatives of quotient(a, b) are set to 0, because a division would give
-            # infinity.
+            # For b = 0, quotient(a, b) is 0. The derivatives also use ``quotient`` in place of a division, so
+            # for b = 0 they are 0 and not infinite.
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:

@@ -187,7 +187,7 @@ class FloatDomain:
         """Return the pair (converged, change), see :meth:`Domain.settled`."""
         changes = [abs(a - b) for a, b in zip(old, new, strict=True)]
         change = max(changes)
-        # Without this test, a NaN would not end the iteration. ``max`` may skip a NaN.
+        # Without this test, an iteration with a NaN could seem to converge, because ``max`` may skip a NaN.
         if not all(map(math.isfinite, changes)):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
         # ``scale`` is the largest absolute value of an unknown.

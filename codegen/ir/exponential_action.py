@@ -102,7 +102,7 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """For each row of A, a tuple of pairs (k, j). Argument k of the function is the entry in column j."""
+        """A tuple of pairs (k, j) for each row i of A. Argument k of the function exp(A) y is A_ij."""
         entries = list(enumerate(self.places))
         return tuple(
             tuple((k, place % self.n) for k, place in entries if place // self.n == i) for i in range(self.n)
@@ -158,8 +158,8 @@ class ExponentialAction(VectorFunction):
 
         - If ``pattern`` is not 0, the result is None.
         - If A is zero, the result is y.
-        - If A has at most :data:`SPARSE` rows, the expressions are calls of another
-          :class:`ExponentialAction`. Its arguments are the non-zero entries of A, and y.
+        - If A has at most :data:`SPARSE` rows, the expressions are calls of an :class:`ExponentialAction`
+          with a ``pattern`` that omits the zero entries of A.
         - If A has more rows, the result is None.
         """
         # If ``pattern`` is not 0, the arguments already omit the zero entries of A, so no simpler form is

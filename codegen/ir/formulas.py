@@ -1,4 +1,4 @@
-"""A domain that converts products and commutators of matrices to scalar formulas."""
+"""Scalar formulas for the entries of matrix products and commutators."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ class Formulas(ExprDomain):
 
     def __init__(self, domain: ExprDomain) -> None:
         super().__init__(domain.space)
-        # The dictionary ``samples`` contains the symbols for values of functions of time. Both domains must
-        # use the same symbols, so they share the dictionary.
+        # The dictionary ``samples`` contains the symbols for values of functions of time. This domain and the
+        # given ``domain`` share the dictionary, because they must use the same symbols.
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:

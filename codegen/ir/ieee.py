@@ -11,8 +11,8 @@ import math
 OVERFLOWING = ("cosh", "exp", "log", "sinh")
 """Functions whose result may be infinite at a finite argument.
 
-A formula such as 1/cosh(x) can be finite although cosh(x) is infinite. Therefore Python modules in double
-precision call helpers that return the infinity.
+The module :mod:`math` raises an exception if cosh(x) is infinite. But a formula such as 1/cosh(x) can still
+be finite. Therefore Python modules in double precision call helpers that return the infinity.
 """
 
 UNDEFINED = ("acos", "asin", "cos", "sin", "sqrt", "tan")
@@ -20,8 +20,8 @@ UNDEFINED = ("acos", "asin", "cos", "sin", "sqrt", "tan")
 
 If a part of a formula is NaN, the value of the formula is usually NaN. There are two exceptions: the function
 ``choose`` can ignore a NaN, and a solver of implicit equations can return an error status in place of a NaN.
-Therefore, of the Python modules in double precision, only those with ``choose`` or with a solver call helpers
-that return the NaN.
+Therefore a Python module in double precision calls helpers that return the NaN only if the module contains
+``choose`` or a solver.
 """
 
 

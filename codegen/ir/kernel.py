@@ -30,7 +30,7 @@ distinguishes the name from all names that a user can choose.
 """
 
 ELAPSED = "elapsed.h"
-"""The name of a symbol in splitting methods: the total duration of a run of several steps."""
+"""The name of a symbol. In splitting methods, the symbol is the total duration of a run of several steps."""
 
 LONGEST = 256
 """The largest number of steps that share one deferred flow (:class:`Deferred`).
@@ -126,7 +126,8 @@ class Loop:
     - Newton's method for u = g(u): M^{-1} (g(u) - u), where the matrix M approximates 1 - g'(u).
     - Newton's method for r(u) = 0: M^{-1} r(u), where the matrix M approximates -r'(u).
 
-    The change is added to the unknowns, except in the last sweep of a fixed-point iteration.
+    Newton's method adds the change to the unknowns in each sweep. Fixed-point iteration first tests whether
+    the loop has converged, and adds the change only if the loop continues.
 
     ``limit`` is the largest number of sweeps. For equations u = g(u), the stopping rule
     (:mod:`codegen.run.stopping`) ends the loop in two main cases:
@@ -199,9 +200,9 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # The simplest first values of a step are the solution of the last step. The error of these first values
-    # is the change of the unknowns from one step to the next. An extrapolation from several solutions is
-    # useful only if its error is at most half of this change.
+    # An iteration can start from the solution of the last step. The error of this initial guess is the change
+    # of the unknowns from one step to the next. An extrapolation from several solutions is useful only if its
+    # error is at most half of this change.
     ROUGH: ClassVar[float] = 0.5
     # Successful continuations need far fewer than 100 attempts.
     TRIES: ClassVar[int] = 100
@@ -225,7 +226,7 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """Flows of a splitting method that a run applies outside of its steps.
+    """A run of a splitting method that joins flows of successive steps, or applies flows once for all steps.
 
     A run has at most :data:`LONGEST` steps. The run calls ``begin``, then the kernel of the step once for
     each step, and then ``finish``.

@@ -92,8 +92,8 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
                 # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
             # A pair (v_0, v_1) represents the expansion v_0 + v_1 h. A symbol u that is not h does not depend
-            # on h. Therefore the pair for u is (u, 0). If u is an unknown, the derivative of u with respect
-            # to u is 1. The pair for this derivative is (1, 0).
+            # on h. Therefore the pair for u is (u, 0). ``slopes`` contains derivatives with respect to
+            # unknowns only. The derivative of an unknown with respect to itself is 1, with the pair (1, 0).
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":

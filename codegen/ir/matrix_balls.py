@@ -1,7 +1,7 @@
-"""The exponential of a matrix with many digits, and its derivatives, computed with Arb balls.
+"""The matrix exponential and the derivatives of this function, computed to many digits.
 
-A ball is a midpoint with an error radius. If the radii of the results are too large, the computation is
-repeated with a higher precision.
+The computation uses the balls of Arb. A ball is a midpoint with an error radius. If the radii of the results
+are too large, the computation is repeated with a higher precision.
 
 A matrix and its derivatives form a jet (:mod:`codegen.ir.matrix_exponential`).
 """
@@ -138,6 +138,6 @@ def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
         return [x for row in rows for x in row]
     half = len(rows) // 2
     # The block matrix is [[A, E], [0, A]]. Only the upper blocks A and E are read, because the lower blocks
-    # contain no other entries.
+    # are 0 and A again.
     a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
     return [*_first_row(a, level - 1), *_first_row(e, level - 1)]

@@ -123,8 +123,8 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                # For each pair (x, y), row i of x is multiplied by column j of y. Entry (i, j) is the sum of
-                # these products.
+                # Entry (i, j) of the sum of all matrix products x y is the sum of the numbers x_ik y_kj over
+                # all k and over all pairs (x, y).
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
@@ -141,8 +141,8 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
 def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]:
     """Return the Taylor polynomial of the exponential, evaluated at the jet ``b1``.
 
-    The norm ``norm`` of the first matrix of ``b1`` determines the degree of the polynomial
-    (:func:`largest_norms`).
+    The list ``b1`` contains the entries of a matrix A, followed by the entries of derivatives of A. The norm
+    ``norm`` of A determines the degree of the polynomial (:func:`largest_norms`).
     """
     # The degree of the polynomial is 4 * ``groups``. Group g contains the terms of degrees 4 g to 4 g + 3.
     # The term of the highest degree is in no group.
@@ -160,7 +160,8 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
         terms = zip(total, b3, b2, b1, strict=True)
         total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
         for i in range(n):
-            # The constant term, c[k] times the unit matrix, is added to the matrix A_0 of the jet.
+            # The last term of the group is c[k] times the unit matrix. This term has no derivatives, so it
+            # changes only the first matrix of ``total``.
             total[(n + 1) * i] += c[k]
     return total
 
@@ -168,8 +169,8 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
 def _growth(n: int, a: Sequence[float], scale: float) -> float:
     """Return a bound of the spectral norm of exp(``scale`` * ``a``), where ``a`` is an n x n matrix.
 
-    The bound is exp(``scale`` b). Gershgorin's circles give an upper bound b of the eigenvalues of the
-    symmetric part of ``a``.
+    Gershgorin's circles give an upper bound b of the eigenvalues of the symmetric part of ``a``. The bound of
+    the norm is exp(``scale`` * b).
     """
     # ``largest`` becomes b, the maximum of ``total`` over all rows. It does not begin at 0, because b may be
     # negative.

@@ -72,7 +72,7 @@ class BilinearFunction(VectorFunction):
         changed = list(args)
         changed[half] = unit[half]
         # The derivatives are returned as scalar formulas, without a call of the function f. The formulas are
-        # short, because only one entry of E is not zero.
+        # short, because one of the two matrices in ``changed`` has only one entry that is not zero.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:

@@ -85,7 +85,7 @@ class Multiplier:
             # At 0, POWER has the value 0, EXP has the value 1, and PHI and BERNOULLI have the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # Here f(z) = z, so ``scale`` is the coefficient of z.
+            # The function POWER is f(z) = z, so f(``scale`` * z) is the term ``scale`` * z.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -333,7 +333,7 @@ class ModeStep:
         """Return a text that describes how fast the coefficients of the step grow as z tends to -infinity."""
         if self.backwards:
             return (
-                "some coefficients contain exp(-c z) with c > 0 and grow exponentially, so short steps are "
+                "some coefficients contain exp(c |z|) with c > 0 and grow exponentially; short steps are "
                 "required"
             )
         if self.growth > 0:

@@ -31,8 +31,8 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 class Problem(Protocol):
     """The differential equation to solve: the Lie group, its action, and the vector field or Hamiltonian.
 
-    A scene is the user's definition of a problem. The argument ``domain`` of the methods determines the type
-    of the scalars: for example doubles, power series or expressions.
+    A scene is the user's definition of a problem. Scalars are for example doubles, power series or
+    expressions. The argument ``domain`` of the functions in this class determines the type of the scalars.
     """
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
@@ -138,7 +138,7 @@ class Zero(Operation):
         return ((domain.rational(0),) * problem.dimension(),)
 
 
-# If an argument is itself a linear combination, compiler passes may combine both into one.
+# Compiler passes may replace a linear combination of linear combinations by one linear combination.
 @dataclass(frozen=True)
 class Linear(Operation):
     """A linear combination of vectors, with one coefficient for each argument."""
@@ -486,8 +486,7 @@ class AdSeries(Operation):
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if the kinds of the arguments and of the results are those of :meth:`signature`.
 
-        ``self.word`` lists the functions f in the product of operators f(ad_x). If ``self.word`` is empty,
-        return False.
+        If the list of functions ``self.word`` is empty, return False.
         """
         # An empty product is the identity map, which needs no operation.
         return bool(self.word) and super().accepts(arguments, results)

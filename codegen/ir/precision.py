@@ -93,7 +93,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     """Return the nearest number with ``bits`` significant bits. Ties are rounded to even."""
     if isinstance(value, Number):
         rational = value.is_rational
-        # For a number outside QQ, a decimal approximation with 40 digits is rounded.
+        # A decimal approximation with 40 digits replaces a number that is not rational.
         exact = value.fraction() if rational else Fraction(value.ring.approximate(value.element, 40))
     else:
         exact = Fraction(value)

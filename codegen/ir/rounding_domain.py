@@ -19,10 +19,12 @@ from codegen.ir.domain import PreciseDomain, Scalar
 from codegen.ir.number import Number
 
 GUARD_DIGITS = 12
-"""A number is zero up to rounding if it is at most 10^(GUARD_DIGITS - digits) times its size.
+"""A number is zero up to rounding if its absolute value is at most 10^(GUARD_DIGITS - digits) s.
 
-The sizes are estimates, because the errors of matrix exponentials and inverses are not known exactly. The
-factor 10^12 is a wide margin for these errors. With 40 digits, 28 digits remain for the decision.
+Here s is an estimate of the size of the numbers that cancelled in the computation (:class:`Sized`), and
+``digits`` is the number of decimal digits of the computation. The sizes are estimates, because the errors of
+matrix exponentials and inverses are not known exactly. The factor 10^12 is a wide margin for these errors.
+With 40 digits, 28 digits remain for the decision.
 """
 
 
@@ -80,7 +82,8 @@ def _sized(x: Scalar) -> Sized:
 class RoundingDomain:
     """The arithmetic of mpmath numbers with ``digits`` decimal digits and with sizes (:class:`Sized`).
 
-    The values are those of :class:`codegen.ir.domain.PreciseDomain`, with the same exceptions.
+    The operations compute the same values and raise the same errors as the operations of
+    :class:`codegen.ir.domain.PreciseDomain`.
     """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
@@ -112,15 +115,16 @@ class RoundingDomain:
         return self._share * x.size
 
     def call(self, function: str, *args: Sized) -> Sized:
-        """Return the value of a scalar function.
+        """Return the value of a scalar function f, with its size (:class:`Sized`).
 
-        The size is |f| + sum_i |df/dx_i| s_i, where s_i is the size of the argument x_i.
+        The size is |f| + sum_i |df/dx_i| s_i, where s_i is the size of the argument x_i. A relative rounding
+        error eps in each number changes f by about eps times the size.
         """
         values = [x.value for x in args]
         value = self.plain.call(function, *values)
         size = abs(value)
         for k, x in enumerate(args):
-            # An exact zero is not moved, because a function such as sqrt changes fast near zero.
+            # If the size s_i of an argument is 0, the argument is exactly zero and its term in the sum is 0.
             if x.size:
 
                 def along(step: Scalar, k: int = k, x: Sized = x) -> tuple[Scalar, ...]:
@@ -132,12 +136,13 @@ class RoundingDomain:
         return Sized(value, size)
 
     def vector(self, function: str, args: Sequence[Sized]) -> tuple[Sized, ...]:
-        """Return the results of a vector function.
+        """Return the results of a vector function, with their sizes (:class:`Sized`).
 
-        The size of a result is its absolute value plus the absolute value of a difference quotient. In the
-        difference quotient, all arguments change at the same time, because one difference quotient for each
-        argument would be expensive. The arguments change by different multiples of their sizes. With equal
-        multiples, the changes of x and y could cancel in a result such as x - y.
+        The size of a result r is |r| + |q|. The difference quotient q estimates the effect of the rounding
+        errors of the arguments on r. In the difference quotient, all arguments change at the same time,
+        because one difference quotient for each argument would be expensive. The arguments change by
+        different multiples of their sizes. With equal multiples, the changes of x and y could cancel in a
+        result such as x - y.
         """
         values = [x.value for x in args]
         results = self.plain.vector(function, values)
@@ -157,7 +162,10 @@ class RoundingDomain:
         return self.plain.settled([x.value for x in old], [x.value for x in new], previous)
 
     def _moved(self, along: Callable[[Scalar], tuple[Scalar, ...]], values: Sequence[Scalar]) -> list[Scalar]:
-        """Return the absolute derivatives of ``along`` at 0. ``values`` are its values at 0."""
+        """Estimate the absolute values of the derivatives at 0 of the results of ``along``.
+
+        ``values`` are the results of ``along`` at 0.
+        """
         # At the edge of its domain, such as 1 for acos, a function has values on one side only.
         for step in (self._shift, -self._shift):
             try:
@@ -166,5 +174,5 @@ class RoundingDomain:
                 continue
             if all(isinstance(x, self.context.mpf) and self.context.isfinite(x) for x in moved):
                 return [abs(a - b) / self._shift for a, b in zip(moved, values, strict=True)]
-        # No value could be computed nearby, so only the rounding error of the function itself is known.
+        # Neither step gave a difference quotient. The absolute value of each result replaces its derivative.
         return [abs(x) for x in values]

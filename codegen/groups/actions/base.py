@@ -22,7 +22,7 @@ class Action(ABC):
 
     - ``name`` is printed in messages and in the headers of emitted code.
     - ``needs`` is the capability that the group must have (:mod:`codegen.groups.capabilities`).
-    - ``on_itself`` is true if y contains the coordinates of an element of the group.
+    - ``on_itself`` is true if the manifold is the group itself, so that each point y is a group element.
     """
 
     name: str
@@ -67,10 +67,10 @@ class Action(ABC):
         """Return x.y, the derivative of exp(eps x).y at eps = 0. Here x is an element of the algebra."""
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return an approximate projection of y onto the orbit of ``start``.
+        """Return an approximate projection of y onto the orbit of ``start``, or y if there is no projection.
 
-        If the distance of y from the orbit is eps, the distance of the projection from the orbit is O(eps^2).
-        The method of this base class returns y.
+        This base class has no projection. The projection of a subclass maps a point at the distance eps from
+        the orbit to a point at the distance O(eps^2) from the orbit.
         """
         return y
 
