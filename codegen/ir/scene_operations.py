@@ -287,7 +287,7 @@ class SiteFlowOf(Operation):
         raise ArithmeticError("the flow of a lattice changes all sites and is not defined for a single site")
 
 
-# In :class:`FlowOf` the duration is a fixed multiple of h, not an argument.
+# The duration is an argument here, whereas the duration of :class:`FlowOf` is a fixed multiple of h.
 @dataclass(frozen=True)
 class FlowFor(Operation):
     """The state after the exact flow of one term of the Hamiltonian.

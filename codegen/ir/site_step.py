@@ -75,8 +75,8 @@ class Sweep:
       first half of ``stores`` contains the rows for the first site. The second half contains the rows for the
       second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
-      values g(u). In fixed-point iteration, the sweep stores g(u). In Newton's method, the sweep stores
-      the difference g(u) - u.
+      values g(u). In Newton's method, the sweep subtracts u from these outputs, and stores the differences
+      g(u) - u. In fixed-point iteration, the sweep stores the outputs unchanged.
     - ``measured`` is empty, or contains two rows for the stopping test of fixed-point iteration. For each
       site, the first row contains the largest change of the unknowns of this site. The second row contains
       the largest absolute value of the unknowns of this site.
@@ -225,7 +225,8 @@ class SiteStep:
     - ``dimension`` is the dimension of the lattice. ``offsets[k]`` is the position of neighbour k relative to
       a site.
     - ``sweeps`` are the loops over all sites. If ``flows`` is empty, the step executes the sweeps in the
-      order of the tuple. Otherwise, the step executes one sweep for each flow, in the order of ``flows``.
+      order of the tuple. Otherwise, the step executes for each flow in ``flows`` the sweep with the index
+      :attr:`SiteFlow.sweep`. A sweep may belong to several flows.
     - ``size`` is the number of rows of the state.
     - ``rows`` is the number of rows of the workspace for intermediate results.
     - ``flows`` are the exact flows of a splitting method, in the order of execution. The first flow reads the
@@ -280,7 +281,7 @@ class SiteStep:
         return tuple(sweep for k, sweep in enumerate(self.sweeps) if k not in repeated)
 
     def repeated(self, block: SiteBlock) -> tuple[Sweep, ...]:
-        """Return the sweeps of one iteration for the equations of ``block``."""
+        """Return the sweeps (loops over all sites) that each iteration for ``block`` executes."""
         return self.sweeps[block.first : block.last + 1]
 
     @property

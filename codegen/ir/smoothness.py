@@ -81,14 +81,14 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         return function.on_interval(domain, x, side), margins
     # Each tuple contains the formulas for x <= 0 and for x > 0, in this order.
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
-    # The formula ``value`` is valid if the margin is positive.
+    # The formula ``value`` is valid if the second result (x or -x) is positive.
     return value, [x if side else -x]
 
 
 def features(roots: Sequence[Expr]) -> str:
-    """Return a text that lists the selections and the calls of ``atan2`` in the expressions ``roots``.
+    """List the calls of ``choose``, ``fabs``, ``atan2`` and piecewise polynomials in ``roots``.
 
-    If nothing is found, the text is empty.
+    ``roots`` are expressions. The list is returned as a text. If there are no such calls, the text is empty.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space()

@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StatedStep(Operation):
-    """The operation that computes the point M y after a step.
+    """The operation that maps the point y before a step to the point M y after the step.
 
-    The arguments are the point y and the time t before the step. The user's problem defines the matrix M by a
-    formula with the name ``step``.
+    The arguments are y and the time t before the step. The user's problem defines the matrix M by a formula
+    with the name ``step``.
     """
 
     step: str
@@ -28,7 +28,7 @@ class StatedStep(Operation):
     noun = "stated step{s}"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by ``step`` in parentheses."""
+        """Return the name of the operation, followed by the value of ``self.step`` in parentheses."""
         return f"{self.name}({self.step})"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:

@@ -1,4 +1,4 @@
-"""The order of additions in a sum of a large number and small corrections."""
+"""The order of additions in a sum of one large term and two small corrections."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from codegen.ir.domain import Domain, Scalar
 
 
 class ShortChains:
-    """Base class of domains in which corrections are added to the base one after the other."""
+    """Base class of domains in which :func:`corrected` adds its two corrections one after the other."""
 
 
 def corrected(d: Domain, base: Scalar, first: tuple[Scalar, Scalar], second: tuple[Scalar, Scalar]) -> Scalar:

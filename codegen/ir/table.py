@@ -24,7 +24,8 @@ PREFIX = "table_"
 class PiecewisePolynomial(str):
     """A piecewise polynomial in x. The object is also a string, the name of the polynomial.
 
-    The increasing numbers ``knots`` divide the real line into intervals. Interval k begins at
+    The increasing numbers ``knots`` divide the real line into intervals. Interval 0 ends before ``knots[0]``,
+    and the last interval begins at the last knot. Each interval k between these two begins at
     ``knots[k - 1]`` and ends before ``knots[k]``. On interval k, the polynomial is the sum over j of
     ``rows[k][j]`` (x - ``bases[k]``)^j.
 

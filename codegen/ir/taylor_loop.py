@@ -139,7 +139,8 @@ class _Loop:
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
-        # The symbol ``LINEAR`` denotes coefficient n of the time, which is 1 for n = 1, and 0 for n > 1.
+        # The symbol ``LINEAR`` denotes the n-th Taylor coefficient of the time t. This coefficient is 1 for
+        # n = 1, and 0 for n > 1.
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
@@ -183,7 +184,7 @@ class _Loop:
 
     def inner(self, a: Series, b: Series) -> Expr:
         """Return the symbol for the inner sum of a and b, the sum of a_j b_{n-j} over 0 < j < n."""
-        # The inner sum of a and b is equal to the inner sum of b and a, so both get the same key.
+        # If a and b are exchanged, the sum does not change. Therefore (a, b) and (b, a) get the same key.
         key = min(id(a), id(b)), max(id(a), id(b))
         if key not in self.places:
             self.places[key] = len(self.pairs)
@@ -206,7 +207,7 @@ class _Loop:
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
     def built(self, series: Series) -> Expr:
-        """Return the expression for coefficient n of ``series``."""
+        """Return the expression that computes coefficient n of ``series`` in pass n of the emitted loop."""
         space = self.space
         match series:
             case Sum(a=a, b=b, minus=minus):
@@ -239,10 +240,9 @@ class _Loop:
                 return self.function(series)
 
     def function(self, series: Series) -> Expr:
-        """Return the expression for coefficient n of ``series``, which is a function of other series.
+        """Return the expression that computes coefficient n of ``series`` in pass n of the emitted loop.
 
-        The symbol n denotes the loop variable of the emitted code. Examples of functions are the square root,
-        the powers and the sine.
+        ``series`` must be a function of other series, for example a square root, a power or a sine.
         """
         space = self.space
         match series:
@@ -267,8 +267,8 @@ class _Loop:
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
                 pairs = zip(slopes, rates, strict=True)
-                # ``means`` has no entry for a constant coordinate, because the derivative of the coordinate
-                # is zero.
+                # If x or y is constant, the derivative of x or y is zero. Therefore the term with this
+                # derivative is omitted.
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])

@@ -59,7 +59,8 @@ class Given(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return None. All nonzero coefficients of a ``closed`` series are already in ``terms``."""
-        # The series of a coordinate is not ``closed``: its coefficients are appended one by one.
+        # A coefficient of a coordinate must be appended before it is read. Therefore the series of a
+        # coordinate is not ``closed``, and the assertion fails if the coefficient is missing.
         assert self.closed, f"coefficient {n} is unknown"
         return None
 
@@ -86,7 +87,7 @@ class Multiple(Series):
         self.a, self.number = a, number
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the product: c times coefficient n of a."""
+        """Return c a_n, where c is ``self.number``, and a_n is coefficient n of the series ``self.a``."""
         return _scaled(self.domain, self.number, self.a.term(n))
 
 
@@ -194,7 +195,10 @@ class Square(Series):
 
 
 class Slope(Series):
-    """The series s a', where s is the time from the beginning of the step. Coefficient n is n a_n."""
+    """The series s a' for a series a, where s is the time from the beginning of the step.
+
+    Coefficient n of s a' is n a_n, where a_n is coefficient n of a.
+    """
 
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
@@ -229,7 +233,7 @@ class Logarithm(Series):
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
         self.a = a
-        # The logarithm l of a satisfies the differential equation a l' = a'.
+        # The logarithm l = log(a) satisfies the differential equation a l' = a'.
         self.slope = Slope(domain, self)
         self.inverse: Scalar = None
 
@@ -267,8 +271,8 @@ class Antiderivative(Series):
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # ``_mean`` does not read coefficient n of ``self.rate``, because this coefficient may depend on the
-        # result.
+        # Coefficient n of ``self.rate`` may depend on coefficient n of f(a), which is not known yet.
+        # ``_mean`` reads only lower coefficients of ``self.rate``.
         return _mean(self.domain, self.slope, self.rate, n)
 
 

@@ -64,8 +64,8 @@ class TimeMomentum(Operation):
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")
         inputs = {"y": point, "t": time}
-        # ``_increment`` differentiates ``end`` with respect to t for fixed y: the symbols in ``point`` do not
-        # depend on t.
+        # The point y consists of symbols that do not depend on t. Therefore ``_increment`` differentiates
+        # ``end`` with respect to t for fixed y.
         end = interpret(self.step, problem, formal, inputs)["y"]
         values = problem.values(domain, start, t) | {"h": domain.h}
         return evaluate([_increment(end[:-1], time)], domain, values)[0]

@@ -85,9 +85,10 @@ class SpecialUnitaryExponential(VectorFunction):
         return {"add": 110, "mul": 120}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivatives of the results, computed with real 6 x 6 matrices.
+        """Return the derivatives of the real parts and of the imaginary parts of all entries of exp X.
 
-        ``args`` are the coordinates of X, and ``rates`` are their derivatives.
+        ``args`` are the coordinates of X, and ``rates`` are their derivatives. The computation uses real
+        6 x 6 matrices.
         """
         zero = args[0].space.zero
         # Since ``embedded`` is linear, ``embedded(rates, zero)`` contains the derivatives of the matrix
@@ -204,7 +205,7 @@ def determinant(x: Sequence[Any]) -> Any:
     middle = x[7] - x[6]
     # The determinant contains the product H_12 H_23 H_31 and its complex conjugate.
     product = (b * f - a * e) * d + (a * f + b * e) * c
-    # Let d_j be the diagonal entries of H. The remaining terms of the determinant are
+    # Let d_j be the diagonal entries of H. The sum of all terms with diagonal entries is
     # d_1 d_2 d_3 - d_1 |H_23|^2 - d_2 |H_13|^2 - d_3 |H_12|^2.
     diagonal = first * (middle * last - (e * e + f * f)) - middle * (c * c + d * d)
     return (product + product) + (diagonal - last * (a * a + b * b))
@@ -220,7 +221,7 @@ def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
     middle = x[7] - x[6]
     # ``ab``, ``cd`` and ``ef`` are |H_12|^2, |H_13|^2 and |H_23|^2.
     ab, cd, ef = a * a + b * b, c * c + d * d, e * e + f * f
-    # The trace of H is zero, so H_jj + H_kk is minus the third diagonal entry.
+    # The trace of H is zero, so the sum of two diagonal entries of H is minus the remaining diagonal entry.
     return (
         *(first * first + (ab + cd), middle * middle + (ab + ef), last * last + (cd + ef)),
         *((d * f + c * e) - last * b, last * a + (d * e - c * f)),

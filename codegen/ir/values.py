@@ -64,8 +64,8 @@ class Coefficient:
     def evaluate(self, domain: Domain) -> Scalar:
         """Return the coefficient as a scalar of ``domain``, for example as a double or a power series."""
         value = domain.number(self.value)
-        # The loop multiplies ``value`` by h^``power``. In emitted code, terms with equal coefficients share
-        # this product.
+        # The loop computes ``value`` h^``power``. The emitted code computes this product only once for all
+        # terms with the same ``value`` and the same ``power``.
         for _ in range(self.power):
             value = domain.h * value
         return value

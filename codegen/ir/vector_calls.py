@@ -1,6 +1,7 @@
 """The names of vector functions (functions whose result is an array).
 
-The first number in a name is the number of rows of the matrix. The following names are examples:
+The functions compute with square matrices. The first number in a name is the number of rows of these
+matrices. The following names are examples:
 - ``expm3`` is the matrix exponential, and ``expm3_d1`` is the exponential together with its derivative.
 - ``inverse5`` is the inverse of a matrix.
 - ``product5`` is the product of two matrices, and ``commutator5`` is the commutator of two matrices.

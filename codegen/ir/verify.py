@@ -53,8 +53,8 @@ class _Verifier:
             # The embedded solution must have the same kind as the input ``y``.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(
-                    f"{self.program.name}: the output {name} requires an input of the same name "
-                    f"(y for the embedded solution) and of the same kind {var.kind}"
+                    f"{self.program.name}: the output {name} requires an input of kind {var.kind}: for the "
+                    "embedded solution the input y, for every other output the input of the same name"
                 )
 
     def define(self, var: Var, at: str | Assign) -> None:

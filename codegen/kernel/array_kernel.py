@@ -266,7 +266,8 @@ class _Builder:
         products, halved = Matrix(f"{name} gram", k, k), Matrix(f"{name} correction", k, k)
         self.body.append(Multiplication(products, x, w, True))
         # Let V be the value of the vector field at the point X. The next two statements compute the matrix
-        # W = V - X (X^T V)/2. The matrix W X^T - X W^T maps X to V.
+        # W = V - X (X^T V)/2. Since X^T X is the unit matrix and X^T V is skew-symmetric, the matrix
+        # W X^T - X W^T maps X to V.
         self.sum(halved, (self.domain.rational(-1, 2), products))
         self.body.append(Multiplication(w, x, halved, added=True))
         self.blocks += 1
@@ -336,16 +337,16 @@ class _Builder:
 
         Smaller matrices are extended by zeros to the size of the largest matrix.
         """
-        # A smaller matrix S uses only the first columns of the basis B. The appended zeros multiply the other
-        # columns of B, so the product B S B^T does not change.
+        # A smaller matrix S belongs to the first columns of the basis B. ``self.sum`` extends S by zeros for
+        # the other columns of B, so the product B S B^T does not change.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
-        """Append statements that compute the bracket of the matrices B x B^T and B y B^T.
+        """Append statements that compute a matrix S, and return S.
 
-        B is the matrix ``self.basis``, and the matrices x and y are skew-symmetric. The bracket is the matrix
-        B S B^T, where S = N - N^T and N = x B^T B y. The result is S.
+        Let B be the matrix ``self.basis``. The matrices x and y are skew-symmetric, and S is N - N^T, where
+        N = x B^T B y. The matrix B S B^T is the bracket of the matrices B x B^T and B y B^T.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
         # The sizes of x, G and y do not depend on the number of rows of the state, so x G y is cheap.
@@ -362,9 +363,9 @@ class _Builder:
     def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
         """Append statements that compute dexp^{-1}_x y by its series, and return the result.
 
-        The series is truncated after the term with ``order`` nested brackets. Each of the matrices x, y and
-        the result represents an element of the Lie algebra: with B = ``self.basis``, a matrix S represents
-        the element B S B^T.
+        The series is truncated after the term with ``order`` nested brackets. Let B be the matrix
+        ``self.basis``. The element B x B^T of the Lie algebra is represented by the matrix x. In the same
+        way, the matrix y and the returned matrix represent elements of the Lie algebra.
         """
         terms, power = [(self.one, y)], y
         # With the Bernoulli numbers B_k, dexp^{-1}_x y is y + B_1/1! [x, y] + B_2/2! [x, [x, y]] + ....

@@ -58,8 +58,9 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # ``run`` contains successive flows that one sweep applies. Two runs with the same flows share a sweep
-        # if the durations in one run are proportional to the durations in the other run.
+        # ``run`` contains successive flows that one sweep applies. If a later run contains the same flows
+        # with proportional durations, no new sweep is created: the step executes the existing sweep again,
+        # with the durations of the later run.
         first, moment = run[0][2:]
         ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)

@@ -100,8 +100,8 @@ class Frames:
         If the two kernels are not needed, the result is None.
         """
         # If ``_alike`` is true, the program and the emitted code use the same frame, and no momentum is
-        # converted. If ``whole`` is true, or if the emitted code uses the body frame (``body_group`` is not
-        # None), each step converts the momentum.
+        # converted. Otherwise, each step converts the momentum if ``whole`` is true, or if the emitted code
+        # uses the body frame (``body_group`` is not None).
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

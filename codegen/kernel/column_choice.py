@@ -50,10 +50,10 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     # flows and ``scene.group`` is not a group T*G, all variants give the same kernel.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # A deferred flow is applied only once in a run. A scene with run-time inputs has no deferred flows,
+    # ``part`` moves deferred flows out of the steps. A scene with run-time inputs has no deferred flows,
     # because the inputs can change in each step.
     parted = None if scene.inputs else part(program, scene)
-    # The cost of the deferred flows is neglected, because a run has many steps.
+    # The cost of the deferred flows is neglected, because they are applied only once for many steps.
     core = program if parted is None else parted.core
     # The costs of complete steps are compared, because different operations can share subexpressions.
     candidates: list[tuple[Kernel, Problem, int]] = []

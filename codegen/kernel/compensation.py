@@ -83,8 +83,8 @@ def with_carries(kernel: Kernel) -> Kernel:
         state=(*kernel.state, *fields),
         body=_live(body, (*sums, *carries)),
         outputs=(*sums, *carries),
-        # Only the steps of a run update the stored rounding errors. Therefore no flow is moved out of the
-        # steps: the compensated kernel has no deferred flows.
+        # A flow outside of the steps would change the state without an update of the stored rounding errors.
+        # Therefore the compensated kernel has no deferred flows.
         deferred=None,
         estimate=None,
         vary=None,
@@ -153,7 +153,7 @@ class Increments:
         return None
 
     def less_one(self, f: Expr) -> Expr | None:
-        """Return f - 1, or None if f does not have the form 1 + increment."""
+        """Return an expression for f - 1 without cancellation, or None if no such expression is found."""
         if f.id not in self.factors:
             self.factors[f.id] = self._less_one(f)
         return self.factors[f.id]

@@ -35,11 +35,14 @@ as the value 1. An infinite value would change the code of the splitting methods
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products s k v c, as a dictionary from c to (s, k, v).
+"""A sum of products. Each product has four factors:
 
-The sign s is 1 or -1. The factor k is constant in a run, and the factor v may vary in a run. The factor c
-depends on a longer chain of slow operations (:data:`ATOMS`) than k and v. If a product has no factor c, its
-key is None.
+- the sign s, which is 1 or -1,
+- a factor k that is constant in a run,
+- a factor v that may vary in a run, and
+- a factor c that depends on a longer chain of slow operations (:data:`ATOMS`) than k and v.
+
+The dictionary maps c to (s, k, v). If a product has no factor c, its key is None.
 """
 
 
@@ -133,7 +136,8 @@ class _Chains:
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # ``_make`` does not simplify, because a simplification would change the rounding errors.
+            # ``_make`` is used in place of operators such as +, because an operator could simplify the
+            # expression and so change its rounding errors.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
@@ -159,8 +163,8 @@ class _Chains:
                 # For a square ``arg * arg``, ``others`` is empty.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # A product counts as linear in ``arg`` only if ``arg`` depends on a longer chain of slow
-                # operations (:data:`ATOMS`) than the other factor.
+                # For a product, ``linear`` is true only if ``arg`` is the factor that depends on the longer
+                # chain of slow operations (:data:`ATOMS`). A product is expanded only in this factor.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
@@ -205,8 +209,8 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # ``node`` is not expanded. In the notation s k v c of :data:`Sum`, the only term has s = k = v = 1,
-        # and c is the expression that replaces ``node``.
+        # ``node`` is not expanded, so the sum has only one product. The key of this product is the expression
+        # that replaces ``node``, and all other factors are 1.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:

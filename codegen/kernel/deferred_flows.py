@@ -24,7 +24,7 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Parted:
-    """Programs for the beginning, the steps and the end of a run, and the durations of joined flows.
+    """The flows of a run, divided into programs for the beginning, the steps and the end of the run.
 
     A joined flow replaces a flow at the end of a step and a flow at the beginning of the next step. A
     deferred flow is a flow that commutes with all other flows. The steps omit the deferred flows. Instead,
@@ -51,7 +51,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     """Split the program of a splitting method into programs for the start, the steps and the end of a run.
 
     The result is None if the program is not a composition of flows. The result is also None if no flow can be
-    moved out of the steps, or if all flows can be moved out of the steps.
+    joined or deferred (:class:`Parted`). If all flows could be deferred, the steps would be empty, and the
+    result is None, too.
     """
     letters = word(program)
     if letters is None:
@@ -69,7 +70,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # All joined flows have the same duration ``later``, and the same duration ``last`` in the last step.
+    # All entries of ``joined`` contain the same two durations: ``last`` is the duration in the last step of a
+    # run, and ``later`` is the duration in all other steps.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     # The flows ``tails`` at the end of a step are joined with the flows ``heads`` of the next step.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}

@@ -75,11 +75,12 @@ ZERO = Number.rational(0)
 
 @dataclass(frozen=True)
 class _Element:
-    """The vector field u -> h^power (a lambda u + b), where u is the coefficient of one Fourier mode.
+    """The vector field u -> h^m (a lambda u + b), where u is the coefficient of one Fourier mode.
 
-    The number lambda is the eigenvalue of the linear operator L for this mode. The term b is a linear
-    combination of values of the nonlinearity N. The attribute ``b`` contains the coefficients of this linear
-    combination.
+    - The number lambda is the eigenvalue of the linear operator L for this mode.
+    - The attribute ``a`` is the number a, and the attribute ``power`` is the exponent m.
+    - The term b is a linear combination of values of the nonlinearity N. The attribute ``b`` contains the
+      coefficients of this linear combination.
     """
 
     a: Number
@@ -271,8 +272,9 @@ class _Execution:
         """Record an evaluation of the nonlinearity N at ``point`` and ``time``."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # Let N_j be the value of N in the evaluation that was just recorded, where j is the index of this
-        # evaluation. The ``_Element`` with a = 1, b = N_j and power = 0 is the vector field lambda u + N_j.
+        # Let N_j be the value of N in the evaluation that was just recorded. The result represents the vector
+        # field u -> lambda u + N_j. The dictionary maps the index j of the evaluation to 1, the coefficient
+        # of N_j.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
@@ -281,8 +283,8 @@ class _Execution:
         return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
 
     def _product(self, g: _Map, k: _Map) -> _Map:
-        # The map g is u -> exp(g.a z) u + h g.b with z = h lambda, and k is a map of the same form. Therefore
-        # g(k(u)) = exp((g.a + k.a) z) u + h (exp(g.a z) k.b + g.b).
+        # Let g(u) = exp(a z) u + h b and k(u) = exp(c z) u + h d, where z = h lambda. Then
+        # g(k(u)) = exp((a + c) z) u + h (exp(a z) d + b).
         return _Map(g.a + k.a, _sum([(_constant(ONE), g.b), (Multiplier.of(EXP, g.a), k.b)]))
 
     def _moved(self, g: _Map, point: Sum) -> Sum:

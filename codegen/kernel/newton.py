@@ -24,11 +24,12 @@ For larger matrices, Gaussian elimination takes fewer operations.
 """
 
 LEAST_NUMERATOR = 2**50
-"""The number m in the test |a_1 + ... + a_n| <= (|a_1| + ... + |a_n|)/m for a numerator a_1 + ... + a_n.
+"""The number m in a test for rounding errors in quotients whose divisor is zero at h = 0.
 
-If the test is true, the numerator counts as a rounding error and is replaced by zero. The number of
-terms is small, so the rounding error of their sum is at most a few times 2^-53 (|a_1| + ... + |a_n|). Here
-2^-53 is the unit roundoff.
+If the numerator a_1 + ... + a_n of such a quotient satisfies |a_1 + ... + a_n| <= (|a_1| + ... + |a_n|)/m,
+the numerator counts as a rounding error and is replaced by zero. The number of terms is small, so the
+rounding error of their sum is at most a few times 2^-53 (|a_1| + ... + |a_n|). Here 2^-53 is the unit
+roundoff.
 """
 
 Rows = tuple[tuple[Expr, ...], ...]
@@ -80,7 +81,8 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     h = space.sym("h")
     # ``slopes`` are the derivatives of ``images`` with respect to h.
     slopes = [row[0] for row in jacobian(images, ["h"])]
-    # ``images`` and ``slopes`` share subexpressions, so one call inserts h = 0 in both lists.
+    # One call inserts h = 0 in both lists, so that subexpressions of both ``images`` and ``slopes`` are
+    # evaluated only once.
     values = _at_zero(space, [*images, *slopes])
     # Higher powers of h are dropped, because Newton's method needs only an approximate matrix.
     n = len(images)

@@ -157,11 +157,11 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # The end of a run needs two more additions for each component of the momentum.
+        # Let m be the caller's space momentum. At the start, a run converts m to the body momentum, and the
+        # body momentum back to a space momentum m_0. At the end, the run converts the new body momentum to a
+        # space momentum m_1. The result m + (m_1 - m_0) needs two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
-        # At the start, a run converts the space momentum to the body momentum and back. At the end, the run
-        # converts the new body momentum to the space momentum. The difference of the two computed space
-        # momenta is added to the caller's momentum.
+        # The first text counts the operations at the start of a run, and the second text those at the end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the start of a run, {last} at the end of a run")

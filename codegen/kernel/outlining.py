@@ -86,8 +86,8 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # An input of a tree may be a symbol that simplification removed from the expressions. Emitted
-            # code does not compute this symbol, so the tree is not replaced by a call.
+            # If a simplification such as x - x = 0 removed an input of a tree, ``roots`` do not contain this
+            # input, and emitted code does not compute it. Therefore the tree is not replaced by a call.
             added = _symbols(rewritten_roots) - _symbols(roots)
             if added:
                 called = [tree for alike in chosen.values() for tree in alike]
@@ -113,7 +113,8 @@ class Outline:
     ) -> tuple[list[Expr], dict[str, Shape]]:
         """Create one function for each entry of ``chosen``.
 
-        Return the expressions ``roots`` with calls of these functions, and the shape of each function.
+        In the expressions ``roots``, replace the trees in ``chosen`` by calls of these functions. Return the
+        new expressions, and the shape of each function.
         """
         # Functions from an earlier call of this method are discarded.
         self.outlined.clear()
@@ -189,8 +190,8 @@ class Outline:
         waiting = list(roots)
         while waiting:
             # A tree is a group of assignments that a function call can replace. The keys of ``ends`` are the
-            # ids of the results of all trees. ``walk`` stops at these results, because the operations of a
-            # tree would be inside the function.
+            # ids of the results of all trees. ``walk`` stops at these results, because the function will
+            # contain the operations of the tree. The search continues at the inputs of the tree.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]

@@ -24,8 +24,8 @@ NEVER = (Advance, Zero, Identity, *FLOWS)
 NODES = 3
 """To estimate the length of emitted code, NODES operations are counted as one line.
 
-NODES is the average for the methods of the gallery. NODES = 2 and NODES = 5 give the same files in
-``generated/`` as NODES = 3.
+For the methods of the gallery, a line of emitted code contains NODES operations on average. NODES = 2 and
+NODES = 5 give the same files in ``generated/`` as NODES = 3.
 """
 
 Values = tuple[Expr, ...]
@@ -150,8 +150,8 @@ class Trees:
                 # ``owner`` does not contain the assignments for which ``may_join`` is false.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # Two pairs are equal only if their second trees use the results of the first trees in the
-                    # same way.
+                    # The keys of trees i and j do not say which arguments of tree j are results of tree i.
+                    # Therefore the key of a pair also contains the key of the joined tree.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
             # The choice is greedy: the pair that saves the most lines is joined first.
@@ -183,10 +183,10 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # ``count[first]`` is the number of trees with the key ``first``. If this number exceeds ``k``, at
-        # least one of these trees is not joined. The lines of code for a tree with this key are then emitted
-        # twice: in a function for the trees that are not joined, and in the function for the joined trees.
-        # The same is true for ``second``.
+        # ``k`` is the number of pairs, and ``count[first]`` is the number of trees with the key ``first``. If
+        # ``count[first]`` exceeds ``k``, at least one of these trees is in no pair and is not joined. The
+        # lines of code for a tree with this key are then emitted twice: in a function for the trees that are
+        # not joined, and in the function for the joined trees. The same is true for ``second``.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # A function call takes about three lines. Joining the two trees of a pair replaces two calls by one,
         # so each of the ``k`` pairs saves three lines.
@@ -268,7 +268,8 @@ class Trees:
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
             # Trees that differ only in the values of coefficients can share a function, so they need equal
-            # keys. A ``Linear`` operation contains the values of its coefficients, so it is omitted.
+            # keys. A ``Linear`` operation contains the values of its coefficients, so the key contains None
+            # in place of this operation.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
@@ -315,7 +316,8 @@ class Trees:
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
     """Return a pair (label, k) for each coefficient c h^k.
 
-    The coefficient 1 has the label 0. Two coefficients have the same label only if both c and k are equal.
+    The coefficient 1 has the label 0. Equal coefficients have equal labels, and different coefficients have
+    different labels.
     """
     seen: dict[Coefficient, int] = {}
     # Equal coefficients of a sum share one argument of the outlined function. The coefficient 1 is not an

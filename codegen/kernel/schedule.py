@@ -234,7 +234,7 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
     if isinstance(statement, Let):
         return [statement.value]
     # For a :class:`Loop`, the result contains the starting values of the unknowns. For a :class:`Start`, the
-    # result is empty, because a step may skip this statement.
+    # result is empty: some steps skip a :class:`Start`, so its expressions have a scope of their own.
     return statement.starts if isinstance(statement, Loop) else []
 
 
@@ -319,20 +319,21 @@ class _Scope:
         return inner
 
     def expect(self, expressions: list[Expr]) -> None:
-        """Record the Stumpff functions in ``expressions``, grouped by argument."""
+        """Record the indices of the Stumpff functions that occur in ``expressions``, grouped by argument."""
         needed: dict[int, list[int]] = {}
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # The indices are sorted, because they form names of functions such as ``stumpff_12``.
+        # The indices are sorted, so that the function for c_1 and c_2 is always ``stumpff_12``, and never
+        # ``stumpff_21``.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        If ``kept`` is true, the last statement assigns ``let.name``. If ``kept`` is false, this assignment is
-        omitted for a value that a function call returns. In this case, :meth:`rewrite` replaces ``let.name``
-        by the name of the returned value.
+        The last statement assigns ``let.name``, with one exception. If ``kept`` is false and the value is a
+        result of a function call, no statement assigns ``let.name``. In this case, :meth:`rewrite` replaces
+        ``let.name`` by the name of the result.
         """
         value = self.rewrite(let.value)
         before = self.take()
@@ -390,8 +391,7 @@ class _Scope:
     def _results(self, node: Expr) -> int | None:
         """Return the number of results of the function that ``node`` calls.
 
-        The function must be a vector function or a function in ``self.outlined``. For all other functions,
-        None is returned.
+        If the function is neither a vector function nor in ``self.outlined``, the result is None.
         """
         vector = component(node.payload)
         return self.outlined.get(node.payload.partition(".")[0]) if vector is None else vector[0].size

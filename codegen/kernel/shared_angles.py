@@ -67,6 +67,6 @@ class SharedArguments(ExprDomain):
         for known, first in self.arguments:
             if known == polynomial:
                 return first
-        # ``argument`` will replace all later arguments with an equal polynomial.
+        # If a later argument has the same polynomial, it will be replaced by ``argument``.
         self.arguments.append((polynomial, argument))
         return argument

@@ -191,8 +191,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # The dictionary ``self.ghosts`` has one value for each name. If ``self.ghosts`` and the argument
-        # ``ghosts`` contain different values for a name, all names in ``loaded`` are replaced by new names.
+        # The dictionary ``self.ghosts`` can store only one value for each name. If it already contains a
+        # different value for one of the names in ``loaded``, all components of ``var`` get new names.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}

@@ -1,7 +1,7 @@
 """Translates programs to sweeps over the sites of a lattice (:mod:`codegen.ir.site_step`).
 
-The field reads the states of neighbours. Therefore one sweep stores the points at which the field is
-evaluated, and the next sweep evaluates the field.
+The value of the field at a site depends on the states of neighbouring sites. Therefore one sweep stores the
+arguments of the field for all sites, and the next sweep evaluates the field.
 """
 
 from __future__ import annotations
