@@ -1,8 +1,8 @@
 """Distributes the assignments of a program among sweeps over the sites of a lattice.
 
-If the field reads a value at neighbours, an earlier sweep stores the value at all sites. An implicit method
-solves equations u = g(u) by iteration, and every iteration executes the same sweeps. The value g(u) is called
-the image of the unknown u.
+A sweep is a loop over all sites. If the field reads a value at neighbours, one sweep stores the value at all
+sites, and a later sweep evaluates the field. An implicit method solves equations u = g(u) by iteration, and
+every iteration executes the same sweeps. The value g(u) is called the image of the unknown u.
 """
 
 from __future__ import annotations
@@ -60,9 +60,10 @@ class _Block:
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
         """Return pairs (unknown, new value) for the sweep with the index ``number``.
 
-        For ``number`` = ``first`` - 1, the sweep precedes the iterations, and the new values are the starting
-        values ``solve.starts``. For ``number`` = ``last``, the sweep is the last one of an iteration, and the
-        new values are ``solve.images``. For all other sweeps, the result is empty.
+        Each iteration executes one or more sweeps (loops over all sites). The sweep
+        ``first`` - 1 precedes the first iteration, and its new values are the starting values
+        ``solve.starts``. The sweep ``last`` ends each iteration, and its new values are ``solve.images``. For
+        all other sweeps, the result is empty.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -106,7 +107,7 @@ class Planner:
             # it also reads the old values.
             need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
         count = self._store(needs)
-        # Only the stopping rule of fixed-point iteration needs rows of the workspace.
+        # Variables occupy ``count`` rows. The stopping rule of fixed-point iteration needs additional rows.
         measured = MEASURED if self.blocks and not self.newton else 0
         sweeps = tuple(
             self._sweep(k, need, outputs if k == last else (), needs[k + 1 :], count)
@@ -188,7 +189,7 @@ class Planner:
             solve = self._without_renamed(statement)
             inside = {t for assign in solve.body for t in assign.targets} | set(solve.unknowns)
             read = {v for assign in solve.body for v in assign.args} - inside
-            # Before the first iteration, a sweep stores all values that the equations read.
+            # Values that the equations read must be stored in sweeps (loops over all sites) before ``first``.
             first = 1 + max([least, *(self.sweep_of[v] for v in (*solve.starts, *read))])
             self.sweep_of |= dict.fromkeys(solve.unknowns, first)
             for assign in solve.body:
@@ -310,8 +311,8 @@ class Planner:
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
             # A set has no fixed order, but the workspace layout must be the same in every compilation.
             free = sorted({*free, *ended})
-            # The sweep before ``block.first`` stores the starting values of the unknowns, so the unknowns
-            # need rows from that sweep on.
+            # The sweep with the index ``block.first`` - 1 stores the starting values of the unknowns. So the
+            # unknowns need rows of the workspace from this sweep on.
             begun = [u for block in self.blocks if block.first - 1 == number for u in block.solve.unknowns]
             stored = [v for v in self._ordered(need.computed) if self.sweep_of[v] == number]
             for var in [*begun, *(v for v in stored if used.get(v, -1) > number)]:

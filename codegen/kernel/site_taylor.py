@@ -38,7 +38,7 @@ CALL = 10
 
 @dataclass
 class _Stored:
-    """The expressions that sweeps store, in dictionaries with the ids of the expressions as keys.
+    """The expressions that sweeps store. The keys of all three dictionaries are the ids of the expressions.
 
     - ``writer`` contains the number of the sweep that stores the expression.
     - ``last`` contains the number of the last sweep that reads the expression.
@@ -70,7 +70,7 @@ class TaylorSweeps:
         # The coordinates of the site come first, followed by the coordinates of each neighbour.
         names = [self.symbols, *sites.symbols]
         self.recurrence = self._recurrence([s for own in names for s in own])
-        # For neighbour i outside an open boundary, ``outside[i][k]`` is the Taylor series of coordinate k.
+        # ``outside[i][k]`` is the Taylor series of coordinate k of neighbour i outside an open boundary.
         self.outside: list[list[Series]] = [
             list(map(self.recurrence.series, column)) for column in sites.outside
         ]
@@ -128,12 +128,13 @@ class TaylorSweeps:
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
         """Return the Taylor coefficients ``terms`` of one site, with each None replaced by the expression 0.
 
-        None represents a coefficient that is zero at all sites. In three cases, ``terms`` is returned
-        unchanged:
+        None represents a coefficient that is zero at all sites. ``degree`` is the degree of the coefficients,
+        at least 1. In three cases, ``terms`` is returned unchanged:
 
         - The lattice has no open boundary.
         - Outside the lattice, each coordinate is a constant or a copy of the same coordinate at the boundary
-          site. Then a coefficient that is zero at all sites is also zero outside the lattice.
+          site. Then a coefficient of degree 1 or higher that is zero at all sites is also zero outside the
+          lattice.
         - ``degree`` is the largest degree. No neighbour reads these coefficients.
         """
         if degree == self.degree:
@@ -260,8 +261,8 @@ class TaylorSweeps:
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # ``rows`` contains the rows of the stored expressions. The entry of a row for one site is only
-            # read to compute the values at this site, before these values are stored. Therefore the last
+            # ``rows`` contains the rows of the stored expressions. In these rows, a sweep reads only the
+            # entry of the current site, and stores the values of this site afterwards. Therefore the last
             # sweep that reads a row may also overwrite this row.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]

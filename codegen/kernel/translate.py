@@ -95,8 +95,8 @@ def to_kernel(
 
 class _StepDomain(SharedArguments, ShortChains):
     """The arithmetic of a step. The run time of a step is often the time of its longest chain of operations,
-    so sums have short chains. Loops over many sites are faster than their chains, so their sums do not need
-    short chains.
+    so sums have short chains. Loops over many sites use another domain, because a processor executes the
+    chains of different sites at the same time.
     """
 
 
@@ -208,14 +208,14 @@ class _Translation:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
-            # The last iteration computes g(u) and then improves u, so u is more accurate than g(u). Therefore
-            # later statements read u in place of g(u).
+            # The last iteration computes g(u) for the old value of u, and then a new value of u. The new u is
+            # more accurate than g(u). Therefore later statements read u in place of g(u).
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # The new block must be added after the call of ``enter`` above. ``enter`` calls ``run``, and ``run``
-        # uses the length of ``blocks`` before the addition as the index of the new block.
+        # The new block is added only now, because ``enter`` above must find ``blocks`` without the new block:
+        # the length of ``blocks`` is then the index of the new block (:meth:`run`).
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
@@ -287,7 +287,8 @@ class _Translation:
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         # ``ordered`` is called only once, so outputs and error estimates can share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
-        # LEAD is the duration of the last flow of a splitting step, and ELAPSED is the duration of a run.
+        # LEAD is the duration of the last flow of a splitting step, which may include the first flow of the
+        # next step. ELAPSED is the duration of a run.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),
@@ -307,8 +308,8 @@ class _Translation:
         """
         # ``before`` contains the names that are in use before ``schedule`` creates new names. The kernel
         # contains either the assignments of ``schedule`` or the outlined assignments, but never both.
-        # Therefore outlined assignments may use the names that ``schedule`` has created, and ``self.taken``
-        # is reset to ``before`` when outlining begins.
+        # Therefore variables of ``schedule`` and of outlined assignments may have the same names, and
+        # ``self.taken`` is reset to ``before`` when outlining begins.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()

@@ -77,9 +77,10 @@ class Variations:
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
         """Return the variation of the state after a step.
 
-        ``state`` contains the coordinates of the state after the step. ``rates`` contains their directional
-        derivatives in the direction of the variation of the old state. For each group element g with the
-        derivative v in ``rates``, the result contains the element xi of the Lie algebra with v = xi.g.
+        ``state`` contains the coordinates of the state after the step. For each of these coordinates,
+        ``rates`` contains the directional derivative along the variation of the old state. For each group
+        element g with the derivative v in ``rates``, the result contains the element xi of the Lie algebra
+        with v = xi.g.
         """
         rates_of_end: list[Expr] = []
         for group, symbols in self.parts:

@@ -21,8 +21,8 @@ FUNCTIONS = of_scalars(arb)
 def ambient_field(scene: Problem) -> Evaluate:
     """Return the right-hand side of the differential equation of a scene, as a function of (state, t).
 
-    The parameters of the scene have their default values. Constants are rounded to the working precision at
-    the time of the call.
+    The parameters of the scene have their default values. Constants are rounded in the call of
+    ``ambient_field``, to the working precision at that time.
     """
     return velocity(scene).python(ball, FUNCTIONS)
 

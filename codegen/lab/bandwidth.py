@@ -270,8 +270,9 @@ class _Runs:
     def best(self, side: int) -> float:
         """Return the CPU time in seconds for one site and one step.
 
-        The number of steps is doubled until a run takes at least :data:`RESOLVED` seconds or fails. The time
-        is the shortest time of :data:`REPEATED` runs.
+        The number of steps is doubled until a run takes at least :data:`RESOLVED` seconds or fails. Then
+        :data:`REPEATED` runs are made. The CPU time of the fastest run is divided by the number of sites and
+        by the number of steps.
         """
         steps, sites = 1, side**self.dimension
         status, pace = self.timed(side, steps, 2)

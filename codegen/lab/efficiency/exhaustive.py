@@ -89,7 +89,8 @@ class Exhausted:
         if math.isfinite(self.nearest):
             counts += (
                 "; to test the predictions, a few recipes with long predicted times were measured, too; each "
-                f"took at least {self.nearest:.1f} times as long as the fastest recipe measured before"
+                f"of these recipes took at least {self.nearest:.1f} times as long as the fastest recipe that "
+                "was measured before it"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
 
@@ -135,7 +136,7 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Predict CPU times with a constant step size, for each pair (method, form of the equations)."""
+    """Predict CPU times for each pair (method, form of the equations), for runs with a constant step size."""
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
     jobs = [(recipe, bars) for recipe in recipes]

@@ -90,7 +90,7 @@ def controlled_run(
     """Integrate over the time span with step-size control. Return three values.
 
     - the final state,
-    - the number of accepted and rejected steps,
+    - the total number of attempted steps (accepted steps plus rejected steps),
     - the mean number of sweeps (iterations) for one system of implicit equations in one step.
 
     ``program`` must compute an embedded solution. The error estimate is proportional to the step size to the

@@ -30,25 +30,23 @@ predictions.
 EVEN = 4.0
 """A constant that determines from which queue the next recipe is taken.
 
-All recipes in a queue have the same kind (:data:`Kind`) and the same order. Three numbers are computed for
-each queue:
+All recipes in a queue have the same kind K (:data:`Kind`) and the same order of convergence p. Let T1 be the
+least predicted CPU time of all recipes of the kind K, whatever their order. Let T2 be the least predicted CPU
+time of all recipes. Three numbers are computed for each queue:
 
 - n is the number of recipes that were taken from the queue.
-- Let p be the order of convergence of the recipes in the queue. Then d is the least value of
-  abs(p - usual_order(e)) over all required errors e (:func:`usual_order`).
-- s = log2(T1/T2) is the slowness of the queue. Let K be the kind of the recipes in the queue. T1 is the least
-  predicted CPU time of all recipes of the kind K, whatever their order. T2 is the least predicted CPU time of
-  all recipes.
+- d is the least value of abs(p - usual_order(e)) over all required errors e (:func:`usual_order`).
+- s is log2(T1/T2), which is called the slowness of the queue.
 
 The next recipe comes from the queue with the smallest value of (n + d)/EVEN + s.
 """
 
 FAILED = 4.0
-"""A finite number that replaces log2(T1/T2) if T1 is infinite.
+"""The slowness of a kind of recipes (:data:`Kind`) if all predicted CPU times of this kind are infinite.
 
-Here T1 is the least predicted CPU time of all recipes of one kind (:data:`Kind`), and T2 is the least
-predicted CPU time of all recipes. The number log2(T1/T2) is called the slowness of the kind. The docstring of
-:data:`EVEN` describes the use of the slowness.
+Otherwise, let T1 be the least predicted CPU time of all recipes of the kind, and let T2 be the least
+predicted CPU time of all recipes. Then the slowness is log2(T1/T2). The docstring of :data:`EVEN` describes
+the use of the slowness.
 """
 
 
@@ -79,8 +77,9 @@ Job = tuple[Recipe, tuple[Bar, ...]]
 class Jobs(Sequence[Job]):
     """The sequence of jobs for the worker processes. A job is a recipe with a :class:`Bar` for each goal.
 
-    A bar contains limits on the error and the CPU time of a recipe. These limits depend on the predictions
-    for earlier recipes. Therefore a job is created only when a worker process is free.
+    A bar contains limits on the error and the CPU time of a recipe. The limits depend on the
+    predictions that are known when the job is created. To use as many predictions as possible, a job is
+    created only when a worker process is free.
 
     The choice of the next recipe is explained at :data:`EVEN`.
 
@@ -190,10 +189,9 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
-        """Return the largest accepted error and the largest accepted CPU time of ``recipe`` for ``goal``.
+        """Return the limits (:class:`Bar`) on the error and the CPU time of ``recipe`` for ``goal``.
 
-        To save time, these limits (:class:`Bar`) are updated only after several new predictions
-        (:data:`FRESH`).
+        To save time, the limits are updated only after several new predictions (:data:`FRESH`).
         """
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)

@@ -88,8 +88,8 @@ class Numeric(Operation):
     """An operation that calls a Python function of doubles.
 
     ``parts`` contains the kind and the width (number of components) of each result. ``function`` is the
-    Python function. To make the interpreter faster, this operation replaces the operation with the name
-    ``label`` in the program of a step. The two operations have the same results.
+    Python function. In the program of a step, this operation replaces a slower operation with the same
+    results. ``label`` is the name of the slower operation.
     """
 
     function: Evaluate
@@ -98,7 +98,7 @@ class Numeric(Operation):
 
     @property
     def name(self) -> str:
-        """The name of the operation that this operation replaces in the program of a step."""
+        """The name of the slower operation in whose place the Python function is called."""
         return self.label
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:

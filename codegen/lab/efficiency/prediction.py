@@ -81,10 +81,11 @@ TOLERANCES = (1, 3, 5, 7, 9, 11)
 """In the interpreter, runs with step-size control have the tolerances 10^-k, with k in TOLERANCES."""
 
 FAR = 10.0
-"""Methods of order p are excluded if the methods of the orders p + 1 and p + 2 are too inaccurate.
+"""Methods of order p are excluded if even methods of the orders p + 1 and p + 2 are too inaccurate.
 
-Let e be the least error that is predicted for the methods of these higher orders, with a given CPU time.
-Methods of order p are excluded if e exceeds FAR times the required error.
+Let e be the least error that is predicted for the methods of these higher orders, with a given CPU time. With
+the same CPU time, a method of order p is assumed to have an error of at least e/FAR. Therefore methods of
+order p are excluded if e/FAR exceeds the required error.
 """
 
 CALL = 8.0
@@ -163,10 +164,10 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, x, e) for :meth:`too_high`. Let p be the order of the recipe. The number e
-      is the least error that methods of the orders p + 1 and p + 2 in the family reach with the CPU time
-      ``seconds``, according to predictions. If x is True, only explicit methods count. If x is False, only
-      implicit methods count. The family '' represents all families.
+    - ``least``: triples (family, x, e) for :meth:`too_high`. Each triple describes the methods of the family
+      that have the order p + 1 or p + 2, where p is the order of the recipe. If x is True, only explicit
+      methods count. If x is False, only implicit methods count. The least error that is predicted for these
+      methods with the CPU time ``seconds`` is e. The family '' represents all families.
     - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
       this run.
     - ``explicit``: True if only explicit methods are accepted.
@@ -186,11 +187,12 @@ class Bar:
 
         - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
         - The method is implicit, and ``self.explicit`` is True.
-        - ``self.least`` contains a triple (``family``, ``explicit``, e), and e exceeds :data:`FAR` times
-          ``self.error``. Here e is the least error that is predicted for methods of the orders p + 1 and
-          p + 2 with the CPU time ``self.seconds``. If ``self.least`` contains no triple that begins with
-          ``family`` and ``explicit``, the triple ('', ``explicit``, e) for all families is used. If that
-          triple is missing, too, this case does not apply.
+        - Even methods of the orders p + 1 and p + 2 are too inaccurate. Let e be the least error that is
+          predicted for these methods with the CPU time ``self.seconds``. A method of order p is assumed to
+          have an error of at least e/FAR (:data:`FAR`), and is excluded if e/FAR exceeds ``self.error``. The
+          number e comes from the triple (``family``, ``explicit``, e) in ``self.least``. If this triple is
+          missing, the triple ('', ``explicit``, e) for all families is used. If that triple is missing, too,
+          this case does not apply.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -200,10 +202,10 @@ class Bar:
     def most(self, step_seconds: float) -> float:
         """Return the largest number of steps for a test run of a method in the interpreter.
 
-        ``step_seconds`` is the predicted CPU time of one step in compiled code. Let q be the quotient
-        ``self.seconds`` / ``step_seconds``. More than q steps would exceed the time limit in compiled code,
-        so test runs with more than q steps are useless. The result is q, but at most :data:`MANY_STEPS` and
-        at least ``self.steps``. If ``step_seconds`` is 0, the result is MANY_STEPS.
+        ``step_seconds`` is the predicted CPU time of one step in compiled code. Compiled code can make
+        q = ``self.seconds`` / ``step_seconds`` steps in the largest accepted CPU time ``self.seconds``, so
+        test runs with more than q steps are useless. The result is q, but at most :data:`MANY_STEPS` and at
+        least ``self.steps``. If ``step_seconds`` is 0, the result is MANY_STEPS.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -223,10 +225,10 @@ class Predictor:
       reference solution is the state at the end of this part.
     - ``failures``: for each kind of method, a count of the methods that failed in runs with a constant step
       size. If a method of a kind succeeds, the count for this kind is set to zero.
-    - ``uncontrolled``: for each kind of method, a count of the methods that reached no small error
-      (:data:`SMALL`) with step-size control. If the count is :data:`TRIES`, step-size control is no longer
-      used for this kind. If a method of a kind reaches a small error with step-size control, the count for
-      this kind is set to zero.
+    - ``uncontrolled``: for each kind of method, a count of the methods that failed with step-size control. A
+      method fails if none of its runs with step-size control has a small error (:data:`SMALL`). If the count
+      is :data:`TRIES`, step-size control is no longer used for this kind. If a method of a kind succeeds, the
+      count for this kind is set to zero.
     - ``costs``: for each operation, a pair. The first entry is the predicted time of the operation in
       nanoseconds. The second entry contains the number of components of each result of the operation.
     """
@@ -242,9 +244,10 @@ class Predictor:
     def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
         """Return the prediction for a method of the given order.
 
-        A bar contains limits on the error and the CPU time. If :meth:`Bar.too_high` returns True
-        for every bar, no run is made, and the predicted error is infinite. ``controlled`` is the same method
-        with step-size control, or None. Raises InputError if the method cannot be used for the scene.
+        A bar contains limits on the error and the CPU time. If the limits of every bar exclude the method
+        (:meth:`Bar.too_high`), no run is made. Without a run, the error is unknown, and the predicted error
+        is infinite. ``controlled`` is the same method with step-size control, or None. Raises InputError if
+        the method cannot be used for the scene.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
@@ -310,7 +313,7 @@ class Predictor:
                 break
             if error < known.error:
                 known = replace(known, steps=steps, sweeps=sweeps, error=error, rough=False, vague=False)
-            # The next run takes longer than this run, and would probably exceed the time limit.
+            # If more than half of the permitted time is used, the next run would probably exceed the limit.
             if error <= target or 2 * time.process_time() > start + end:
                 break
         reached = known.error <= SMALL * size_of(self.exact)

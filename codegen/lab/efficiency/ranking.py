@@ -17,9 +17,11 @@ from codegen.lab.efficiency.work_precision import Row
 class Place:
     """The fastest and the second fastest candidate for an error of 10^-``decade``.
 
-    - ``winner``, ``seconds``: the label and the CPU time of the fastest candidate.
-    - ``second``, ``behind``: the label and the CPU time of the second fastest candidate, or '' and None if
-      only one candidate reaches the error.
+    - ``winner``: the label of the fastest candidate.
+    - ``seconds``: the CPU time of the fastest candidate in seconds.
+    - ``second``: the label of the second fastest candidate, or '' if only one candidate reaches the error.
+    - ``behind``: the CPU time of the second fastest candidate in seconds, or None if only one candidate
+      reaches the error.
 
     If the scene has several forms of the equations, a label ends with the name of the form.
     """

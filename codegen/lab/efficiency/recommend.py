@@ -44,7 +44,7 @@ class Request:
 
     @property
     def goal(self) -> Goal:
-        """The goal of the search: the error, the requirements, and the largest stack memory."""
+        """The goal of the search: the required error, the requirements, and the limit of the stack memory."""
         return Goal(self.error, self.needs, self.stack)
 
     @property
@@ -63,7 +63,8 @@ class Recommendation:
 
     - ``places``: for each successful recipe, the fastest run with at most the required error. Fast runs
       come first.
-    - ``best``: the most accurate run if no recipe reaches the error, and otherwise None.
+    - ``best``: None if ``places`` is not empty. Otherwise the most accurate run, or None if no run meets the
+      requirements.
     - ``predicted``: the number of predicted recipes.
     - ``raced``: the number of measured recipes.
     - ``seconds``: the time of the search in seconds.

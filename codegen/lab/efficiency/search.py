@@ -48,7 +48,8 @@ LEADERS limits the number of these recipes. CLOSE limits the ratio of their CPU 
 CONTROLLED = 100.0
 """Unreliable estimates of CPU times are divided by CONTROLLED (:meth:`Search.hoped`).
 
-On stiff scenes, a time that is predicted from equal steps can be a hundred times the true time.
+Such an estimate is based on runs with a constant step size. On stiff scenes, it can be a hundred times the
+time that a method with step-size control needs.
 """
 
 ROUND = 6
@@ -108,7 +109,8 @@ class Search:
     - ``predictions``: the predicted errors and times of recipes.
     - ``ratios``: the ratios of measured to predicted times, for each kind of recipe and each required error.
     - ``results``: for each required error, a dictionary of the measured recipes and their results.
-    - ``lost``: for each goal, the recipes that fail the test of conserved quantities in a long run.
+    - ``lost``: for each goal (a required error and further requirements), the recipes that fail the test of
+      conserved quantities in a long run.
     - ``complete``: False if the time budget ended the search.
     """
 
@@ -187,8 +189,9 @@ class Search:
     def hoped(self, recipe: Recipe, error: float) -> float:
         """Return the result of :meth:`expected`, divided by :data:`CONTROLLED` if the estimate is unreliable.
 
-        An estimate is unreliable if three conditions hold: the recipe has step-size control, the prediction
-        comes from equal steps with large errors, and no recipe of the same kind has been measured.
+        An estimate is unreliable if three conditions hold: the recipe has step-size control, the time is
+        predicted from inaccurate runs with a constant step size, and no recipe of the same kind has been
+        measured.
         """
         prediction, seconds = self.prediction(recipe), self.expected(recipe, error)
         unknown = recipe.adaptive and prediction is not None and prediction.rough
@@ -244,8 +247,8 @@ class Search:
     def _next(self) -> list[Recipe]:
         """Return the recipes with the largest gains, at most :data:`ROUND` recipes.
 
-        Let a be the best measured time for a goal, and b the estimated time of a recipe. The gain of the
-        recipe is the sum of log(a/b) over all goals with b < a.
+        For each goal, let a be the best measured time for this goal, and let b be the estimated time of a
+        recipe for this goal. The gain of the recipe is the sum of log(a/b) over all goals with b < a.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -351,9 +354,9 @@ class Search:
     def _ranked(self, goal: Goal) -> list[Result]:
         """Return the results for a goal, from fast to slow.
 
-        If ``goal.long`` is True, the two fastest recipes are tested in a long run. If a test fails, the step
-        size is halved, at most :data:`SHORTER` times. If no further halving is possible, the recipe is
-        removed.
+        If ``goal.long`` is True, the two fastest recipes are tested in a long run. If a recipe fails the
+        test, the step size is halved, and the recipe is tested again. A recipe is removed if it also fails
+        after :data:`SHORTER` halvings, or if its step size cannot be halved (:meth:`Racer.halved`).
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)

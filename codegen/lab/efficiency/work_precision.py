@@ -29,7 +29,7 @@ with fewer steps took more CPU time.
 """
 
 NEAR_ROUNDING = 1e-9
-"""Rounding may cause errors up to NEAR_ROUNDING times the size of the state."""
+"""Only errors up to NEAR_ROUNDING times the size of the state are attributed to rounding."""
 
 
 @dataclass(frozen=True)
@@ -112,8 +112,9 @@ def measure_rows(
 ) -> tuple[Row, ...]:
     """Make the runs of a candidate, and return one row for each run.
 
-    ``done`` is called with the row of each run. If ``candidate.prepare()`` fails, an additional last row
-    contains the error message.
+    ``done`` is called with the row of each run. Before the first run that is not in the cache,
+    ``candidate.prepare()`` is called. If this call fails, no further run is made, and the last row of the
+    result contains the error message.
     """
     rows: list[Row] = []
     ready = False

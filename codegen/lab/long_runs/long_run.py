@@ -43,9 +43,9 @@ magnitude of the quantity. EPSILON is the machine epsilon of doubles.
 class Kept:
     """The relative deviations of one conserved quantity in a run, and its drift.
 
-    ``times`` are the times of the samples, measured from the start of the run. For all steps since the
-    previous sample, ``deviations`` contains the mean deviation, and ``peaks`` contains the largest absolute
-    deviation.
+    ``times`` are the times of the samples, measured from the start of the run. For each sample,
+    ``deviations`` contains the mean deviation in the steps since the previous sample, and ``peaks`` contains
+    the largest absolute deviation in these steps.
     """
 
     name: str
@@ -168,9 +168,10 @@ def _kept(
 ) -> tuple[Kept, ...]:
     """Return the deviations and the drift of each conserved quantity.
 
-    ``changes`` maps the name of a quantity to its largest change c in one step. Deviations are attributed to
-    rounding errors only if c is at most EPSILON/10 times the size of the quantity. ``early(n)`` returns a
-    trajectory of the first n steps with dense samples.
+    ``changes`` maps the name of a quantity to its largest change c in one step. The step is computed with
+    many digits, so c contains almost no rounding error. If c exceeds EPSILON/10 times the size of the
+    quantity, all deviations are attributed to the method. Otherwise, small deviations are attributed to
+    rounding errors. ``early(n)`` returns a trajectory of the first n steps with dense samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:

@@ -29,8 +29,11 @@ must be far below this precision, too.
 """
 
 ROUNDED = 1e-12
-"""The limit that replaces :data:`SYMPLECTIC` if the coefficients have fewer than :data:`ACCURATE` bits, for
-example doubles. Their rounding, about 1e-16 for doubles, causes a defect also in symplectic methods."""
+"""The limit for the symplectic defect of a method whose coefficients are rounded, for example to doubles.
+
+This limit replaces :data:`SYMPLECTIC` if the coefficients have fewer than :data:`ACCURATE` bits. The rounding
+of the coefficients, about 1e-16 for doubles, causes a defect also in symplectic methods.
+"""
 
 ACCURATE = 100
 """The number of bits, about 30 digits, to which coefficients must be known for :data:`SYMPLECTIC`."""

@@ -35,7 +35,7 @@ from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
-"""The STARTS runs begin at states of one trajectory, with APART steps from each state to the next."""
+"""STARTS is the number of runs. The initial states of the runs lie on one trajectory, APART steps apart."""
 
 TIMES = 9
 """The number of measurements in a run. The number of steps doubles from one measurement to the next."""
@@ -47,7 +47,8 @@ EXACT = 1e-30
 CHAIN = 3
 """The number of consecutive steps in :func:`changes_of_a_step`.
 
-The change in a single step may be zero by chance.
+The function measures the largest change of a quantity. In a single step, the change may be zero by chance
+although the method does not conserve the quantity.
 """
 
 NEARLY = 1e-14
@@ -280,7 +281,8 @@ def _deviations(
 def _growth(name: str, carried: bool, counts: Sequence[int], members: Sequence[Sequence[float]]) -> Growth:
     """Return the growth of the deviations of the quantity ``name``.
 
-    Each list in ``members`` contains the deviations in one run, one for each number of steps in ``counts``.
+    Each list in ``members`` belongs to one run, and contains one deviation for each number of steps in
+    ``counts``.
     """
     import scipy.stats
 

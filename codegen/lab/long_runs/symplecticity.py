@@ -41,9 +41,12 @@ OFFSET = 25
 the scale of this direction.
 
 The third derivative of the step causes a relative error of about 10^(-2 OFFSET) = 10^-50. Rounding causes a
-relative error of about 10^(OFFSET - DIGITS) = 10^-55. The scales are sizes of whole vectors. For example, let
-a component of the momentum be 10^12 times smaller than the momentum. The increment is then 10^-13 times this
-component, and the relative error is about 10^-26, the square of 10^-13."""
+relative error of about 10^(OFFSET - DIGITS) = 10^-55.
+
+The scales are computed from norms of whole vectors. For example, let a component of the momentum be 10^12
+times smaller than its scale. The increment is then 10^-OFFSET * 10^12 = 10^-13 times this component, and the
+relative error is about (10^-13)^2 = 10^-26.
+"""
 
 SWEEPS = 80
 """The largest number of fixed-point iterations for each system of implicit equations in a step."""
@@ -152,22 +155,23 @@ class _Scales:
 
     @property
     def all(self) -> tuple[Scalar, ...]:
-        """The scales of the coordinates of (xi, nu)."""
+        """The units of the coordinates of a tangent vector: in the Lie algebra, then in its dual space."""
         return (*self.positions, *(self.action / x for x in self.positions))
 
 
 def _scales(
     compiled: Compiled, domain: PreciseDomain, elements: Sequence[Vector], momenta: Sequence[Vector]
 ) -> _Scales:
-    """Return the scales at a step.
+    """Return the units (scales) in which tangent vectors (xi, nu) are measured at a step.
 
+    Here xi is an element of the Lie algebra, and nu is an element of its dual space.
     ``elements`` contains the coordinates q of the group element before and after the step, and ``momenta``
     contains the momentum mu before and after the step. Of the norms before and after the step, the larger one
     is used, because q or mu can be zero before or after the step.
 
-    - Let e be a basis element of the Lie algebra. The scale of the coordinate of xi along e is the norm of q,
-      divided by the norm of the derivative of exp(s e) q with respect to s at s = 0.
-    - The scale ``action`` is the norm of mu, multiplied by the largest scale of a coordinate of xi.
+    - Let e be a basis element of the Lie algebra. Let v be the derivative of exp(s e) q with respect to s at
+      s = 0. The scale of the coordinate of xi in the direction e is |q|/|v|.
+    - The scale ``action`` is |mu|, multiplied by the largest scale of a coordinate of xi.
 
     Raises ArithmeticError if q is zero before and after the step, or if mu is zero before and after the step.
     """
@@ -176,7 +180,10 @@ def _scales(
     momentum = max(map(context.norm, momenta))
     if not size or not momentum:
         what = "momentum" if size else "position"
-        raise ArithmeticError(f"the {what} is zero before and after the step, so it has no scale")
+        raise ArithmeticError(
+            f"the symplectic defect is measured relative to the {what}, "
+            "which is zero before and after the step"
+        )
     positions = []
     for e in _basis(group.dim, domain):
         speeds = [context.norm(group.velocity(domain, e, q)) for q in elements]
@@ -239,7 +246,7 @@ def _step(
 
 
 def _form(compiled: Compiled, domain: PreciseDomain, mu: Vector, scales: _Scales) -> mpmath.matrix:
-    """Return the matrix of the symplectic form at ``mu`` in the scaled basis, divided by the action."""
+    """Return the symplectic form at ``mu`` as a matrix in the scaled basis, divided by ``scales.action``."""
     group, context, n = compiled.scene.group, domain.context, compiled.scene.group.dim
     basis, units = _basis(n, domain), scales.positions
     form = context.matrix(2 * n, 2 * n)

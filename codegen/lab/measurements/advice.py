@@ -169,7 +169,7 @@ def searched(task: Task, subject: Subject) -> Searched:
 
 
 def advised(task: Task, k: int, place: Result) -> Advised:
-    """Return the fastest method for the error 10^-``k``. Its measured run is ``place``."""
+    """Return the method of the run ``place``, the fastest measured run with an error of at most 10^-``k``."""
     recipe = place.entry.recipe
     return Advised(
         10.0**-k,

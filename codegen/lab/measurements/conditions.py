@@ -92,8 +92,8 @@ class Conditions(Measurement[ConditionTables]):
         exact, total = sum(bool(m.order.failing) for m in result.methods), len(result.methods)
         count = f"{exact} of {total}" if exact < total or total == 1 else f"all {total}"
         return (
-            f"For {count} methods, the order is exactly the computed order, "
-            "because a condition of the next order is violated."
+            f"For {count} methods, the order is not higher than the computed order p, "
+            "because a condition of order p + 1 is violated."
         )
 
     def section(self, result: ConditionTables, subject: Subject) -> Section | None:

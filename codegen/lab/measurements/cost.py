@@ -1,4 +1,6 @@
-"""The section about run times: the error and the CPU time of methods and other integrators.
+"""The section about run times: the error and the CPU time of methods and peers.
+
+A peer is an integrator that does not belong to this project.
 
 The section also shows the fastest integrator at each error level, and the operations of a step.
 """
@@ -70,11 +72,11 @@ class Cost(Measurement[CostResult]):
         return CostResult(result, tuple(candidates))
 
     def as_json(self, result: CostResult) -> object:
-        """Return the rows (one for each run of a method or peer) as plain data."""
+        """Return plain data with one row for each run of a method or a peer (another integrator)."""
         return [row.as_json() for row in result.result.rows]
 
     def verdict(self, result: CostResult, subject: Subject) -> str:
-        """Return a sentence that names the fastest integrator for each error."""
+        """Return a sentence that names the fastest integrator for each error level 10^-k."""
         places = result.result.places
         if not places:
             return ""

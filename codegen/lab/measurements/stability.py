@@ -170,7 +170,7 @@ def _kind(answer: Answer) -> str:
 
 
 def _cases(stability: Stability) -> dict[str, object]:
-    """Return the label of a method, the number of extreme inputs, and a table of the results."""
+    """Return the results of one method for extreme inputs, as variables of a page template."""
     rows: list[dict[str, object]] = []
     names: list[str] = []
     for a in stability.findings.answers:

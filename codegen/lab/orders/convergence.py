@@ -35,14 +35,15 @@ If the observed order agrees with an unproved order, the order is tested again w
 """
 
 FEWEST = 4
-"""The smallest number of usable runs. Four runs give the three slopes for :attr:`Refinement.settled`."""
+"""The required number of usable runs: four runs give the three slopes that ``Refinement.settled`` needs."""
 
 
 SPREAD = CLEAR * 2.0**-52
 """Errors of the coefficients up to SPREAD are negligible.
 
 In a run with doubles, the effect of coefficient errors of this size is at most about CLEAR times the effect
-of rounding. A run whose error is so small is not used to measure the order.
+of rounding. A run is used to measure the order only if its error is larger than CLEAR times the effect of
+rounding.
 """
 
 
@@ -90,8 +91,9 @@ class Convergence:
         If kinks (points where the field is not smooth) limit the observed order to less than the stated
         order, the result is ``undecided``.
 
-        Rounding of the coefficients can reduce the order of a method. If :attr:`spread` is not 0 and very
-        short steps show an order below the stated order, the result is ``fails``.
+        Rounding of the coefficients can reduce the order of a method. If the coefficients are rounded
+        (:attr:`spread` is not 0), and very short steps show an order below the stated order, the result is
+        ``fails``.
 
         In all other cases, :meth:`Refinement.verdict` gives the result.
         """
@@ -271,7 +273,7 @@ def uncertainty(method: Method) -> float:
 
 
 def visible_uncertainty(method: Method) -> float:
-    """Return the attribute ``spread`` of :class:`Convergence` for a method."""
+    """Return the largest uncertainty of a coefficient if it exceeds :data:`SPREAD`, and otherwise 0."""
     spread = uncertainty(method)
     return spread if spread > SPREAD else 0.0
 

@@ -2,8 +2,10 @@
 
 An element x of the Lie algebra acts on a point y, and x.y is the resulting tangent vector. The vector field
 that maps y to x.y is called a frozen field. The derivative of a function g along a frozen field is the
-coefficient of eps in g(y + eps x.y), where eps^2 = 0. A derivative along k frozen fields uses k numbers
-eps_1, ..., eps_k and is the coefficient of their product. The scene must be polynomial in its coordinates.
+coefficient of eps in g(y + eps x.y), where eps^2 = 0. For the derivative along k frozen fields x_1, ..., x_k,
+the point y is replaced by y + eps_j x_j.y for j = 1, ..., k, one after the other. The derivative is the
+coefficient of the product eps_1 ... eps_k in the value of g at the last point. The scene must be polynomial
+in its coordinates.
 """
 
 from __future__ import annotations
@@ -53,14 +55,14 @@ class RingDomain(Domain):
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Raise ArithmeticError, because the scene must be polynomial in its coordinates.
 
-        The method is called for each function in the scene, for example sine.
+        ``call`` is executed for each function in the formulas of the scene, for example ``sin``.
         """
         raise ArithmeticError(f"{function} is not polynomial")
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Raise ArithmeticError, because the scene must be polynomial in its coordinates.
 
-        The method is called for each function in the scene that has several results.
+        ``vector`` is executed for each function with several results in the formulas of the scene.
         """
         raise ArithmeticError(f"{function} is not polynomial")
 

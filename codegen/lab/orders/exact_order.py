@@ -4,9 +4,10 @@ If the field of a scene is polynomial or rational, the Taylor coefficients of th
 numbers. The order is p if the coefficient of h^(p+1) is the first nonzero coefficient, where h is the step
 size.
 
-The error of one step says nothing about other points of the solution. At a special point, for example where
-derivatives of the field vanish, the computed coefficients can all be zero although the method has no higher
-order. In this case, the steps that start at later points of the solution (:data:`LATER`) are examined, too.
+The error of one step says nothing about other points of the solution. Let q be the order that the order
+conditions give. At a special point, for example where derivatives of the field vanish, all coefficients up to
+h^(q+1) can be zero although the order of the method is q. In this case, the steps that start at later points
+of the solution (:data:`LATER`) are examined, too.
 
 If exact arithmetic cannot represent an initial coordinate, a nearby rational number replaces the coordinate.
 The new initial point may be off the manifold. The equations, the group action and the order conditions are
@@ -44,7 +45,7 @@ points.
 """
 
 STEPS = 64
-"""The number of steps with which a later point of the solution is computed. A rough value is enough."""
+"""The number of steps to a later point of the solution. The computed point need not be accurate."""
 
 DENOMINATOR = 64
 """The largest denominator of the rational initial coordinates that :func:`with_exact_start` chooses."""
@@ -97,7 +98,8 @@ class ExactLocalError:
             statement = f"order at least {self.order} in exact arithmetic for steps from {where}"
         elif self.points > 1:
             statement += (
-                f" (at the initial state, the coefficients vanish up to h^{self.certified.order + 1})"
+                " (at the initial state, all coefficients of the local error up to "
+                f"h^{self.certified.order + 1} are zero, so the step starts at a later point)"
             )
         return (
             f"{self.verdict}: {statement}; "
@@ -191,7 +193,8 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
             break
         try:
             leading = replace(_of_step(later, method, certified), points=count)
-        except SceneError:  # The field is not smooth at the later point.
+        except SceneError:
+            # If the field is not smooth at the initial state of ``later``, the result up to now is returned.
             break
     return leading
 

@@ -23,7 +23,7 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 
 COMPARED = 4 * FIRST
-"""The smallest number of steps for a comparison of final states (:func:`largest_difference`)."""
+"""Final states are compared only if the runs have at least COMPARED steps (:func:`largest_difference`)."""
 
 MOST_TIMED = 2560
 """The number of steps of the longest run whose CPU time is measured."""
@@ -36,10 +36,10 @@ class OrderStudy:
     - ``order``: the order from the order conditions.
     - ``convergences``: for each target (programming language), the runs with different step sizes.
     - ``times``: the CPU times of runs with the default target.
-    - ``spread``: the largest difference between the final states of the targets and the interpreter
-      (:func:`largest_difference`).
-      All compared runs have the same number n of steps, and n is at least :data:`COMPARED`. If no number n is
-      found with which all runs succeed, ``spread`` is None.
+    - ``spread``: the largest difference between the final state of the first target and the final states of
+      the other targets and of the interpreter (:func:`largest_difference`). All compared runs have the same
+      number n of steps, and n is at least :data:`COMPARED`. If no number n is found with which all runs
+      succeed, ``spread`` is None.
     - ``artifact``: the emitted files for the default target.
     """
 
