@@ -92,7 +92,8 @@ def in_place(out: object, size: int, real: str) -> Any:
         raise ValueError(f"expected an array of shape (N, {size}) and type {kind} for out, found {shown}")
     if not given.T.flags.c_contiguous or not given.flags.writeable:
         raise ValueError(
-            "expected a writeable array in Fortran order for out; numpy.asfortranarray returns such an array"
+            "expected a writeable array in Fortran order as the argument out; numpy.asfortranarray returns "
+            "such an array"
         )
     return given.T
 

@@ -28,25 +28,27 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""A short time, used to find the case of an operation such as abs(x) just after a time t.
+"""A short time, used for operations with several cases, such as abs(x) with the cases x > 0 and x <= 0.
 
-The case follows from the sign of x at the time t + AHEAD. AHEAD is much larger than the rounding error of t,
-and much smaller than the time scales of the solution.
+The sign of x at the time t + AHEAD decides which case of abs(x) applies just after the time t. AHEAD is much
+larger than the rounding error of t, and much smaller than the time scales of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
 """Lengths of time after an event, for a comparison of the fields before and after the event.
 
-Let f and g be the fields before and after the event, and let k be the number of continuous derivatives of the
-field at the event. At the time s after the event, |f - g| is about c s^(k + 1) with a constant c. The values
-of |f - g| for the two lengths s in NEAR give k.
+Let f and g be the smooth fields before and after the event. The formulas of f are also evaluated after the
+event. Let k be the number of continuous derivatives of the piecewise smooth field at the event. At the time s
+after the event, |f - g| is about c s^(k + 1) with a constant c. The values of |f - g| for the two lengths s
+in NEAR give k.
 """
 
 VANISHING = 1e-30
 """The largest accepted difference between a step and its Taylor polynomial, relative to the state.
 
-The tolerances of the steps are 1e-33 and 1e-36, so a larger difference is an error of the polynomial. The
-search for a point where the field is not smooth (:func:`_root`) has the smaller tolerance VANISHING / 10^8.
+The step itself has a tolerance of at most 1e-33. A difference above VANISHING is therefore caused by an error
+of the polynomial. The search for a point where the field is not smooth (:func:`_root`) has the smaller
+tolerance VANISHING / 10^8.
 """
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
@@ -84,9 +86,9 @@ class PiecewiseField:
         """Return two functions of (state, t): a smooth vector field, and the margins of the selections.
 
         A selection is an operation with several cases. ``sides[k]`` is the case of the selection
-        ``nodes[k]``. The smooth field is the right-hand side of the differential equation in which each
-        selection is replaced by the formula for its case. The margins are numbers. For example, the margin
-        for the case x > 0 of abs(x) is x. While all cases in ``sides`` apply, all margins are positive.
+        ``nodes[k]``. To form the smooth field, each selection in the right-hand side of the differential
+        equation is replaced by the formula for its case. The margins are numbers. For example, the margin for
+        the case x > 0 of abs(x) is x. While all cases in ``sides`` apply, all margins are positive.
         """
         if sides not in self.compiled:
             self.compiled[sides] = self._pair(sides, FUNCTIONS)
@@ -216,7 +218,7 @@ class Sided:
         return SceneError(
             f"no reference solution beyond t = {float(t):.6g}: {reason}",
             where=self.fields.scene.name,
-            expected="a solution for which every point where the field is not smooth can be found",
+            expected="a field that is smooth along the solution, except at points that the program can find",
             hint="choose a span that ends before this time, or replace the operation that is not smooth, "
             "for example abs(x) by sqrt(x**2 + w**2) for a small width w",
         )
@@ -235,7 +237,9 @@ class Sided:
         crossed = [k for k, x in enumerate(end) if x < 0]
         if not crossed:
             raise self._unknown(
-                t, "the program cannot decide whether an operation such as abs(x) changes its case"
+                t,
+                "the program cannot decide whether an operation switches to another formula, as abs(x) does "
+                "at x = 0",
             )
 
         def margin(tau: Scalar) -> Scalar:
@@ -249,7 +253,9 @@ class Sided:
         now = (t + tau).mid()
         sides, smooth = self.fields.beyond(self.sides, place, now)
         if sides == self.sides:
-            raise self._unknown(now, "the program cannot decide which case of an operation applies")
+            raise self._unknown(
+                now, "the program cannot decide which formula of an operation applies, as x or -x for abs(x)"
+            )
         self.sides = sides
         self.kinks.append(smooth)
         if len(self.kinks) > MOST_EVENTS:

@@ -156,7 +156,7 @@ def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Ve
     """Return the state at the end of the time span, and the attribute ``kinks`` of :class:`Reference`.
 
     The tolerance is 10^``exponent``.
-    Raises SceneError if the deadline ``finish`` on the clock ``time.monotonic()`` passes.
+    Raises SceneError if ``time.monotonic()`` exceeds ``finish`` before the computation ends.
     """
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
@@ -172,7 +172,7 @@ def _integrate(
 ) -> tuple[Vector, tuple[int, ...]]:
     """Return the state at the end of the time span, and the attribute ``kinks`` of :class:`Reference`.
 
-    Raises SceneError if the deadline ``finish`` on the clock ``time.monotonic()`` passes.
+    Raises SceneError if ``time.monotonic()`` exceeds ``finish`` before the computation ends.
     """
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)

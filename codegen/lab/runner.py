@@ -75,7 +75,7 @@ class Interpreted:
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:
-        """Return the state at the end of the time span after ``steps`` equal steps.
+        """Integrate over the time span in ``steps`` steps of equal size, and return the final state.
 
         Raises :class:`RunFailed` if a step fails.
         """

@@ -48,7 +48,7 @@ class Undecided(ArithmeticError):
 
 @contextmanager
 def _truncated(length: int) -> Iterator[None]:
-    """Compute with power series of at most ``length`` coefficients in this block."""
+    """Limit power series to ``length`` coefficients inside a ``with`` statement."""
     before = ctx.cap
     ctx.cap = length
     try:
@@ -76,7 +76,7 @@ def _angle(y: Scalar, x: Scalar) -> arb_series:
 
 
 def _tanh(x: Scalar) -> arb_series:
-    # For x >= 0, exp(-2x) cannot overflow. For x < 0, the value is computed as -tanh(-x).
+    # tanh x = (1 - exp(-2x))/(1 + exp(-2x)). For x < 0, exp(-2x) could overflow, so -tanh(-x) is computed.
     z = _series(x)
     if z[0] < 0:
         return -_tanh(-z)
@@ -87,7 +87,7 @@ def _tanh(x: Scalar) -> arb_series:
 def _of_series(name: str) -> Callable[[Scalar], arb_series]:
     def value(x: Scalar) -> arb_series:
         z = _series(x)
-        # A constant can have a value without a power series, for example sqrt(0).
+        # For a constant, only the value is computed: sqrt(0) is 0, but sqrt has no power series about 0.
         return arb_series([getattr(z[0], name)()]) if z.length() <= 1 else getattr(z, name)()
 
     return value
@@ -100,7 +100,7 @@ SERIES: Functions = {
     "tanh": _tanh,
     ANGLE: _angle,
 }
-"""The functions that formulas may call, for power series with balls as coefficients."""
+"""The functions that formulas may call. The results are power series whose coefficients are intervals."""
 
 
 class StepPolynomial:
@@ -133,9 +133,9 @@ class StepPolynomial:
         - ``values`` and ``series`` compute the functions of (state, t) for balls and for power series.
         - ``length`` is the length of the step.
 
-        Return None if all functions are non-negative from t to t + ``length``. Otherwise, return times (a, b)
-        after t. From t to t + a, all functions are non-negative. At t + b, a function is negative. Between a
-        and b, each function is non-negative, or monotone.
+        Return None if all functions are non-negative from t to t + ``length``. Otherwise, return two numbers
+        (a, b). From t to t + a, all functions are non-negative. At t + b, a function is negative. From t + a
+        to t + b, each function is non-negative, or monotone and therefore zero at most once.
         Raises :class:`Undecided` if the signs cannot be decided.
         """
         signs = _Signs(self, values, series, length)
@@ -149,7 +149,7 @@ class StepPolynomial:
                 return a, b
             if leaves is None:
                 middle = ((a + b) / 2).mid()
-                # The first half is the next subinterval.
+                # ``todo`` is a stack, so the loop examines the first half before the second half.
                 todo += [(middle, b), (a, middle)]
         raise Undecided(
             "the program cannot decide whether the solution reaches a point where the field is not smooth"
@@ -169,7 +169,7 @@ class _Signs:
         self.limits = [max(ROUNDING, NEGLIGIBLE * s) for s in self.sizes]
 
     def leaves(self, a: Scalar, b: Scalar) -> bool | None:
-        """Decide the signs of the functions of :meth:`StepPolynomial.first_exit` from t + a to t + b.
+        """Determine the signs of the functions on the subinterval from t + a to t + b.
 
         All functions must be non-negative at t + a. The result is one of the following:
 
@@ -200,7 +200,9 @@ class _Signs:
                 return None
             if ends[k] < -self.limits[k]:
                 if self.sizes[k] < NEGLIGIBLE:
-                    raise Undecided("the argument of an operation with several cases is too close to zero")
+                    raise Undecided(
+                        "x in an operation such as abs(x) is too close to the value where the formula changes"
+                    )
                 negative = True
         return negative
 
@@ -213,7 +215,10 @@ class _Signs:
         return [k for k, x in enumerate(values) if not x >= -self.limits[k]]
 
     def _expansions(self, state: tuple[arb_poly, ...], tau: Scalar) -> list[list[arb]]:
-        """Return the power series of the functions, as lists of DEGREE + 1 coefficients."""
+        """Return the power series in x of each function at the time t + ``tau`` + x, up to degree DEGREE.
+
+        ``self.series`` computes the functions. The polynomials ``state`` in x give the state at this time.
+        """
         with _truncated(DEGREE + 1):
             try:
                 rows = self.series(

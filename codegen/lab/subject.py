@@ -169,7 +169,7 @@ class Subject:
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """The names of all methods and peers (other integrators) that the page shows."""
+        """The names of the methods, the methods with step-size control, and the peers (other integrators)."""
         controlled = (ADAPTIVE + m.label for m in self.adaptive)
         return (*(m.label for m in self.methods), *controlled, *(peer.name for peer in find(self.peers)))
 

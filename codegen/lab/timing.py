@@ -117,9 +117,10 @@ class Overhead:
 
     @cached_property
     def times(self) -> tuple[float, ...]:
-        """For each of several batches of calls ``idle()``, the mean CPU time of one call in seconds.
+        """Measured CPU times of one call ``idle()`` in seconds, in increasing order.
 
-        The times are in increasing order. If ``idle`` is None, the tuple contains only the number zero.
+        Each time is the mean over one batch of calls. If ``idle`` is None, the tuple contains only the number
+        zero.
         """
         return (0.0,) if self.idle is None else samples(self.idle)
 

@@ -29,7 +29,7 @@ class Ambient(Lowering):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if the manifold is an open set in R^n.
 
-        An open manifold also contains all computed states that are close enough to the exact solution.
+        Computed states that are close enough to the exact solution are then on the manifold, too.
         """
         return self.objection(scene) is None and orbit_is_open(scene)
 

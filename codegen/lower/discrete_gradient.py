@@ -142,7 +142,7 @@ def _agrees(scene: Problem) -> bool:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # If ``gamma`` is zero at a point where f is not zero, ``image`` is zero, so the result is False.
+        # Where ``gamma`` is zero, ``image`` is zero, too. If f is not zero there, ``image`` and f differ.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

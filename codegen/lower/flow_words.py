@@ -252,7 +252,7 @@ def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
         # A flow of duration zero is dropped, so that the flows before and after it can be joined.
         if x.is_zero:
             continue
-        # All flows of a summand in one word refer to the same Summand object.
+        # ``word`` contains the same Summand object for all flows of a summand, so ``is`` compares summands.
         if joined and joined[-1][0] is summand:
             total = joined.pop()[1] + x
             # If the sum of the two durations is zero, both flows are dropped.

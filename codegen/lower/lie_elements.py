@@ -97,7 +97,7 @@ class LieElements:
         preserves a bilinear form, as SO(n) does, the Lie algebra contains these products.
         """
         factors = term.factors
-        # Other products, such as x y, are in general not elements of the Lie algebra.
+        # Products of even length (x y) or without symmetry (x y z) are in general not in the Lie algebra.
         if len(factors) % 2 == 0 or factors != factors[::-1]:
             raise MethodError(
                 f"the product {spell(term)} is in general not an element of the Lie algebra",
@@ -111,6 +111,6 @@ class LieElements:
         for outer in reversed(factors[:middle]):
             x = self._value(outer)
             var = self.build.add(Sandwich(), "product", x.var, result.var)
-            # The outer factor h^a x and the previous product h^b r give the new product h^(2a + b) x r x.
+            # The factor h^a x multiplies the product h^b r on both sides, which gives h^(2a + b) x r x.
             result = Scaled(var, 2 * x.power + result.power)
         return result

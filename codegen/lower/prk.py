@@ -7,9 +7,9 @@ Numerical Integration* (HLW):
     (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h),   c_i = sum_j a_ij,
     q1 = q0 + h sum_i b_i xi_i,     p1 = p0 + h sum_i bhat_i n_i.
 
-The tableau for the positions has the coefficients a_ij and b_i, the other tableau ahat_ij and bhat_i. The
-pair f(q, p, t) consists of the velocity and the force. The unknowns are the velocities xi_i and the forces
-n_i.
+The tableau for the positions has the coefficients a_ij and b_i. The tableau for the momenta has the
+coefficients ahat_ij and bhat_i. The pair f(q, p, t) consists of the velocity and the force. The unknowns are
+the velocities xi_i and the forces n_i.
 
 If the velocity does not depend on q, the program uses q0 in place of Q_i. If the force does not depend on p,
 it uses p0 in place of P_i. The compiler can then detect explicit stages, for example in the Stoermer-Verlet
@@ -107,8 +107,8 @@ class PartitionedLowering(Lowering):
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
                 # If the force does not depend on momenta, its values at ``mu`` and ``P`` are equal.
                 if not by_momentum:
-                    # ``mu`` replaces ``P``, because ``mu`` is known at the start of the step, but ``P``
-                    # depends on unknowns.
+                    # The force at ``mu`` replaces the equal force at ``P``, because ``P`` depends on unknowns
+                    # and ``mu`` is known at the start of the step.
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
                 velocities.append(v)
                 forces.append(f)

@@ -71,7 +71,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
             f'the class {lowering.__name__} does not set the attribute "family"',
             expected='family = "NAME" in the class',
         )
-    # Each family has one lowering, so a second class would replace the first one.
+    # Each family has one lowering class. Another class must not replace the registered class silently.
     known = _lowerings().get(lowering.family)
     # A second call with the same class is harmless, so only another class is an error.
     if known is not None and type(known) is not lowering:

@@ -43,7 +43,7 @@ class SymplecticIntegrator(VariationalLowering):
         return _program(problem, method)
 
 
-# For one stage, this identity with numbers a, b and a vector x simplifies the formula for the momentum:
+# For methods with one stage, this identity simplifies the momentum (a and b are numbers, x is a vector):
 #
 #     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x}.
 def _program(scene: Problem, method: Method) -> Program:

@@ -63,8 +63,8 @@ class SplittingLowering(FlowLowering):
             where=parts.where,
             expected="a tableau with as many parts as the scene, or a tableau with two parts if the scene "
             "has more than two parts",
-            hint=f"count each term of {', '.join(inexact)} as one part, because the exact flow of the whole "
-            "sum is unknown"
+            hint="if the exact flow of a part is unknown, count each summand of this part as one part; the "
+            f"exact flow is unknown for: {', '.join(inexact)}"
             if inexact
             else "",
         )

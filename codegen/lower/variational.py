@@ -50,7 +50,8 @@ class VariationalLowering(Lowering):
 def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list[Number]], list[Number]]:
     """Return (stages, tableau, A, b) with the coefficients A and b of the tableau.
 
-    :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i may be zero.
+    :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i is zero, or is an interval that contains
+    zero.
     """
     tableau = method.runge_kutta()
     stages = Stages(scene, method, (Var("q", Kind.GROUP), Var("mu", Kind.DUAL)))

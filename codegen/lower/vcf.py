@@ -12,9 +12,9 @@ The group elements E_i^J and e^J are products of J exponentials:
     e^J = exp(Y_J) e^{J-1},        e^0 = 1.
 
 E_i and e are the products of all factors. The position of stage i is Q_i = E_i q0. With the Lagrangian l, the
-discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), where b_i = sum_J beta_J^i. Let (xi_j, n_j) = f(Q_j, M_j) be
-the velocity and the force of stage j, nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j. Hamilton's
-equations for the discrete Lagrangian are
+discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), where b_i = sum_J beta_J^i. The velocity and the force of
+stage j are (xi_j, n_j) = f(Q_j, M_j). With nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j,
+Hamilton's equations for the discrete Lagrangian are
 
     b_i M_i = sum_J beta_J^i dexp*_{-Y_J} Ad*_{(e^{J-1})^-1} mubar
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
@@ -71,7 +71,7 @@ class _Product:
             g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
             # The first exponential acts first, so it is the rightmost factor of the product.
             partial.append(build.mul(f"{name}{J}", g, partial[-1]))
-            # The operation dexp*_{-x} needs the variable -x, where x is the exponent.
+            # The momenta contain dexp*_{-x} for each exponent x, so -x needs a variable of its own.
             minus.append(exponent(f"y{name}{J}", row, -1))
         return cls(rows, tuple(minus), tuple(partial))
 
@@ -94,7 +94,8 @@ class VariationalCommutatorFree(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a VCF method.
 
-        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i may be zero.
+        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i is zero, or is an interval that
+        contains zero.
         """
         return _program(problem, method)
 

@@ -2,8 +2,8 @@
 
 A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau with s stages are a_ij and b_i. Let
 (xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. The group elements e^j and E_i^j are
-products of j exponentials. Here j is an index and not a power, e^0 = E_i^0 = 1, and E_i = E_i^s. The
-equations are
+products of j exponentials. The superscript j is an index, not a power. The empty products are
+e^0 = E_i^0 = 1. The product of all s factors of stage i is E_i = E_i^s. The equations are
 
     e^j = exp(h b_j xi_j) e^{j-1},   E_i^j = exp(h a_ij xi_j) E_i^{j-1},
     Q_i = E_i q0,   nu_j = Ad*_{E_j} n_j,
@@ -33,7 +33,8 @@ class VariationalCrouchGrossman(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a VCG method.
 
-        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i may be zero.
+        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i is zero, or is an interval that
+        contains zero.
         """
         return _program(problem, method)
 

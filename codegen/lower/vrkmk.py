@@ -11,9 +11,10 @@ xi_i and n_i be the velocity and the force of stage i, (xi_i, n_i) = f(exp(X_i) 
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-The vectors v_i are unknowns. The covector m_i is an unknown if a_ji is not zero for some j <= i. Otherwise
-the sum over j in the equation for m_i contains only later stages j > i, and the program computes m_i from the
-unknown Lambda and from the lambda_j of these later stages.
+The vectors v_i and the covector Lambda are unknowns. Lambda is an unknown, because the forces n_j in the
+equation for Lambda depend on Lambda. The covector m_i is an unknown if a_ji is not zero for some j <= i.
+Otherwise the sum over j in the equation for m_i contains only later stages j > i, and the program computes
+m_i from Lambda and from the lambda_j of these later stages.
 """
 
 from __future__ import annotations
@@ -34,7 +35,8 @@ class VariationalMuntheKaas(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a VRKMK method with cut-off ``method.cutoff``.
 
-        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i may be zero.
+        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i is zero, or is an interval that
+        contains zero.
         :class:`codegen.errors.MethodError` is raised if the method has no cut-off.
         """
         return _Step(problem, method).program()
@@ -62,9 +64,10 @@ class _Step(ExpandedStep):
         return [*velocities, *(self._multiplier(i) for i in range(self.s)), image]
 
     def _evaluated(self) -> list[Var]:
-        """Append the velocities and forces of all stages, and return new values of the unknowns ``self.v``.
+        """Append the assignments for the velocities and forces of all stages to the program.
 
-        The stages are computed from the last to the first.
+        Return variables for the right-hand sides of the equations v_i = dexp^{-1}_{(r),X_i} xi_i. The stages
+        are computed from the last to the first.
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
@@ -95,15 +98,15 @@ class _Step(ExpandedStep):
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
-        """Return a new variable for b_i Lambda + sum_j a_ji lambda_j, the new value of m_i.
+        """Return a variable for the right-hand side of the equation m_i = b_i Lambda + sum_j a_ji lambda_j.
 
         The assignments that compute this variable are appended to the program.
         """
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
-            # On an abelian group, the coefficient of n_j in m_i is h b_j (b_i - a_ji), as in a symplectic
-            # partitioned Runge-Kutta method.
+            # On an abelian group, the terms with n_j have the sum h b_i (b_j - b_j a_ji/b_i) n_j. The factor
+            # in parentheses is the coefficient ahat_ij of a symplectic partitioned Runge-Kutta method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
             terms.append((times_h(-(A[j][i] * b[j])), direct))

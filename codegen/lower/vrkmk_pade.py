@@ -41,7 +41,8 @@ class VariationalMuntheKaasPade(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step, with ``method.cutoff`` brackets in the series of dexp.
 
-        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i may be zero.
+        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i is zero, or is an interval that
+        contains zero.
         :class:`codegen.errors.MethodError` is raised if the method has no cut-off.
         """
         return _Step(problem, method).program()
@@ -95,8 +96,8 @@ class _Step(ExpandedStep):
         ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M.
         """
         terms: Terms = []
-        # With r = ``self.r``, the vector R*_(r)(x, v) M is the sum of ad*_z (ad*_x)^i M over i = 0, ..., r-1.
-        # The vector z is different in each term.
+        # The result is the sum over i = 0, ..., r-1 of the covectors ad*_z (ad*_x)^i M. Here r is ``self.r``,
+        # and z is a vector that depends on i.
         for i in range(self.r):
             # z = -v/(i+2)! - ad_x v/(i+3)! - ... - ad_x^{r-1-i} v/(r+1)!
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
@@ -105,12 +106,12 @@ class _Step(ExpandedStep):
         return self.build.lin(name, Kind.DUAL, terms)
 
     def _momentum(self, i: int) -> Var:
-        """Append the new value of the momentum M_i of stage i."""
+        """Append the assignments that compute the new M_i to the program, and return the new variable."""
         build, times_h = self.build, self.stages.times_h
-        # The equation for M_i in the module docstring is divided by b_i. The left-hand side of the divided
-        # equation is dexp*_{(r),X_i} M_i, a series that begins with M_i. All other terms of the series are
-        # moved to the right-hand side, which changes the signs of the moved terms. The list corrections[i]
-        # contains the moved terms with the changed signs.
+        # The equation for M_i in the module docstring is divided by b_i. The left-hand side is then the sum
+        # M_i + ad*_x M_i/2! + ... + (ad*_x)^r M_i/(r+1)! with x = X_i and r = ``self.r``. All terms after M_i
+        # are moved to the right-hand side, which changes the signs of the moved terms. The list
+        # corrections[i] contains the moved terms with the changed signs.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
             # ``factor`` is -h b_j a_ji/b_i, the coefficient of two terms in the equation for momentum M_i.

@@ -89,7 +89,7 @@ class Optimiser:
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # The result of :meth:`plain` must be the same before and after this call.
+        # :meth:`plain` returns these attributes, so the values before the body-frame passes are restored.
         self.program, self.reports = plain, reports
         return outcome
 

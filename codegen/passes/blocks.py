@@ -45,7 +45,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # set, and therefore the order of the statements, could differ from run to run.
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
-    # The graph must also contain the assignments without edges.
+    # All assignments become nodes here, because ``add_edge`` adds only assignments that have an edge.
     graph.add_nodes_from(range(len(block.body)))
     for k, assign in enumerate(block.body):
         for arg in assign.args:

@@ -170,7 +170,7 @@ class _Framing:
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)
-        # The adjoint maps of E transform W and N from the body frame at Q to the body frame at the start of
-        # the step.
+        # W is the velocity and N is the force in the body frame at Q = q E. In the body frame at q, the
+        # velocity is Ad_E W, and the force is Ad*_{E^-1} N.
         self.names[xi] = W if E is None else build.adjoint(f"b{xi.name}", E, W)
         self.names[n] = N if E is None else build.adjoint(f"b{n.name}", E, N, inverse=True)

@@ -110,8 +110,9 @@ class _Bounded(PreciseDomain):
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return (converged, size of the change) for one fixed-point iteration from ``old`` to ``new``.
 
-        ``previous`` is the size of the previous change. If the change is at least 10^``digits``, the
-        iteration diverges and NotConverged is raised.
+        ``previous`` is the size of the change in the previous iteration. NotConverged is raised if the change
+        from ``old`` to ``new`` is at least 10^``digits``, because an iteration with so large a change
+        diverges.
         """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:

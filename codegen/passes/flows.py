@@ -21,8 +21,10 @@ from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem
 
 TYPICAL_STEPS = 16
-"""The flows of two parts are compared over durations of about the time span of the scene divided by this
-number. The number only sets a scale: flows that commute over one duration commute over all durations.
+"""A number that determines the durations for the test whether two flows commute.
+
+The durations are about T/TYPICAL_STEPS, where T is the length of the time span of the scene. The choice of
+the number is not critical: flows that commute over one duration commute over all durations.
 """
 
 
@@ -63,7 +65,7 @@ def run(program: Program, scene: Problem) -> Program:
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
     """Return an index k such that the flows ``kept[k]`` and ``letter`` can be joined, or None."""
     for at in reversed(range(len(kept))):
-        # Two flows of one part have different vector fields if their stage times differ.
+        # Only flows with the same part and the same stage time have the same vector field and can be joined.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
         # The flow ``letter`` can only be moved past flows that commute with ``letter``.
@@ -117,9 +119,10 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     """
     orbit = orbit_of(scene)
     d = orbit.domain
-    # The flows are compared over durations that are proportional to the time span of the scene. Over much
-    # shorter durations, even flows that do not commute could give the same state in both orders, up to
-    # rounding errors.
+    # To test whether two flows commute, the state after the first flow and then the second flow is compared
+    # with the state after the second flow and then the first flow. The durations are proportional to the time
+    # span of the scene. If the durations were much shorter, the two states could agree up to rounding errors
+    # although the flows do not commute.
     first, last = scene.span
     unit = abs(last - first) / TYPICAL_STEPS or Fraction(1)
 
@@ -147,7 +150,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
                 return False
         return True
 
-    # If a commutes with b, b commutes with a, so (a, b) and (b, a) share one cached comparison.
+    # The order of a and b does not matter, so (a, b) and (b, a) share one cached comparison.
     return lambda a, b: a == b or same((a, b) if a < b else (b, a))
 
 

@@ -100,10 +100,10 @@ Part = tuple[Var, Word, Var]
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Return (s, (y, W, v)) if ``var`` is W(ad_y) v and ``x`` is s y, otherwise None.
+    """Return a number s and a triple (y, W, v) such that ``var`` = W(ad_y) v and ``x`` = s * y.
 
-    The function W is a product of factors, and s is a rational number. The result is also None if ``var`` is
-    read more than once.
+    The function W is a product of factors, and s is a rational number. The result is None if such s, y, W and
+    v are not known, or if ``var`` is read more than once.
     """
     source = rewriter.definitions.get(var)
     # If another operation also reads ``var``, combining functions saves nothing.

@@ -86,7 +86,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # Values with proportional coefficients have equal tuples ``relative``.
+        # Two values have the same ``relative`` if the coefficients of the two values in all sums are
+        # proportional.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # ``distinct`` is False if a sum contains v twice, with different powers of h.
@@ -108,8 +109,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    # The sums in ``sums`` use the results of the new sums ``totals``. The function ``ordered`` puts the new
-    # sums first.
+    # The assignments ``totals`` compute common parts of the assignments ``sums``. The function ``ordered``
+    # puts each common part before the assignments that read this part.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
     # The new sums create no cyclic dependencies, so ``ordered`` does not return None.
     assert result is not None

@@ -56,15 +56,17 @@ class Noise:
     def late(self) -> str:
         """The reason to exclude a run whose error can come from the rounding of the time."""
         return (
-            f"{LATE}: near t = {self.time:g}, neighbouring numbers differ by {self.epsilon * self.time:.1e}"
+            f"{LATE}: near t = {self.time:g}, neighbouring floating-point numbers differ by "
+            f"{self.epsilon * self.time:.1e}"
         )
 
     def of_state(self, steps: int, gaps: Sequence[float]) -> float:
         """Return an estimate of the rounding errors of the state after ``steps`` steps.
 
-        ``gaps`` contains the error of each coordinate. The estimate for a coordinate is at most the error of
-        this coordinate. Without this bound, a large coordinate without error would have a large estimate, and
-        the errors of small coordinates would be mistaken for rounding errors.
+        ``gaps`` contains the error of each coordinate. For each coordinate, the function takes the smaller of
+        two numbers: an estimate of the rounding error, and the error in ``gaps``. The result is the Euclidean
+        norm of the smaller numbers. If only the estimates were used, a large coordinate without error would
+        dominate the norm, and the errors of small coordinates would be mistaken for rounding errors.
         """
         return math.hypot(
             *(min(gap, rounding(steps, self.epsilon, x)) for gap, x in zip(gaps, self.sizes, strict=True))
@@ -74,8 +76,9 @@ class Noise:
         """Return an estimate of the errors that the rounding of the time causes.
 
         Rounding can change the time by about s = ``epsilon`` * ``time``. A change of the time by s changes a
-        coordinate by about s times its velocity. ``gaps`` contains the error of each coordinate. The estimate
-        for a coordinate is at most the error of this coordinate.
+        coordinate with the velocity v by about s v. ``gaps`` contains the error of each coordinate. For each
+        coordinate, the function takes the smaller of two numbers: s abs(v), and the error in ``gaps``. The
+        result is the Euclidean norm of the smaller numbers.
         """
         shift = self.epsilon * self.time
         return math.hypot(*(min(gap, shift * v) for gap, v in zip(gaps, self.speeds, strict=True)))

@@ -42,7 +42,7 @@ FIRST = 5
 LONGER = (2, 3, 4)
 """Numbers of steps of additional runs (:func:`refine`).
 
-The steps of these runs are longer than the steps of the run with :data:`FIRST` steps.
+These numbers are smaller than :data:`FIRST`, so these runs have larger step sizes than the first run.
 """
 
 
@@ -110,8 +110,7 @@ class Refinement:
         If there is no slope, the verdict is ``undecided``. If the slopes have settled (:attr:`settled`), the
         first rule that applies gives the verdict:
 
-        - ``fails`` if s is below ``stated``, but above :data:`ZERO` (rounded coefficients can cause a smaller
-          s),
+        - ``fails`` if s is below ``stated`` and s > :data:`ZERO` (rounded coefficients can cause s <= ZERO),
         - ``holds`` if p equals ``stated``,
         - ``holds`` if s equals ``stated`` and p is above ``stated``,
         - ``undecided`` if s equals ``stated`` and p is below ``stated``,

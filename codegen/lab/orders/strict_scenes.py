@@ -1,7 +1,8 @@
 """The scenes (test problems) of the strict protocol.
 
-The scenes have no symmetry that could hide an error in a method. Examples of such symmetries are a fixed axis
-of rotation, an axis orthogonal to the state, and an autonomous field.
+The scenes have no special property that could hide an error in a method. Examples of such properties are a
+fixed axis of rotation, an axis of rotation that is orthogonal to the rotated vector, and a field that does
+not depend on time.
 
 Each kind of method has its own scenes:
 

@@ -131,9 +131,10 @@ def _fixed() -> Mapping[str, Place]:
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
     """Return the index of the colour and the index of the marker that occur least often in ``used``.
 
-    If several markers occur equally often, the function avoids the pairs (colour, marker) in ``taken``. If
-    there is still a choice between colours or between markers, the integer ``first`` decides. For example,
-    ``first`` is a hash value of the name of a method.
+    The function chooses the colour first. If several markers occur equally often, the function prefers
+    markers for which the pair (colour, marker) is not in ``taken``. If there is still a choice between
+    colours or between markers, the integer ``first`` decides. For example, ``first`` is a hash value of the
+    name of a method.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

@@ -116,7 +116,8 @@ def svg_element(figure: Figure, text: Text) -> Markup:
 def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
     """Replace ``id="series:k"`` by ``data-series="k"``, and ``id="key:k"`` by ``data-key="k"`` in ``drawn``.
 
-    ``values`` maps the number k of a curve to the titles of its markers.
+    If ``values`` contains the number k of a curve, the texts ``values[k]`` become the titles of the markers
+    of this curve.
     """
     before, *groups = re.split(r'<g id="series:(\d+)">', drawn)
     parts = [before]
@@ -126,7 +127,10 @@ def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
 
 
 def _with_titles(body: str, values: Sequence[str]) -> str:
-    """Add the texts ``values`` as titles to the first markers in ``body``, one title to each marker."""
+    """Add ``values[0]`` as a title to the first marker in ``body``, ``values[1]`` to the second, and so on.
+
+    If ``body`` has more markers than ``values`` has entries, the last markers get no title.
+    """
     titles = iter(values)
 
     def titled(match: re.Match[str]) -> str:

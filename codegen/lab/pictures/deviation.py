@@ -1,7 +1,8 @@
-"""Draws the largest deviation of a quantity against time.
+"""Draws the largest deviation of a quantity up to the time t, as a function of t.
 
-The deviation is the difference from the value along the reference run. Without a reference run, the deviation
-is the difference from the initial value.
+If ``figure.window`` is positive, the largest deviation in each group of ``figure.window`` consecutive states
+is drawn instead. The deviation is the absolute difference from the value along the reference run. Without a
+reference run, the deviation is the absolute difference from the initial value.
 """
 
 from __future__ import annotations

@@ -132,8 +132,8 @@ def _formula(problem: Problem, quantity: Quantity) -> Any:
 def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
     """Shift the lattice by ``offset``, and return one array for each coordinate of a site.
 
-    The entry of an array for the site k is the value of the coordinate at the site k + ``offset``, with
-    periodic boundary conditions.
+    At the index k, the array of a coordinate contains the value of this coordinate at the site
+    k + ``offset``. The lattice counts as periodic.
     """
     rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
     return [rolled[..., k] for k in range(states.shape[-1])]

@@ -30,12 +30,14 @@ STEP_LIMIT = 10**7
 
 @dataclass(frozen=True)
 class Path:
-    """The computed states of one run.
+    """The computed states of one run or of one sweep.
 
-    Each row of ``states`` is the state at one of the output times ``times``. A sweep is a sequence of runs
-    with different parameter values or step sizes. For a sweep, ``times`` contains these values instead of
-    times, and each row of ``states`` is the final state of one run. ``failure`` is the reason why the run
-    ended early, or '' if all steps succeeded.
+    A sweep is a sequence of runs with different values of a parameter or of the step size.
+
+    - ``times``: the output times of the run. For a sweep, the values of the parameter or of the step size.
+    - ``states``: each row is the state at one output time. For a sweep, each row is the final state of one
+      run.
+    - ``failure``: the reason why a run ended early, or '' if all steps succeeded.
     """
 
     times: numpy.ndarray

@@ -38,8 +38,8 @@ class Endurance:
 
     The property :attr:`held` is True in three cases:
 
-    - The run stopped with an error message. Then the integrator returned no state, so no returned state is
-      wrong.
+    - The run stopped with an error message. The integrator then reported the failure instead of returning a
+      wrong state.
     - A run forward is complete, and ``defect`` is None or at most 2^-47 times the number of steps (a bound
       for rounding errors).
     - A run forward and back is complete, and ``returned`` is finite. A large ``returned`` is permitted.

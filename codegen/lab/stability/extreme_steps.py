@@ -51,8 +51,8 @@ TINY = 2.0**-1022
 ROUNDINGS = 256.0
 """The factor of an error bound. A result is wrong if its error exceeds ROUNDINGS * (d + e).
 
-Here d is the largest error of a step with simulated rounding errors, and e is about one rounding error of the
-result.
+The step is repeated with simulated rounding errors, and d is the largest error of a coordinate in all
+repetitions. The number e is about one rounding error of the result.
 """
 
 LEAST = 3
@@ -226,7 +226,7 @@ def _blocks(compiled: Compiled) -> list[range]:
 
 
 def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
-    """Return the state, the time and the step size of a case with simulated rounding errors.
+    """Change the state, the time and the step size of a case by rounding errors, and return the new values.
 
     The relative error of each value is plus or minus :data:`EPSILON`. The signs are random, with the seed
     ``number``.
@@ -243,8 +243,9 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
     """Make the step of a case once with at least 60 digits, and several times with simulated rounding errors.
 
     Return the state after the first of these steps, and a list of the states after the other steps. The first
-    state counts as exact. The steps with simulated rounding errors are called probes. If the step size is
-    above 1, the probes use more digits, because long steps cause cancellation.
+    state counts as exact. The steps with simulated rounding errors are called probes. The probes use 60
+    digits for step sizes up to 1, and more than 60 digits for longer steps, because long steps cause
+    cancellation.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))

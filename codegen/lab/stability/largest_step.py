@@ -29,7 +29,7 @@ ENERGY = "energy"
 
 @dataclass(frozen=True)
 class Limit:
-    """The largest usable step size ``h``, and the number ``steps`` of steps of size ``h`` in the time span.
+    """The largest usable step size ``h``. A run over the time span makes ``steps`` steps of this size.
 
     ``reason`` explains why longer steps are not usable. If no usable step size is found, ``h`` and ``steps``
     are None, and ``reason`` describes the last failure.

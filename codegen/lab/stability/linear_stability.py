@@ -112,10 +112,7 @@ def _intervals(tableau: Tableau) -> Intervals:
 
 
 def _proved_order(tableau: Tableau) -> int:
-    """Return an order that the equations in the table [proof] of the tableau imply on vector spaces.
-
-    The order is 0 if the tableau has no valid proof.
-    """
+    """Return a proved lower bound of the order on vector spaces, or 0 if the tableau has no valid proof."""
     if tableau.proof is None:
         return 0
     from orderconds.proof.certificate import certify
@@ -129,11 +126,12 @@ def _proved_order(tableau: Tableau) -> int:
 
 
 def _identities(tableau: Tableau) -> Vanishing:
-    """Return which coefficients of |Q|^2 - |P|^2 vanish for all values of the rounded decimals in a tableau.
+    """Return which coefficients of |Q|^2 - |P|^2 remain zero if other numbers replace the rounded decimals.
 
-    P/Q is the stability function. On the negative real axis and on the imaginary axis, |Q|^2 - |P|^2 is a
-    polynomial (:class:`Vanishing`). Random numbers replace the decimals. The probability of a wrong answer is
-    negligible (:mod:`orderconds.tableau.random_member`).
+    P/Q is the stability function of the tableau, and the rounded decimals are numbers in the tableau. On the
+    negative real axis and on the imaginary axis, |Q|^2 - |P|^2 is a polynomial (:class:`Vanishing`). The
+    function replaces the decimals by random numbers. The probability of a wrong answer is negligible
+    (:mod:`orderconds.tableau.random_member`).
     """
     if tableau.proof is None:
         return Vanishing()
