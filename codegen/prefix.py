@@ -29,7 +29,9 @@ def default_prefix(scene: Problem, method: Method) -> str:
     parts = [scene.name, *([] if named else [family]), tableau]
     name = re.sub(r"\W", "_", "_".join(filter(None, parts)), flags=re.ASCII)
     return prefix_of(
-        name, "the prefix begins with the name of the scene's file: rename the file, or use --prefix"
+        name,
+        "the prefix begins with the name of the scene's file, so the name must start with a letter: rename "
+        "the file, or use --prefix",
     )
 
 

@@ -75,8 +75,8 @@ def run(program: Program, scene: Problem) -> Program:
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # At the solution, an unknown equals its image, the right-hand side of its equation. Later statements
-        # that read the image of an unknown now read the unknown.
+        # An unknown u has the equation u = g(u). ``image`` maps u to the variable for g(u). If u has a path,
+        # later statements read u in place of this variable, because u = g(u) at the solution.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -96,8 +96,8 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # An unknown has a residual only if invertible maps (a path) compute the unknown from a momentum.
-            # Newton's method needs the residuals of all unknowns.
+            # The residual for an unknown is computed from the path of the unknown. Newton's method needs a
+            # residual for every unknown, so every unknown must have a path.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -160,8 +160,8 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     The maps of ``route`` compute ``route.unknown`` from ``route.base``. The new assignments apply the
     inverses of these maps, in reverse order.
 
-    The first result maps each variable of ``route`` to the variable that contains the same quantity, computed
-    from ``route.unknown``. The second result is the entry of the first result for ``route.base``.
+    The first result maps each variable v of ``route`` to a variable w. The new assignments compute w from
+    ``route.unknown``, and w = v at the solution. The second result is w for v = ``route.base``.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -187,7 +187,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     given = route.base
     if _function_of_one(block, route):
-        # The residual compares two values of P, so the maps in ``route.inward`` need not be inverted.
+        # ``given`` is the momentum P (:class:`Path`) in place of ``route.base``. To compute P from the
+        # unknown, no map in ``route.inward`` is inverted.
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
         given = route.inward[0].targets[0]

@@ -51,7 +51,7 @@ class PassReport:
 
     @property
     def savings(self) -> Counter[str]:
-        """The number of removed operations of each kind. The keys are the names of operations in reports."""
+        """The number of removed operations of each kind. Each key is a noun, such as ``exponential{s}``."""
         # If the pass adds operations, the difference is negative. The class ``Counter`` omits negative
         # differences.
         return _nouns(self.earlier) - _nouns(self.program)

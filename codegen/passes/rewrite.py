@@ -1,4 +1,4 @@
-"""Rewriting of programs for several passes. A rule keeps, replaces or removes each assignment."""
+"""Rewrite a program with a rule. The rule keeps, replaces or removes each assignment of the program."""
 
 from __future__ import annotations
 

@@ -79,7 +79,8 @@ class SeriesSums:
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # If another operation also reads v, v is not moved into a nested sum.
+            # The nested form does not compute ``v``. Therefore the term is skipped if another operation also
+            # reads ``v``.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)

@@ -14,7 +14,10 @@ Terms = frozenset[tuple[Coefficient, Var]]
 
 
 def run(program: Program) -> Program:
-    """Return the program in which every negative of an earlier sum x is computed as -x."""
+    """Return the program in which a sum is computed from an earlier sum with opposite coefficients.
+
+    For example, after the assignment s = a - b, the sum b - a is computed as -s.
+    """
     outside: dict[Terms, Var] = {}
     body = [
         # Each block has its own table of earlier sums.

@@ -90,9 +90,9 @@ def _worthwhile(program: Program) -> set[Share]:
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
     """Group the terms of the sum ``assign`` by their linear maps.
 
-    Let a_k L(x_k) be the terms with the linear map L, and let c be the first of the coefficients a_k. For
-    each map L, the result contains one entry. The key is the combination sum_k (a_k/c) L(x_k) in the form of
-    :data:`Share`, and the value is c. If two terms contain the same value L(x_k), there is no entry for L.
+    Let a_k v_k be the terms with v_k = L(x_k) for one linear map L, and let c be the first of the numbers
+    a_k. If all variables v_k are different, the result contains one entry for L, otherwise none. The key of
+    the entry is the combination sum_k (a_k/c) v_k in the form of :data:`Share`, and the value is c.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
@@ -101,7 +101,7 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # If two terms contain the same value L(x_k), the result has no entry for the map L.
+        # The terms of a map are skipped if two terms contain the same variable v, for example v and h v.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # All coefficients are divided by the first, so proportional combinations become equal.

@@ -47,8 +47,8 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
     The unknown is replaced by its image, the right-hand side of its equation.
     """
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # A block needs at least one unknown. ``image`` replaces ``unknown``, so ``image`` must not be an unknown
-    # that a later call of this function removes.
+    # A block needs at least one unknown. ``image`` replaces ``unknown``. If ``image`` were an unknown, too, a
+    # later call of this function could remove ``image``.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 

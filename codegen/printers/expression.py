@@ -30,7 +30,7 @@ class Rendering:
 
     @property
     def text(self) -> str:
-        """The text on one line, without the sign."""
+        """The expression on one line. If ``negative`` is True, the minus sign is omitted."""
         return " ".join(self.segments)
 
 

@@ -41,7 +41,7 @@ class Text:
         return " ".join(self.segments)
 
     def within(self, level: int) -> tuple[str, ...]:
-        """Return the segments. If ``self.level`` is below ``level``, the text gets parentheses."""
+        """Return ``self.segments``, in parentheses if ``self.level`` is below ``level``."""
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")

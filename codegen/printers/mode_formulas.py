@@ -63,7 +63,7 @@ class ModeFormulas:
         """
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
-        # POWER denotes the factor z itself. This factor needs no function call.
+        # The function POWER returns its argument unchanged, so the text contains no function call.
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:

@@ -241,10 +241,10 @@ class ArrayLoops:
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
         """Return a function that yields the statements for a group of adjacent columns of ``a.target``.
 
-        The variable :data:`_ENTRY` contains an entry of a constant matrix. The statements multiply this entry
-        by row number ``column`` of ``a.matrix``. If ``added`` is True, the product is added to row number
-        ``row`` of ``a.target``. Otherwise, the product overwrites this row. Only the columns of the group are
-        computed.
+        The target is the product C M of a constant matrix C and the matrix M = ``a.matrix``. The variable
+        :data:`_ENTRY` contains the entry C_ij with i = ``row`` and j = ``column``. The statements multiply
+        C_ij by row j of M. If ``added`` is True, the product is added to row i of ``a.target``. Otherwise,
+        the product overwrites this row. Only the columns of the group are computed.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -361,9 +361,10 @@ def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ..
 
 
 def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statement]]) -> Iterator[Statement]:
-    """Split ``columns`` columns into groups, and yield the statements of ``group`` for each.
+    """Yield the statements that compute a matrix group by group. A group consists of adjacent columns.
 
-    Only the last group may have fewer than :data:`GROUP` columns.
+    The matrix has ``columns`` columns. The function ``group`` yields the statements for one group. Only the
+    last group may have fewer than :data:`GROUP` columns.
     """
     groups, rest = divmod(columns, GROUP)
     # A single group begins at column 0, so the column indices are constants.

@@ -195,9 +195,9 @@ class _Exponential:
         parameters = tuple(loops.arrays[x.name] for x in given)
         body = (*(Array(loops.arrays[x.name]) for x in local), *self.statements())
         about = (
-            "Multiply the point X by the matrix exponential exp(B S B^T). Let X_0 be the state at the "
-            "beginning of the step. The matrices X_0 and B are the same for all points of the step. A point "
-            "X = X_0 + B D is stored as the matrix D. The array result is the matrix R "
+            "Multiply an intermediate state X of a step by the matrix exponential exp(B S B^T). All these "
+            "states have the form X = X_0 + B D with the same B, where X_0 is the initial state of the step. "
+            "X is stored as the matrix D. The array result is the matrix R "
             f"with exp(B S B^T) X = X_0 + B R. The argument core is the {m} x {m} matrix S. The argument "
             "gram is B^T B."
         )
@@ -233,7 +233,8 @@ class _Exponential:
         yield from self.terms(norm * scale)
         yield from self.begun()
         yield For(part, parts, tuple(self.advanced(scale)))
-        # If even ``MOST_PARTS`` parts are too few, the series is inaccurate, so the result is set to NaN.
+        # The matrix exponential is a product of at most ``MOST_PARTS`` equal factors. If the exponent of a
+        # factor has a norm above 1, the series of the factor is inaccurate, so the result is set to NaN.
         lost = For(
             _PLACE,
             whole(self.target.size),
@@ -247,9 +248,9 @@ class _Exponential:
         The constant term 1 is not counted. ``size`` is the norm of the matrix z.
         """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
-        # Let z be the exponent, ``theta`` its norm, and n the number ``terms``. The series of
-        # exp(z) - 1 = z phi(z) ends with the power z^(n + 1). The first omitted term has a norm of at most
-        # ``bound`` = theta^(n + 2)/(n + 2)!.
+        # Let z be the exponent, ``theta`` its norm, and n the number ``terms``. The series of phi(z) is
+        # truncated after the term z^n/(n + 1)!. Therefore the first omitted term of exp(z) - 1 = z phi(z) is
+        # z^(n + 2)/(n + 2)!. The norm of this term is at most ``bound`` = theta^(n + 2)/(n + 2)!.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))

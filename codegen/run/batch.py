@@ -70,7 +70,9 @@ VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 """These functions can be computed without branches. The same is true for all Stumpff functions."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
-# In a loop over a block of lanes (systems), ``_PLACE`` = ``_FIRST`` + ``_LANE`` is the index of the lane.
+# In a loop over a block of lanes (systems), ``_FIRST`` is the index of the first lane of the block, and
+# ``_LANE`` counts the lanes of the block from 0. Therefore a lane has the index ``_PLACE`` = ``_FIRST`` +
+# ``_LANE`` in the batch.
 _LANE, _DONE, _ENDED = count("lane"), count("step"), count("ended", 1)
 _STATE, _PARAMETERS, _INPUTS = real("state", 0), real("parameters", 0), real("inputs", 0)
 _STOPPED, _FAILED, _ALONE, _HELD = "stopped", "failed", "alone", "held"
@@ -102,7 +104,7 @@ def obstacle(plan: Plan) -> str:
         return "a step calls several functions, so one loop over lanes cannot compute the step"
     if not kernel.outputs or kernel.outlined:
         return "the loop over lanes cannot pass arrays to the functions that a step calls"
-    # A branch in the loop over lanes would prevent vector instructions.
+    # If the loop over lanes called a function with branches, vector instructions would not be possible.
     called = called_by(_statements(plan))
     # The names are sorted, because the message must not vary between runs.
     others = sorted(name for name in called if name not in VECTORISED and not name.startswith("stumpff_"))

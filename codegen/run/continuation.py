@@ -49,7 +49,8 @@ LARGEST_FACTOR = 4.0
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statements that call the function CONTINUED after a failed step.
 
-    If the steps of ``plan`` have no warm start, the list is empty, and failed steps are not repeated.
+    CONTINUED tries steps with given initial guesses. Only steps with a warm start can read given guesses, so
+    the list is empty for other steps.
     """
     # Steps without a warm start store no solutions.
     if plan.start is None:
@@ -177,8 +178,8 @@ class _Continuation:
         latest = values[plan.memory.field("place", Kind.COUNT)]
         # First, ``factor`` is changed. A success squares ``factor``. A failure after the first success
         # replaces ``factor`` by its square root. A failure before the first success does not change
-        # ``factor``. Then, if an attempt has succeeded, the next step size is the new ``factor`` times the
-        # largest successful step size, but at most h.
+        # ``factor``. Then the next step size is computed. From the first success on, the next step size is
+        # ``factor`` times the largest successful step size, but at most h.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),

@@ -57,7 +57,8 @@ from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
 """The names of three emitted functions.
 
-- BEGIN applies the first flow of a step. BEGIN is not called if the previous step has applied this flow.
+- BEGIN applies the first flow of a step. If the last flow of the previous step and this flow were applied as
+  one flow, BEGIN is not called.
 - FINISH applies the deferred flows.
 - COMPLETE applies all flows of one step.
 """
@@ -183,7 +184,7 @@ class _Deferring:
         # A splitting has no implicit equations, so there is no argument for iteration statistics.
         parameters = (state, *plan.moment(), *plan.parameters)
         return Function(
-            COMPLETE, "Make one step, and apply all flows of the step.", parameters, body, Kind.STATUS
+            COMPLETE, "Make one step. Defer no flow to a later step.", parameters, body, Kind.STATUS
         )
 
     def run(self) -> Function:

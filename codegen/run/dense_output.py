@@ -68,7 +68,8 @@ class DenseOutput:
         """Return the emitted function that computes the state at a fraction theta of a step."""
         plan, state, m = self.plan, self.plan.state(), self.width
         pair, i, total = real("pair", self.mover.size), count("i"), real("total")
-        # In ``powers``, coordinate i of the coefficient of theta^(p + 1) has the index i + p * m.
+        # ``powers`` contains the coefficients of theta, theta^2, ... in this order, each with m coordinates.
+        # Therefore coordinate i of the coefficient of theta^(p + 1) has the index i + p * m.
         entries = [self.powers[i + p * m] for p in range(self.extension.degree)]
         # The polynomials in theta have no constant term. For each polynomial, Horner's rule computes the
         # factor ``total``. The polynomial is theta times ``total``.

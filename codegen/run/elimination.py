@@ -1,4 +1,4 @@
-"""Invert a matrix by elimination, with the operations of emitted code in the same order."""
+"""Invert a matrix by elimination. Emitted code uses the same operations in the same order."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ def inverted(n: int, matrix: list[Any]) -> int:
             sizes = abs(rows[k:, k])
             pivot = k + max(range(n - k), key=sizes.__getitem__)
             if not sizes[pivot - k] > 0:
-                # The stopping rule tests whether the rest of the matrix is finite.
+                # The solver computes changes of the unknowns from the unfinished matrix, too, and then tests
+                # whether the changes are finite.
                 matrix[:] = rows.ravel().tolist()
                 return 0
             order.append(pivot)

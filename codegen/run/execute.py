@@ -235,7 +235,7 @@ class _Compiler:
         return run if loop.guard is None else self.caught(run, self.store(loop.guard))
 
     def caught(self, loop: Action, store: Callable[[Environment, Any], None]) -> Action:
-        """Return the action of a loop that ends with the status NOT_FINITE after an arithmetic error."""
+        """Return an action that runs ``loop``. After an arithmetic error, the action stores NOT_FINITE."""
 
         def run(env: Environment) -> bool:
             try:

@@ -21,7 +21,8 @@ class EmittedFloats(FloatDomain):
 
     ``chain`` is the nesting depth of the Stumpff functions in a step (:mod:`codegen.ir.angle_depth`). For
     example, the nesting depth of c_1(c_1(z)) is 2, where c_1 is a Stumpff function.
-    The largest argument of a Stumpff function depends on ``chain`` (:func:`codegen.snippets.stumpff.limit`).
+    For arguments above a limit, the Stumpff functions return NaN. The limit depends on ``chain``
+    (:func:`codegen.snippets.stumpff.limit`).
     """
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
@@ -51,7 +52,7 @@ class EmittedFloats(FloatDomain):
         half = 0.5 * math.sqrt(allowed)
         sine, cosine = math.sin(half), math.cos(half)
         ratio = sine / half
-        # The values of c_1 and c_2 follow from formulas for the half angle s/2.
+        # Let r = s/2. Then c_1 = cos(r) sin(r)/r and c_2 = (sin(r)/r)^2/2.
         closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
         if 3 in orders:
             # For z up to SWITCH[3], the closed form c_3 = (1 - c_1)/z loses digits.
@@ -134,7 +135,8 @@ def _short(k: int, z: float, name: str) -> float:
     """Return the Stumpff function c_k(z) for small z. ``name`` selects the polynomial: "tiny" or "small"."""
     terms, w = _terms(k, name), z * z
     total, factor = 0.0, 1.0
-    # The additions have the order of the emitted code (template ``stumpff_small``), so the roundings agree.
+    # The emitted code (template ``stumpff_small``) adds the same terms in the same sequence, so all roundings
+    # agree.
     for place in range(0, len(terms), 2):
         pair = terms[place] + z * terms[place + 1] if place + 1 < len(terms) else terms[place]
         total = pair if place == 0 else total + factor * pair

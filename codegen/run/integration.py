@@ -123,7 +123,8 @@ class _Constant:
     def own_step(self) -> bool:
         """True if each step calls the function ADVANCE. False if each step calls ``run``."""
         plan = self.plan
-        # If one of these tests fails, ADVANCE is missing or computes only a part of the step.
+        # ADVANCE omits deferred flows and the conversion of a body momentum (``carried``). If the kernel is
+        # inlined in the loop over the steps (``is_looped``), the function ADVANCE does not exist.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:

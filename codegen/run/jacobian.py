@@ -137,7 +137,8 @@ class _Jacobian:
     def composed(self) -> list[Statement]:
         """Return the loop over the substeps. Each substep advances first the variation and then the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
-        # Substep k stores data of its equations in ``memories[k]``.
+        # A substep stores data for later steps, such as solutions of implicit equations. Substep k uses the
+        # record ``memories[k]`` for these data.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
         # The substep only computes the state for the next call of ``vary``, so the caller's statistics do not

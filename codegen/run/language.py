@@ -74,8 +74,8 @@ class While:
 
     If ``at_least_once`` is True, the test is evaluated after the body, so the body is executed at least once.
     If ``guard`` is a variable for a status, an arithmetic error in Python ends the loop, and the variable
-    becomes NOT_FINITE. Assignments before the error remain. Such a loop must not call functions of the
-    caller, because their errors would be lost.
+    becomes NOT_FINITE. Assignments before the error remain. A loop with a guard must not call functions that
+    the user supplies (:data:`LANGUAGE`), because errors in these functions would not be reported.
     """
 
     test: Term

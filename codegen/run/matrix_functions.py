@@ -217,20 +217,21 @@ class _Exponential:
         return Function(self.name, self._about(), (a, result), tuple(body))
 
     def _about(self) -> str:
-        # ``what`` is the result. If there are derivatives, ``what`` also describes the arrays a and result.
-        what = f"exp(A) for the {self.n} x {self.n} matrix A in the array a"
+        # ``what`` is a text about the result. If there are derivatives, the text also describes the contents
+        # of the two arrays.
+        what = f"exp(A) for the {self.n} x {self.n} matrix A in array 'a'"
         if self.level:
             single = (
-                ". The array a contains A, followed by a matrix E. The array result contains exp(A), "
-                "followed by the derivative of exp at A in the direction E"
+                ". The array 'a' contains A and then a matrix E. The array 'result' contains exp(A) and "
+                "then the derivative of exp at A in the direction E"
             )
             several = f". The matrix A is a function of {self.level} variables"
             what += (
                 single
                 if self.level == 1
-                else f"{several}. The array a contains A, followed by all partial derivatives of A "
-                "(also mixed ones) in which no variable occurs twice. The array result contains exp(A), "
-                "followed by the same partial derivatives of exp(A)"
+                else f"{several}. The array 'a' contains A and then all partial derivatives of A "
+                "(also mixed ones) in which no variable occurs twice. The array 'result' contains exp(A) "
+                "and then the same partial derivatives of exp(A)"
             )
         return (
             f"result = {what}. The algorithm is scaling and squaring: a Taylor polynomial of exp(A/2^s) is "
@@ -261,7 +262,8 @@ class _Exponential:
             value = ((work[_PLACE] + c[base + 3] * b3[_PLACE]) + c[base + 2] * b2[_PLACE]) + c[base + 1] * b1[
                 _PLACE
             ]
-            # The coefficient ``c[base]`` multiplies the unit matrix, so only diagonal entries change.
+            # ``value`` omits the term ``c[base]`` times the unit matrix. The second loop below adds this term
+            # to the diagonal entries.
             diagonal = result[(self.n + 1) * _ROW]
             return (
                 For(_PLACE, whole(self.size), (Assign(result[_PLACE], value),)),
@@ -331,7 +333,7 @@ class _Exponential:
             Assign(result, work),
         )
         return [
-            # Before the first squaring, ``error`` bounds the error of the Taylor polynomial.
+            # Before the first squaring, ``error`` is an upper bound of the error of the Taylor polynomial.
             Assign(error, number((n + 8) * unit * n)),
             For(_TERM, squarings, body),
             self.norm(result, bound),

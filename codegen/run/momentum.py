@@ -1,11 +1,12 @@
 """Conversion of the momentum between the space frame and the body frame.
 
-The caller's state contains the space momentum, but the steps of a run use the body momentum. The body
-momentum is converted to the space momentum twice: at the beginning of a run and at the end of the run. The
-difference of the two converted momenta is added to the caller's momentum.
+The caller's state contains the space momentum, but the steps of a run use the body momentum. At the beginning
+of a run, the caller's momentum is converted to the body frame, and the result is converted back to the space
+frame. At the end of the run, the new body momentum is converted to the space frame. The increase of the
+converted space momentum during the run is added to the caller's momentum.
 
-Rounding makes the group element q slightly non-orthogonal, so each of the two conversions has an error. The
-two errors are nearly equal, so they nearly cancel in the difference.
+Rounding makes the group element q slightly non-orthogonal, so each conversion to the space frame has an
+error. The errors at the beginning and at the end are nearly equal, so they nearly cancel in the increase.
 """
 
 from __future__ import annotations

@@ -158,8 +158,8 @@ class Observation:
     def observe(self, state: Term, trial: Term, now: Term, following: Term, stop: Term) -> Call:
         """Return the call that observes the step from ``state`` to ``trial``.
 
-        If an event ends the run, the call returns EVENT. Then the call overwrites ``trial`` with
-        the state at this event, and ``stop`` with the time of this event.
+        If an event ends the run, the call writes the state at the event into ``trial``, writes the time of
+        the event into ``stop``, and returns EVENT.
         """
         passed = (*self.plan.parameters, *self.plan.sampled(), *self.outputs, *self.buffers, *self.memory)
         return Call(OBSERVE, (state, trial, now, following, *passed, stop), (STATUS,))
@@ -213,7 +213,7 @@ class Observation:
             ),
             Return(ordered),
         )
-        about = "True if all output times lie inside the run, in the order in which the run reaches them."
+        about = "True if the output times are sorted in the direction of the run and lie inside the run."
         return Function(ORDERED, about, (self.now, self.end, self.times, self.amount), body, Kind.FLAG)
 
     def measure(self, time: Term, state: Term) -> tuple[Statement, ...]:
@@ -307,7 +307,7 @@ class Observation:
         # The earliest zero of a secant is chosen. In every third iteration, the midpoint is chosen instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         # Either a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1. If a and b
-        # underflow, a - b is zero, and the secant has no zero. Then the midpoint is the estimate.
+        # underflow, the divisor a - b is 0. In this case the midpoint is the estimate.
         bisected, secant = 0.5 * (self.low + high), self.low + (high - self.low) * (a / difference)
         candidate = (
             Assign(difference, a - b),

@@ -32,10 +32,11 @@ class Place:
 def places(kernel: Kernel) -> tuple[Place, ...]:
     """Return the position of each block of a kernel's state.
 
-    If the state has a variation (a tangent vector), it is the last block. Its array is ``vector``.
+    If the state has a variation (a tangent vector), the variation is the last block. The name of the array is
+    ``vector`` for the variation, and ``state`` for all other blocks.
     """
-    # ``whole`` is the length of the array ``state``. The variation is not in ``state``, so the symbols of the
-    # variation are not counted.
+    # ``whole`` is the length of the emitted array ``state``. The variation in ``kernel.state`` is not
+    # counted, because the emitted code stores the variation in another array.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0

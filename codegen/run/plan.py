@@ -140,7 +140,8 @@ class Plan:
 
         If the step does not depend on time, ``t`` is omitted.
         """
-        # An unused argument for the time would cause a compiler warning and needless arithmetic.
+        # If a step had an unused parameter for the time, C compilers would give a warning, and the caller of
+        # the step would compute the time in vain.
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:

@@ -10,7 +10,7 @@ Part number K has several functions:
 - ``part_K`` calls ``flow_K`` for all sites, or for all pairs of one set.
 - ``whole_K`` is ``flow_K`` without the fast variants of sines, cosines and Stumpff functions. The fast
   variants are valid only near zero.
-- ``pair_K`` computes the pair of the last and the first site of a periodic row.
+- ``pair_K`` applies the flow to one pair: the last and the first site of a periodic row.
 
 A kick is a flow that reads neighbours and changes only momenta. A kick has other functions: ``sweep_K``,
 ``site_K`` and ``pass_K`` (:mod:`codegen.run.sites`).
@@ -70,8 +70,8 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
     # A kick changes single sites, but reads their neighbours.
     if sweep.axis == OWN and sweep.neighbours:
-        # The last flow of a step is never a kick, and tests the whole new state. Therefore a kick needs no
-        # test for infinities and NaNs.
+        # The last flow of a step is never a kick. The last flow checks the whole new state for infinities and
+        # NaNs, so a kick needs no check.
         return _Kick(Loop(plan, step, sweep, index, tested=False))
     return _Part(plan, step, sweep, index)
 
@@ -197,8 +197,8 @@ class _Part:
             # Adjacent indices allow compilers to load both sites of a pair with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # Flows of pairs need no test for infinities and NaNs, because the last flow of a step is a flow of
-        # single sites, and tests the state of every site.
+        # The last flow of a step changes single sites. The last flow checks every site for infinities and
+        # NaNs, so a flow of pairs needs no check.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.

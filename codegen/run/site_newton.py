@@ -115,7 +115,8 @@ class ChainSolver:
         The border contains the coefficients of the last site's unknowns in the equations of all other sites.
         The entry belongs to equation ``i`` at ``site`` and to unknown ``j`` of the last site.
         """
-        # Each column must have the same layout as the residuals, because ``substitute`` reads both.
+        # A column of the border is stored in the same way as the residuals, because ``substitute`` accepts a
+        # column or the residuals as the right-hand side.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:

@@ -211,7 +211,7 @@ class Loop:
         return body
 
     def _images(self, ends: Sequence[Term]) -> tuple[list[Statement], list[Term]]:
-        """Return assignments ``next u`` = new value of u for all unknowns u, and the variables ``next u``."""
+        """Return the assignments of the new values of all unknowns, and the variables for the new values."""
         images = [own(f"next {u}") for u in self.own.unknowns]
         # ``ends`` begins with the new values of the unknowns. Other results may follow.
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
@@ -420,8 +420,8 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
-        # A block of equations is solved by repeating all its sweeps (loops over all sites). Therefore
-        # ``calls`` keeps the calls of these sweeps until ``iterated`` emits one loop with all of them.
+        # The solver of a block of equations repeats all sweeps (loops over all sites) of the block. Therefore
+        # ``calls`` collects the calls of these sweeps until ``iterated`` emits an iteration with these calls.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls

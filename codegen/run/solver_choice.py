@@ -350,7 +350,7 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return the least step time, in nanoseconds, for which another solver is worse than ``solver``.
+        """Return a bound in nanoseconds. A solver whose step time reaches the bound is worse than ``solver``.
 
         ``candidate`` contains the results of the trials of ``solver``.
         """

@@ -59,9 +59,10 @@ def counters(plan: Plan) -> tuple[Function, ...]:
 
 
 def count_sweeps(plan: Plan, block: int, sweeps: Term = SWEEPS) -> Statement:
-    """Return the call that adds the sweeps over the block with the index ``block`` to the statistics.
+    """Return the call that counts the sweeps over one block in the statistics.
 
-    If the status is not OK when the code is executed, the call also records that this block failed.
+    ``block`` is the index of the block. If the status is not OK when the code is executed, the call also
+    records that this block failed.
     """
     return Call("count_sweeps", (plan.statistics, whole(block), sweeps, STATUS.differs(code(OK))))
 

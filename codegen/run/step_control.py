@@ -17,7 +17,8 @@ II, section IV.2). With the exponents 0.7/p and 0.4/p in place of 0.8/p and 0.2/
 oscillate less, but it would follow the solution more slowly.
 
 If the caller gives no step size, the first trial step has 1/16 of the length of the interval of integration.
-If the step is accepted, the step size is multiplied by 0.9 norm^(-1/p), limited to [0.2, 16].
+In such a run, the factor after the first accepted step is 0.9 norm^(-1/p), because ``before`` does not exist.
+This factor is limited to [0.2, 16] if the first trial step is accepted, and to [0.2, 1] otherwise.
 
 After a change of the step size, the solutions of earlier steps are bad initial guesses. Therefore implicit
 steps do not use these solutions.
@@ -64,8 +65,12 @@ step size grows at most by the factor MOST."""
 SHARE = 0.2
 """A constant in the exponents of the controller.
 
-Let p be the order of the error estimate. In the factor for the step size, the error norm of the current step
-has the exponent -4 SHARE/p. The error norm of the previous accepted step has the exponent SHARE/p.
+After an accepted step, the step size is multiplied by
+
+    SAFETY norm^(-4 SHARE/p) before^(SHARE/p) = 0.9 norm^(-0.8/p) before^(0.2/p).
+
+Here p is the order of the error estimate, ``norm`` is the error norm of the step, and ``before`` is the error
+norm of the previous accepted step.
 """
 
 FLOOR = 1e-4

@@ -115,9 +115,10 @@ class Stopping:
         return sequence
 
     def measured(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
-        """Return the statements that compute the largest change and the largest absolute value of an unknown.
+        """Return the statements that compute two maxima over all unknowns.
 
-        ``changes`` contains the absolute values of the changes in a sweep.
+        CHANGE is the maximum of ``changes``, the absolute values of the changes in a sweep. SCALE is the
+        maximum of the absolute values of ``unknowns``.
         """
         return [
             Assign(CHANGE, greatest(changes)),
@@ -185,7 +186,8 @@ class Stopping:
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
         """Return the statements that sum the absolute values of the changes and of the unknowns.
 
-        For equations r(u) = 0, the stopping rule uses these sums in place of the maxima of :meth:`measured`.
+        The stopping rule for equations r(u) = 0 uses these sums. The stopping rule for equations u = g(u)
+        uses maxima (:meth:`measured`).
         """
         return [
             # A maximum of the absolute values could ignore a NaN. The sum of the absolute values is a NaN if
@@ -215,9 +217,9 @@ class Stopping:
                 (Assign(rate, CHANGE / self.previous),),
                 (Assign(first, first + CHANGE),),
             ),
-            # Let q be the rate. If q is constant, the sum of all later changes is q ``change`` divided by
-            # 1 - q. For q < 1/2, the first test below neglects this division, because the divisor 1 - q is
-            # between 1/2 and 1.
+            # Let q be the rate, and let d be ``change``. If q is constant, the sum of all later changes is
+            # q d/(1 - q). For q < 1/2, the first test below neglects the divisor 1 - q, because the divisor
+            # is between 1/2 and 1.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
                 flag("converged"),
@@ -240,14 +242,12 @@ class Stopping:
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
         """Return the statement that sets the status after a sweep.
 
-        The first rule that applies gives the status:
+        ``possible`` is the test that the matrix of Newton's method is not singular, or None if this test is
+        not needed. The first rule that applies gives the status:
 
         - NOT_FINITE if the value of the term ``finite`` is an infinity or a NaN.
-        - OK if the flag ``converged`` is true, unless ``possible`` is false.
+        - OK if the flag ``converged`` is true, and ``possible`` is true or None.
         - NOT_CONVERGED in all other cases.
-
-        If the matrix of Newton's method is singular, the test ``possible`` is false. If no such test is
-        needed, ``possible`` is None.
         """
         # Comparisons with a NaN are false, so a NaN never sets the flag ``converged``.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))

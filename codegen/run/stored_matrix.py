@@ -44,9 +44,10 @@ class Hoisted:
     names: dict[Expr, str] = field(default_factory=dict)
 
     def formula(self, root: Expr) -> Expr:
-        """Return the expression ``root`` with a name in place of each subexpression without i and j.
+        """Return the expression ``root`` with names in place of some subexpressions.
 
-        The symbols i and j are the row and the column of a matrix entry.
+        A subexpression is replaced by a name if it is independent of the row i and the column j of a matrix
+        entry.
         """
         space, known = root.space, dict[Expr, Expr]()
         indexed: dict[Expr, bool] = {}
@@ -188,7 +189,8 @@ class BandedMatrix(StoredMatrix):
         a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
         result = real("result", self.node_size)
         loops = [self._diagonal(number, result) for number in range(len(self.matrix.offsets))]
-        # The subexpressions that are independent of i and j are computed once, before the loops.
+        # Some subexpressions of matrix entries depend neither on the row nor on the column. The values of
+        # these subexpressions are computed once, before the loops.
         named = [Assign(own(name), value(node)) for node, name in self.hoisted.names.items()]
         about = (
             "The diagonals of h A(t), one after the other; entry i of a diagonal is in row i of the matrix."
@@ -336,11 +338,11 @@ class FullMatrix(StoredMatrix):
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
-        """Return the statement that adds ``weight`` c M_ij to ``_ENTRY`` if j = i + ``offset``.
+        """Return the statement that adds a multiple of an entry of a constant matrix M to ``_ENTRY``.
 
-        Here M_ij is the entry in row i and column j of a constant matrix M, and the coefficient c of M is
-        ``self.coefficients[term]``. ``given`` contains the entries of M with j = i + ``offset``. For all
-        other i and j, the statement does nothing.
+        Let M_ij be the entry of M in row i and column j, and let c = ``self.coefficients[term]``. If
+        j = i + ``offset``, the statement adds the product of ``weight``, c and M_ij. For all other i and j,
+        the statement does nothing. ``given`` contains the entries of M with j = i + ``offset``.
         """
         # The indices i and j are unsigned, so a negative difference j - i would wrap around. Therefore the
         # emitted code tests j == i + offset if offset >= 0, and i == j + |offset| if offset < 0.
@@ -352,8 +354,9 @@ class FullMatrix(StoredMatrix):
         return If(reached, body)
 
     def _place(self, place: int) -> Term:
-        # The array begins with one coefficient for each time t_i. Then, for each time t_i in turn, the array
-        # contains the ``node_size`` values of the subexpressions that contain neither i nor j.
+        # The array begins with one coefficient for each time. The values of the named subexpressions
+        # (:class:`Hoisted`) follow: ``node_size`` values for the first time, then ``node_size`` values for
+        # the second time, and so on.
         first = self.node_size * _NODE
         return first + (self.nodes + place)
 

@@ -43,7 +43,7 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
-ONE_TEST = "The sum of finite values x may overflow. x - x is 0 if x is finite, and NaN otherwise."
+ONE_TEST = "The sum of finite x may overflow, but x - x is 0. If x is not finite, x - x is NaN."
 
 
 class FunctionPrinter:
@@ -175,7 +175,7 @@ class FunctionPrinter:
 
 def _without_zeros(row: Sequence[str]) -> str:
     """Return the text of a row without zeros at the end, because C sets missing entries to zero."""
-    # All rows of a table have the same length, so short rows end with zeros.
+    # Zeros were appended to the shorter rows of a table, so all rows have the same length.
     kept = list(row)
     # The loop removes zeros at the end of the row. The first entry always stays, because C11 does not allow
     # an empty initialiser.
@@ -241,7 +241,8 @@ class _Body:
 
         Consecutive variables of one type share a declaration.
         """
-        # A variable is declared before a loop or branch if later statements read the variable.
+        # If a loop or branch assigns a variable, and statements after the end of the loop or branch read the
+        # variable, the variable is declared before the loop or branch.
         waiting = self.declared.before.get(id(statement), [])
         lines: list[str] = []
         for kind, group in groupby(waiting, key=lambda x: self.printer.type_of(x[1].kind)):

@@ -150,7 +150,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
         if function.name == "step" and n:
             definitions.append(
                 [
-                    "/* Copy the array context to the array inputs. The time t is not used. */",
+                    "/* Copy 'context' to 'inputs'. The time t is not used. */",
                     f"static void {interface.prefix}hold({real} t, {real} inputs[{n}], void *context)",
                     "{",
                     "    (void)t;",

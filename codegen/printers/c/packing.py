@@ -48,6 +48,6 @@ def whole(values: Sequence[str], others: Collection[str]) -> str:
     """
     # The name of the array is the text in front of the bracket.
     name = values[0].partition("[")[0]
-    # Entry k must be the k-th argument, because the callee reads its parameters by position.
+    # The callee reads parameter k from entry k of the array, so ``values[k]`` must be entry k of the array.
     same = name not in others and all(value == f"{name}[{k}]" for k, value in enumerate(values))
     return name if same else ""

@@ -94,7 +94,8 @@ class Terms(Infix):
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return C code for two checks that all values are finite: a fast check and an exact check."""
-        # The first test is fast, but it may fail for finite values, because their sum may overflow.
+        # The fast check tests whether the sum of all values is finite. Because of overflow, the sum of finite
+        # values may be infinite.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         # The difference x - x is 0 if x is finite, and NaN otherwise. Therefore the sum of these differences
         # is 0 only if all values are finite.

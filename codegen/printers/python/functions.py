@@ -179,10 +179,11 @@ class _Body:
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Return True if one statement can replace the assignments of ``group`` and ``statement``.
+        """Return True if ``statement`` can be appended to ``group``.
 
-        If ``reading`` is True, the result is True only if the assignments read consecutive entries of one
-        list. Otherwise, the result is True only if the assignments write consecutive entries of one list.
+        One Python statement must be able to replace all assignments of the longer group. If ``reading`` is
+        True, these assignments must read consecutive entries of one list. Otherwise, these assignments must
+        write consecutive entries of one list.
         """
 
         def one(s: Assign) -> Term:
@@ -201,8 +202,8 @@ class _Body:
         # ``statement`` and ``group[0]`` must use the same list.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
-        # A slice assignment changes all entries at once. So no value may depend on an entry that an earlier
-        # assignment changes.
+        # A slice assignment computes all values before it changes the list. Separate assignments change the
+        # list between two values. Therefore no value may depend on the list.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 

@@ -111,8 +111,9 @@ class _Module:
         """Maps the names of functions in formulas to helpers that return an infinity or a NaN as C does.
 
         The functions of ``math`` raise an exception instead, and the step would fail although the formula may
-        have a finite value. Helpers are slower, so they are used only if a formula can hide the infinity or
-        the NaN. In single precision, the functions of NumPy raise no exceptions.
+        have a finite value. Helpers are slower, so they are used only if a step can have a finite result
+        although the function returns an infinity or a NaN. In single precision, the functions of NumPy raise
+        no exceptions.
         """
         if self.single:
             return {}

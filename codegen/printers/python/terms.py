@@ -42,8 +42,8 @@ class Constants:
     def text(self, x: float) -> str:
         """Return the text of a number.
 
-        In double precision the text is a literal. In single precision it is the name of a constant, after a
-        minus sign if the number is negative.
+        In double precision the text is a literal. In single precision the text is NAME or -NAME,
+        where NAME (for example ``C1``) is a constant with the absolute value of the number.
         """
         text = self.precision.text(x)
         # In double precision a literal is used, because Python reads it faster than a global name.
