@@ -44,8 +44,8 @@ class RunToEnd(ABC):
         An adaptive module chooses step sizes between ``least`` and ``greatest``. The first step size is
         ``h``. If ``h`` is 0, the module chooses the first step size. A module without step control makes
         steps of size ``h``, but the last step can be shorter. A module without step control ignores ``rtol``,
-        ``atol``, ``least`` and ``greatest``. Output times and events do not change the step sizes. By
-        default, ``end`` is the last output time.
+        ``atol``, ``least`` and ``greatest``. Output times and events do not change the step sizes. If ``end``
+        is None, the integration ends at the last time in ``t_eval``.
 
         TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised if
         output times are not monotone, or if an output time is not between t and end. StepFailed is raised if

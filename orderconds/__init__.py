@@ -12,8 +12,8 @@ method has the opposite sign.
 
 *Brackets.* The bracket of matrices is [A, B] = AB - BA, and ad_x y = [x, y]. The adjoint map Ad_g
 is the derivative of the map x -> g x g^-1 at the identity. Ad*_g is the dual map of Ad_g (not of Ad_{g^-1}),
-so Ad*_{gh} = Ad*_h Ad*_g. ad*_x is the dual map of ad_x. On SO(3), so(3) and its dual are identified with
-R^3. Then Ad*_g mu = g^T mu, and ad*_x mu is the negative cross product of x and mu.
+so Ad*_{gh} = Ad*_h Ad*_g. ad*_x is the dual map of ad_x. For the group SO(3), the Lie algebra and its dual
+are identified with R^3. Then Ad*_g mu = g^T mu, and ad*_x mu is the negative cross product of x and mu.
 
 *The derivative of exp.* dexp_x = sum_k ad_x^k/(k+1)! and dexp^{-1}_x = sum_k B_k/k! ad_x^k, where B_k are the
 Bernoulli numbers with B_1 = -1/2. The truncated series dexp^{-1}_{(r),x} is the sum of the terms k <= r.

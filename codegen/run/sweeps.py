@@ -182,8 +182,8 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # The last sweep computes other results from the current values of the unknowns. Later statements use
-        # these results together with the unknowns, so the unknowns are not updated after convergence.
+        # Later statements use the unknowns together with results that the last sweep has computed from the
+        # unknowns. Therefore the unknowns are not updated after convergence.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
@@ -356,8 +356,8 @@ class _Newton(_Loop):
             return sequence
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
         sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
-        # If the matrix contains infinities or NaNs and the elimination fails, the array also contains an
-        # infinity or a NaN afterwards. Therefore the array shows the cause of the failure.
+        # If the elimination fails for a matrix with infinities or NaNs, the array ``self.inverse`` contains
+        # an infinity or a NaN afterwards. Therefore this array shows the cause of the failure.
         cause = select(all_finite(self.inverse), code(SINGULAR), code(NOT_FINITE))
         # The function ``count_sweeps`` reads the status to record a failure, so the status is set first.
         counted = (count_sweeps(self.plan, self.number - 1, whole(0)),) if self.counting else ()

@@ -103,7 +103,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     of ``sums``. Row j - 1 of ``left`` contains a_j, and row j - 1 of ``right`` contains b_j.
     """
     # In each column, the entry in row r of ``left`` is multiplied by the entry in row k - 1 - r of ``right``,
-    # for r = 0, ..., k - 1. Here k is the argument of this function.
+    # for r = 0, ..., k - 1. Here k is the argument of ``inner_sums``.
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
@@ -221,7 +221,7 @@ class _Controlled:
         return () if self.expansion.enter is None else (Call(ENTER, (self.state, self.start)),)
 
     def returned(self) -> tuple[Statement, ...]:
-        """Return the statements that convert the coordinates after the step to the new state.
+        """Return the statements that compute the new state from the coordinates after the step.
 
         The tuple is empty if no conversion is needed.
         """
@@ -273,8 +273,9 @@ class _Controlled:
                 if s in symbols
             ),
             *computed(every),
-            # The kernel ``every`` has three groups of outputs: the coefficients of the m left factors, those
-            # of the m right factors, and the next coefficients of the solution.
+            # The formulas contain m products of two series, a left factor and a right factor. The outputs of
+            # the kernel ``every`` are the coefficients of the m left factors, then those of the m right
+            # factors, and then the next coefficients of the solution.
             *(Assign(left[k * width + c], x) for c, x in enumerate([*operands[:m], *padding])),
             *(Assign(right[k * width + c], x) for c, x in enumerate([*operands[m : 2 * m], *padding])),
             *(Assign(self.series[k * n + (n + i)], x) for i, x in enumerate(operands[2 * m :])),
@@ -302,8 +303,8 @@ class _Controlled:
 
         Numbers whose names are not in ``symbols`` are omitted.
         """
-        # LINEAR is the Taylor coefficient of the function t: 1 for order 1, and 0 for all higher orders. The
-        # order is a floating-point number, so the test for order 1 is a comparison with 1.5.
+        # LINEAR is the Taylor coefficient of the function t: 1 for order 1, and 0 for the orders 2, 3 and so
+        # on. The order is a floating-point number, so order 1 is recognised by the test order < 1.5.
         one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
         known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
         return [Assign(own(name), x) for name, x in known.items() if name in symbols]

@@ -339,8 +339,8 @@ def absent(parameter: Term) -> Term:
 
     ``parameter`` is the parameter of the called function for which no argument is given.
     """
-    # The printers read the kind and the shape of every argument. Therefore only ``op`` and ``args`` change
-    # here.
+    # The printers read the kind and the shape of an omitted argument, too. Therefore the new term keeps the
+    # kind and the shape of ``parameter``.
     return replace(parameter, op="none", args=())
 
 

@@ -71,7 +71,7 @@ def is_looped(plan: Plan) -> bool:
 
 
 def _may_raise(kernel: Kernel) -> bool:
-    """Return True if a kernel contains a division or a function of :data:`RAISING`.
+    """Return True if a kernel contains a division or calls a function in :data:`RAISING`.
 
     In Python, such an operation may raise an exception although its arguments are finite.
     """
@@ -277,8 +277,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     guard = STATUS if _calls_library(plan.kernel) else None
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
-        # The compiler must assume that the arrays ``trajectory`` and ``state`` overlap. Without local copies,
-        # the compiler would therefore store ``state`` to memory in each step.
+        # The C compiler must assume that the arrays ``trajectory`` and ``state`` overlap. Without local
+        # copies, the C compiler would therefore store ``state`` to memory in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         # The new state is assigned after all computations. So after an arithmetic error, the variables
         # contain the last good state and the number of completed steps.

@@ -26,7 +26,7 @@ PARTS = 100
 class Trial:
     """The results of a trial that makes ``steps`` steps of size ``h``.
 
-    For each block of equations, ``sweeps`` contains the average number of sweeps in a step. ``matrices``
+    For each block of equations, ``sweeps`` contains the average number of sweeps in a step, and ``matrices``
     contains the average number of Newton matrices in a step. ``most`` is the largest number of sweeps over
     one block in one step or substep. If all steps succeeded, ``converged`` is True.
     """

@@ -145,7 +145,8 @@ class WarmStart:
         )
         self.first = plan.memory.field("first")
         self.guess = plan.memory.field("guess", Kind.REAL, (self.n,))
-        # Each solution is stored twice, so that the latest ``depth`` solutions are contiguous.
+        # ``values`` contains two equal copies of a ring buffer with ``depth`` rows, one after the other. A
+        # loop from a row of the first copy continues in the second copy and needs no index modulo ``depth``.
         self.values = plan.memory.field("values", Kind.REAL, (2 * self.depth, self.n))
         self.factors = _factors(plan.start)
 
@@ -181,8 +182,8 @@ class WarmStart:
             "Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let "
             "u_0 be the latest stored solution, and let u_k be the solution k steps earlier. If first = 0 "
             "and sign = 1, compute sum = d_0 u_0 + d_1 u_1 + ... + d_order u_order, the backward difference. "
-            "If first = 1 and sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the "
-            "extrapolated solution of the next step."
+            "If first = 1 and sign = -1, sum is the extrapolated solution of the next step: the backward "
+            "difference of sum, u_0, ..., u_(order-1) is zero."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
@@ -238,8 +239,9 @@ class WarmStart:
             Assign(self.place, place),
         ]
 
-        # Each solution is stored in the rows ``place`` and ``place + depth``. The latest ``depth`` solutions
-        # are then contiguous, and the inner loops need no index modulo ``depth``.
+        # The rows from ``depth`` on are a second copy of the ring buffer. Therefore the rows from ``place``
+        # to ``place + depth - 1`` contain the latest ``depth`` solutions, and the inner loops need no index
+        # modulo ``depth``.
         for row in (place, place + self.depth):
             body.append(Assign(self.values[row], solution))
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
@@ -271,9 +273,9 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # ``first`` is the error of the extrapolated guess, and ``moved`` is the distance between the
-            # previous and the new solution. If ``first`` is not much smaller than ``moved``, the extrapolated
-            # guess is hardly closer to the new solution than the previous solution is.
+            # ``first`` is the error of the extrapolated guess. ``moved`` is the error of the simplest guess,
+            # the previous solution. If ``first`` exceeds ``Start.ROUGH * moved``, extrapolation is of little
+            # use, so the stored solutions are discarded.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 

@@ -42,7 +42,8 @@ def ambient(problem: Problem) -> Problem:
         action=LeftMultiplication(),
         state=(StateField("y", Kind.POINT, problem.symbols, initial),),
         roots=derivative(problem.roots),
-        # ``open_roots`` can be empty if the problem has no run-time inputs.
+        # Only problems with run-time inputs need ``open_roots``. In other problems, ``open_roots`` may be
+        # empty.
         open_roots=derivative(problem.open_roots) if problem.open_roots else (),
         paired=False,
     )

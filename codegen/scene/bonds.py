@@ -34,11 +34,12 @@ class Bond:
 def energies_of_bonds(
     reader: Reader, y: Sequence[sympy.Symbol], bonds: Sequence[Bond], offsets: Sequence[Offset]
 ) -> tuple[tuple[int, Expr], ...]:
-    """Return a pair (k, V) for each bond of a site.
+    """Return a pair (k, V) for each bond of a site i.
 
     V is the energy of the bond, and ``offsets[k]`` is the offset from the site to its neighbour. V can depend
-    on the coordinates ``y`` of the site. Each element of ``bonds`` gives two pairs, with the energies
-    V(y_i, y_{i+offset}) and V(y_{i-offset}, y_i).
+    on the coordinates ``y`` of the site. Each element of ``bonds`` describes two bonds of the site i: a bond
+    to the site i + offset with the energy V(y_i, y_{i+offset}), and a bond to the site i - offset with the
+    energy V(y_{i-offset}, y_i).
 
     SceneError is raised if an energy does not contain coordinates of both sites. SceneError is also raised if
     an energy contains the momentum of the site.

@@ -146,7 +146,7 @@ def _digits(orbit: Orbit) -> int:
     front of the decimal point.
     """
     context = orbit.domain.context
-    # The magnitude of zero is minus infinity.
+    # ``mag`` returns the binary exponent of a number, and minus infinity for the number 0.
     bits = max((0, *(context.mag(orbit.points[-1][s].value) for s in orbit.symbols)))
     return DIGITS + math.ceil(float(bits) * math.log10(2))
 

@@ -89,8 +89,9 @@ class Evolution:
             return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
-        # The new momentum is ``mu`` + (``after`` - ``before``) and not ``after``, because the rounding errors
-        # of ``after`` and ``before`` nearly cancel in the difference.
+        # In exact arithmetic, ``before`` is equal to ``mu``, and ``after`` is the new momentum. The sum
+        # ``mu`` + (``after`` - ``before``) is more accurate than ``after``, because the rounding errors of
+        # ``after`` and ``before`` nearly cancel.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
@@ -128,7 +129,7 @@ class Evolution:
         return Recurrence(inner.roots, domain, inner.symbols, start, values, scale)
 
     def products(self) -> int:
-        """Return how many products of two power series the recurrence computes."""
+        """Return the number of multiplications of power series in the recurrence."""
         domain = ExprDomain()
         start = tuple(map(domain.space.sym, self.inner.symbols))
         recurrence = self.recurrence(domain, start, domain.space.sym(TIME), domain.space.one)
@@ -164,13 +165,14 @@ def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
 def evolution(scene: Problem) -> Evolution:
     """Return the :class:`Evolution` whose equations contain the fewest products of two power series.
 
-    If ``scene`` describes one site of a lattice, the result uses the coordinates of the scene.
+    If ``scene`` describes one site of a lattice, the result always uses the coordinates of the scene, even if
+    the equations in other coordinates contain fewer products.
     """
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
     if scene.sites is not None:
-        # The equations of other sites may contain each coordinate of this site. Therefore no coordinate is
-        # omitted.
+        # The equations of the neighbours may contain all coordinates of this site. Therefore a step must
+        # compute all coordinates of this site.
         return forms[0]
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:

@@ -195,9 +195,10 @@ class _CanonicalSystem:
         return known | {key: self.reader.scalar(x, f"invariant {key}") for key, x in declared.items()}
 
     def derived(self, key: str, column: Column) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-        """Return two tuples of formulas for the same vector: from ``column``, and from the Hamiltonian.
+        """Return two tuples of formulas for the velocity or the force.
 
-        ``key`` is "xi" for the velocity, or "n" for the force.
+        The first tuple contains the formulas that the user gives in ``column``, and the second tuple contains
+        the formulas derived from H. ``key`` is "xi" for the velocity, or "n" for the force.
         """
         dim = self.group.dim
         own = self.roots[:dim] if key == "xi" else self.roots[dim:]

@@ -158,6 +158,6 @@ def _check_parts(problem: Problem, hamiltonian: Expr) -> None:
                 f"the parts {', '.join(problem.parts)} add up to {orbit.text(total)}",
                 where=problem.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
-                hint='list all summands of H in the argument "parts"; the energies of bonds are not summands '
-                'of H and belong in the argument "bonds"',
+                hint="H is the Hamiltonian of one site without bonds; list all summands of H in the argument "
+                '"parts", and the energies of bonds in the argument "bonds"',
             )

@@ -60,9 +60,10 @@ def extended_linear(problem: Problem, u: str) -> Problem:
 
 
 def without_momentum_rate(problem: Problem) -> Problem:
-    """Return the extended linear problem with u' = 0 in place of u' = -dH/dt.
+    """Return the extended linear problem with u' = 0, where u is the momentum conjugate to the time.
 
-    Methods for linear problems need a field that does not contain the state, but -dH/dt contains the state.
+    The equation u' = -dH/dt is replaced, because methods for linear problems need a field that does not
+    contain the state, but -dH/dt contains the state.
     """
     zero = problem.roots[-1].space.zero
     return replace(problem, roots=(*problem.roots[:-1], zero))
@@ -88,7 +89,7 @@ def _hamiltonian(problem: Problem) -> Expr:
     hamiltonian = _constant(space, Fraction(1, 2)) * total
     slopes = gradient(hamiltonian, symbols)
     normal = NormalForms(space)
-    # The linear equation and Hamilton's equations for ``hamiltonian`` agree exactly if A(t) is in sp(2n).
+    # The linear equation is Hamilton's equation for ``hamiltonian`` if and only if A(t) is in sp(2n).
     canonical = (*slopes[n:], *(-s for s in slopes[:n]))
     if not all(normal(a - b).is_zero for a, b in zip(rates, canonical, strict=True)):
         raise SceneError(

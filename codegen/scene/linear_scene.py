@@ -41,7 +41,8 @@ def LinearScene(
       ``A`` can also be an n x n matrix of formulas.
     - ``y``: the symbols of the coordinates; by default, the real symbols y0, y1 and so on.
     - ``steps``: a map from names to methods y1 = M y0 with a matrix M. Each value is a pair: a formula
-      for M (:mod:`codegen.scene.matrix_step`) and the order of the method. In commands, write ``step:NAME``.
+      for M (:mod:`codegen.scene.matrix_step`) and the order of the method. In commands, the option
+      ``--method step:NAME`` chooses one of these methods.
 
     :func:`codegen.scene.FieldScene` describes the other arguments. With the action ``RightMultiplication()``,
     the equation is y' = -y A(t). :class:`SceneError` is raised if ``A`` depends on the state, if a matrix

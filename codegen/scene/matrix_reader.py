@@ -222,7 +222,10 @@ class _Compiler:
         return Matrix(f"value {len(self.body) + 1}", rows, columns)
 
     def product(self, factors: tuple[_Factor, ...]) -> _Stored:
-        """Return the product of the factors. A second call with the same factors appends no statements."""
+        """Append the statements for the product of the factors, and return the product.
+
+        If an earlier call had the same factors, return the product of that call, and append nothing.
+        """
         if factors not in self.known:
             self.known[factors] = self._product(factors)
         return self.known[factors]
@@ -299,7 +302,10 @@ class _Compiler:
 
 
 def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
-    """Remove a superfluous copy at the end of the list of statements, and return the list."""
+    """Return the statements, without the last one if it only assigns the preceding result to a new name.
+
+    The preceding statement then stores its result under the new name.
+    """
     *before, last = body
     assert isinstance(last, Combination)
     (term,) = last.terms

@@ -1,10 +1,11 @@
 """Methods y1 = M y0 for the equation y' = A(t) y. The scene defines the matrix M by a formula.
 
-The formula contains the step size :data:`h`, numbers, the matrix :data:`IDENTITY` and matrices A(t + c h),
-where c is a number (:func:`A`). Sums, products and the functions :func:`bracket`, :func:`projected`,
-:func:`expm` and :func:`logm` combine these matrices. The values of a formula are in one of three sets
-(:class:`Place`): the Lie algebra, the group, or all square matrices. Logarithms are available only for 2 x 2
-matrices. For larger matrices, the argument of :func:`expm` must be in the Lie algebra.
+The formula contains the step size :data:`h`, numbers, the matrix :data:`IDENTITY`, and the function
+:func:`A`. In a step from t to t + h, A(c) denotes the matrix A(t + c h), where c is a number. Sums, products
+and the functions :func:`bracket`, :func:`projected`, :func:`expm` and :func:`logm` combine these matrices.
+The values of a formula are in one of three sets (:class:`Place`): the Lie algebra, the group, or all square
+matrices. Logarithms are available only for 2 x 2 matrices. For larger matrices, the argument of :func:`expm`
+must be in the Lie algebra.
 
 >>> projection = expm(projected(logm(IDENTITY + h * A(0))))
 >>> projection.place, projection.text()
@@ -85,7 +86,7 @@ class MatrixFormula(ABC):
     @property
     @abstractmethod
     def place(self) -> Place:
-        """The set that contains the values: the Lie algebra, the group, or all square matrices."""
+        """The set of all values of the formula: the Lie algebra, the group, or all square matrices."""
 
     @abstractmethod
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -336,9 +337,9 @@ class Logarithm(Unary):
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield the exponentials and logarithms in this formula that are computed by closed forms.
+        """Yield this logarithm, and then the exponentials and logarithms in ``of`` that have closed forms.
 
-        The first of them is this logarithm itself, because every logarithm is computed by a closed form.
+        Every logarithm is computed by a closed form.
         """
         yield self
         yield from super().closed_forms()

@@ -28,8 +28,10 @@ Both bounds are proportional to the terms, so that the test does not depend on t
 """
 
 POINTS = 4
-"""An :class:`Orbit` has at most POINTS - 1 sample points at distances of about 1 from the initial state. The
-initial state is one more sample point.
+"""The largest number of sample points of an :class:`Orbit`, without the points of :data:`NEAR`.
+
+The first sample point is the initial state. The distances of the other sample points from the initial state
+are about 1.
 """
 
 NEAR, NEAR_STEPS = 2, 100
@@ -60,8 +62,8 @@ class Orbit:
 
     @cached_property
     def domain(self) -> RoundingDomain:
-        """The number domain of all computations: floating-point numbers with 40 digits, and with the sizes of
-        their rounding errors."""
+        """The arithmetic of all computations: floating-point arithmetic with 40 digits that also estimates
+        the rounding error of each number."""
         return RoundingDomain(0, DIGITS)
 
     @cached_property
@@ -94,9 +96,9 @@ class Orbit:
     ) -> list[dict[str, Sized]]:
         """Return points that differ from the initial state by typical amounts in the units of the scene.
 
-        Points at distances of about 1 from the initial state are not sufficient. If the number 1 is far too
-        large in the unit of a coordinate, some terms of a formula are smaller than the rounding errors of
-        other terms.
+        If the typical values of a coordinate are far below 1, points at distances of about 1 from the initial
+        state are not sufficient. At such points, some terms of a formula may be smaller than the rounding
+        errors of other terms.
         """
         d, points, point = self.domain, [], start
         for k in range(1, NEAR + 1):
@@ -150,9 +152,10 @@ class Orbit:
         return self.action.velocity(self.domain, self.group, f, y)
 
     def sized(self, total: Sized, terms: Sequence[Sized] = ()) -> bool:
-        """Return True if the sum ``total`` of ``terms`` is zero up to rounding errors.
+        """Return True if ``total``, a sum or difference of ``terms``, is zero up to errors.
 
-        Without ``terms``, only the rounding errors in the computation of ``total`` are permitted.
+        The bound of |total| is TOLERANCE * (sum of |terms|) plus the rounding error of ``total``. Without
+        ``terms``, the bound is only the rounding error of ``total``.
         """
         d = self.domain
         bound = (

@@ -4,8 +4,8 @@ If the argument of a selection is constant along solutions, the case of the sele
 case may change, two conditions are checked:
 
 - The invariant is continuous where the case changes.
-- If one case is chosen for each selection, the formulas of the field and of the invariant become smooth. For
-  every possible choice, the smooth invariant is constant along the solutions of the smooth field.
+- For every choice of one case for each selection, the invariant with the chosen cases is constant along the
+  solutions of the field with the chosen cases.
 """
 
 from __future__ import annotations
@@ -37,8 +37,9 @@ NEWTON_STEPS = 60
 """The largest number of Newton steps to a zero. A simple zero takes about ten steps for 40 digits."""
 
 BESIDE = Fraction(1, 10**26)
-"""To find a jump, the values of an invariant at two points are compared. The points are on the two sides of a
-zero of the argument of a selection, and BESIDE is the distance of each point from the zero.
+"""The distance of two points from a zero of x, for an invariant that contains abs(x) or another operation
+with two cases. The points are on the two sides of the zero. If the invariant has a jump at the zero, its
+values at the two points are different.
 
 The distance is much larger than rounding errors of 40 digits. Between the two points, a continuous function
 usually changes by much less than :data:`codegen.scene.orbit.TOLERANCE`.
@@ -46,9 +47,10 @@ usually changes by much less than :data:`codegen.scene.orbit.TOLERANCE`.
 
 
 def check_cases(orbit: Orbit, problem: Problem) -> None:
-    """Raise :class:`SceneError` if a declared invariant with selections changes along a solution.
+    """Raise :class:`SceneError` if a declared invariant changes along a solution.
 
-    A Hamiltonian is not checked here, because the field is derived from it.
+    Only invariants whose formulas contain abs(x) or another operation with several cases are checked here. A
+    Hamiltonian is not checked, because the field is derived from the Hamiltonian.
     """
     for name, declared in problem.invariants.items():
         if declared is problem.hamiltonian or not selections([declared]):
@@ -77,7 +79,7 @@ class _Check:
         for sides in self.combinations(nodes):
             formulas, margins = on_sides((*self.velocity, root), nodes, sides)
             if any(map(_negative, margins)):
-                continue  # The cases of nested selections contradict each other.
+                continue  # No state has this combination of cases.
             if not self.constant(formulas[-1], formulas[:-1]):
                 raise self.error("changes along solutions in one of its cases")
 
@@ -113,7 +115,10 @@ class _Check:
             yield tuple(1 - side[key] if flipped else side[key] for key, flipped in keys)
 
     def check_continuous(self, root: Expr, node: Expr) -> None:
-        """Raise SceneError if ``root`` jumps where the selection ``node`` changes its case."""
+        """Raise SceneError if ``root`` is discontinuous where ``node`` switches from one case to another.
+
+        ``node`` is abs(x) or another operation with several cases.
+        """
         x = node.args[0]
         table = node.payload
         if isinstance(table, PiecewisePolynomial):
@@ -121,7 +126,7 @@ class _Check:
                 raise self.error("contains a table with jumps")
             return
         if x.op == "call" and selects(x.payload):
-            return  # The case changes only where the case of the inner selection changes.
+            return  # The operation ``x`` also has several cases, and ``run`` checks it separately.
         compared = False
         usual = [v[0] for point in self.orbit.points if (v := self.orbit.values((root,), point)) is not None]
         for point in self.orbit.points:
@@ -136,7 +141,7 @@ class _Check:
             if not self.orbit.sized(pairs[0] - pairs[1], (*pairs, *usual)):
                 raise self.error(f"jumps where {argument_text(node)} = 0")
         if not compared:
-            raise self.error(f"cannot be compared on both sides of {argument_text(node)} = 0")
+            raise self.error(f"cannot be tested for a jump where {argument_text(node)} = 0")
 
     def beside(self, x: Expr, start: dict[str, Sized]) -> list[dict[str, Sized]]:
         """Return two points on the two sides of a zero of ``x``, or nothing if Newton's method fails."""
@@ -171,7 +176,10 @@ def _negative(margin: Expr) -> bool:
 
 
 def _key(node: Expr) -> tuple[object, bool]:
-    """Return a key for the argument of a selection, and True if the key belongs to its negative."""
+    """Return a key and a flag for the argument x of ``node``.
+
+    If ``node`` is not a table, x and -x have the same key, but different flags.
+    """
     x, flipped = node.args[0], False
     if isinstance(node.payload, PiecewisePolynomial):
         return (x.id, node.payload.knots), False

@@ -74,8 +74,8 @@ class Problem:
     - ``paired``: True if the state is (q, mu).
     - ``parts``: summands of the Hamiltonian, by name.
     - ``flows``: the exact flows that a step of a splitting method uses, by name.
-    - ``stated``: the exact flows that the scene gives by formulas, by the name of the part. The formulas give
-      (q, mu) after the time ``tau``. The flows of other parts are derived by :mod:`codegen.flows`.
+    - ``stated``: maps names of ``parts`` to formulas for exact flows. The scene defines these formulas, which
+      give (q, mu) after the time ``tau``. The flows of other parts are derived by :mod:`codegen.flows`.
     - ``runtime``: the parameters that are arguments of emitted code.
     - ``fixed``: pairs (name, value) of the parameters that the user has set.
     - ``signals``: the formula of each signal, by the name of the signal.
@@ -262,9 +262,10 @@ class Problem:
         return self.evolution
 
     def flow(self, domain: Domain, part: str, tau: S, args: Values) -> Values:
-        """Return (q, mu) after the time tau along the exact flow of the summand ``part`` of the Hamiltonian.
+        """Apply the exact flow of one summand of the Hamiltonian for the time ``tau``, and return (q, mu).
 
-        ``args`` are the initial q and mu, followed by t if the summand depends on t.
+        ``part`` is the name of the summand. ``args`` are the initial q and mu, followed by t if the summand
+        depends on t.
         """
         q, mu, *time = args
         values = self.values(domain, (*q, *mu), *time)

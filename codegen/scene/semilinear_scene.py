@@ -68,9 +68,9 @@ def SemilinearScene(
     Emitted code computes with the values of u at n equally spaced points, where n is a run-time argument.
     Explicit methods of the families rkmk, cf and cg are possible.
 
-    :class:`SceneError` is raised if L does not map real functions to real functions, or if a derivative Dx
-    inside g is not a derivative of ``u``. Other reasons for SceneError are unknown symbols, and functions
-    such as Piecewise and Max.
+    :class:`SceneError` is raised if L does not map real functions to real functions, or if g contains
+    derivatives other than Dx(u), Dx(u, 2) and so on. Other reasons for SceneError are unknown symbols, and
+    functions such as Piecewise and Max.
     """
     parser = _Parser(name, u, k, x)
     reader, symbol = parser.reader, parser.symbol(L)
@@ -137,9 +137,10 @@ class _Parser:
         return tuple(read)
 
     def nonlinear(self, N: sympy.Expr) -> tuple[tuple[tuple[int, str], ...], dict[int, Expr]]:
-        """Write N as the sum of (d/dx)^m g_m over m, and return the derivatives of u and the formulas g_m.
+        """Write N as the sum of (d/dx)^m g_m over m, where symbols replace the derivatives of u in g_m.
 
-        The first result has a pair (order, symbol) for each derivative of u. The second result maps m to g_m.
+        The first result has a pair (order, symbol) for each derivative of u in the formulas g_m; u itself has
+        the order 0. The second result maps m to g_m.
         """
         import sympy
 
@@ -156,7 +157,7 @@ class _Parser:
                 raise SceneError(
                     f"the nested derivative {atom}",
                     where=self.name,
-                    expected="Dx(g, m), where all derivatives in g are derivatives of u, such as Dx(u, 2)",
+                    expected="Dx(g, m), where g contains only the derivatives Dx(u), Dx(u, 2) and so on",
                 )
             dummies[sympy.Dummy()] = atom
         linear = formula.subs({atom: dummy for dummy, atom in dummies.items()})
@@ -237,7 +238,10 @@ def _with_digits(formula: sympy.Expr) -> sympy.Expr:
 
 
 def _kept(name: str, dealias: object) -> Fraction:
-    """Return the fraction of Fourier modes to keep: ``dealias``, where True means 2/3 and False means 1."""
+    """Return the fraction of Fourier modes to keep.
+
+    ``dealias`` is this fraction, or True for 2/3, or False for 1.
+    """
     if isinstance(dealias, bool):
         return TWO_THIRDS if dealias else Fraction(1)
     kept = exact(dealias)

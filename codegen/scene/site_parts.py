@@ -5,8 +5,9 @@ f(y).y over all parts is the velocity of a site, where the dot denotes the actio
 constant along the solutions of y' = f(y).y. The exact flow of the part over a time tau is then
 y -> exp(tau f(y)).y.
 
-The pairs along an axis form two sets. The index of the first site is even in one set, and odd in the other
-set. Two pairs of one set share no site, so their flows commute.
+The pairs along an axis form two sets. In one set, the first site of each pair has an even index along the
+axis. In the other set, the first site of each pair has an odd index. Two pairs of one set share no site, so
+their flows commute.
 """
 
 from __future__ import annotations
@@ -124,7 +125,7 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
             values = orbit.values(terms, _two(scene, orbit, part.symbols, number))
             if values is not None and not orbit.sized(sum(values[1:], values[0]), values):
                 raise SceneError(
-                    f"generator {k} of the part {part.name}, a function of the state y, is not constant "
+                    f"in the part {part.name}, generator {k} depends on the state y and is not constant "
                     "along the exact flow",
                     where=scene.name,
                     expected="generators f(y) for which the exact flow over a time tau is exp(tau f(y)).y",
@@ -209,7 +210,7 @@ def _summed(
     point: Mapping[str, Sized],
     states: Mapping[Offset, Mapping[str, Sized]],
 ) -> list[Sized]:
-    """Return the velocity of a site as the sum of the velocities of all parts.
+    """Return the velocity of one site: the sum of f(y).y over all parts of the field.
 
     ``states`` contains the states of the neighbours inside the lattice.
     """

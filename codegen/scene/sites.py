@@ -94,9 +94,10 @@ def right(y: Iterable[sympy.Symbol]) -> sympy.Matrix:
 class SitePart:
     """A part of the field of a lattice, with a known exact flow.
 
-    If the part acts on single sites, ``roots`` contains the generators of one site. If the part couples two
-    neighbours along ``axis``, ``roots`` contains the generators of the first site and then those of the
-    second. In this case, ``symbols`` contains the names of the coordinates of the second site.
+    The generators of a site are formulas for the components of an element of the Lie algebra. If the part
+    acts on single sites, ``roots`` contains the generators of one site. If the part couples two neighbours
+    along ``axis``, ``roots`` contains the generators of the first site and then those of the second. In this
+    case, ``symbols`` contains the names of the coordinates of the second site.
     """
 
     name: str

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     import sympy
 
 MOST_ROWS = 8
-"""If the state has more rows, :func:`StiefelScene` does not write its generator as formulas in the
-coordinates. For n rows, the length of these formulas grows as n^3.
+"""The largest number of rows of a state for which :func:`StiefelScene` writes the generator as formulas in
+the coordinates. For n rows, the length of these formulas grows as n^3.
 """
 
 TOLERANCE = 1e-10

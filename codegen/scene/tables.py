@@ -107,7 +107,7 @@ def table(
 
 
 def linear_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-    """Return the value at the left end and the slope of the linear interpolant, for each interval."""
+    """Return the linear interpolant on each interval, as the pair (value at the left end, slope)."""
     return [(c, (d - c) / (b - a)) for (a, b), (c, d) in zip(pairwise(xs), pairwise(ys), strict=True)]
 
 

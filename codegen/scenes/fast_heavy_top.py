@@ -1,11 +1,11 @@
 """Fast heavy top, on T*SO(3): a symmetric top with a spin of 150 rad/s.
 
-The scene is a benchmark of multibody dynamics (Brüls and Cardona 2010). The equations are R' = R hat(W) and
-I W' = (I W) x W + X x R^T (0, 0, -m g). R is the attitude, and hat(W) is the matrix of v -> W x v. In the
-body frame, W is the angular velocity, X the centre of mass, and I the inertia about the fixed point. The mass
-is m, and the acceleration of gravity is g. The angular momentum in space is mu = R I W, with
-mu' = (R X) x (0, 0, -m g). X lies on the symmetry axis. The energy and the angular momenta about the vertical
-and about the symmetry axis are conserved.
+The scene is a benchmark of multibody dynamics (Brüls and Cardona 2010). R is the attitude. In the body frame,
+W is the angular velocity, X the centre of mass, and I the inertia about the fixed point. The weight is F =
+(0, 0, -m g), where m is the mass and g is the acceleration of gravity. The equations are R' = R hat(W) and I
+W' = cross(I W, W) + cross(X, R^T F), where hat(W) is the matrix of v -> cross(W, v). The angular momentum in
+space is mu = R I W, with mu' = cross(R X, F). X lies on the symmetry axis. The energy and the angular momenta
+about the vertical and about the symmetry axis are conserved.
 """
 
 from sympy import Matrix, Rational, diag, eye

@@ -85,7 +85,7 @@ def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str 
 def straight(number: int, spacing: float) -> list[list[float]]:
     """Return the state of each section. The rod is straight, parallel to e3, and at rest.
 
-    The first section is at ``spacing`` e3.
+    The sections have the positions ``spacing`` * e3, 2 * ``spacing`` * e3 and so on.
     """
     frame = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
     return [[*frame, 0.0, 0.0, (i + 1) * spacing, *[0.0] * 6] for i in range(number)]

@@ -43,7 +43,10 @@ def link(axis: int, *steps: tuple[int, int]) -> Matrix:
 
 
 def staples(a: int) -> Matrix:
-    """Return the sum of the staples of the link along axis ``a``, as a 6 x 3 matrix."""
+    """Return the sum of the staples of the link along axis ``a``, as a real 6 x 3 matrix.
+
+    The upper three rows are the real part of the sum, and the lower three rows are the imaginary part.
+    """
     total = zeros(6, 3)
     for b in [b for b in axes if b != a]:
         total += product(link(b, (a, 1)), link(a, (b, 1)).T, link(b).T[:, :3])

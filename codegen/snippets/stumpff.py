@@ -8,8 +8,8 @@ The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. T
 If z <= SWITCH[k], c_k is evaluated by a polynomial. If z > SWITCH[k], c_0 and c_1 are evaluated by their
 closed forms. The closed forms of c_2 and c_3 suffer from cancellation. Instead, the formulas c_2(z) =
 c_1(z/4)^2/2 and c_3(z) = (1 - c_1(z))/z are used. The error of c_k(z) is at most two units in the last place,
-plus the change of c_k(z) if z changes by one unit in the last place. This change describes the effect of
-rounding sqrt z. For z above :func:`limit`, c_k(z) is NaN.
+plus the change of c_k(z) if z changes by one unit in the last place. The second term is necessary because
+sqrt z is rounded. For z above :func:`limit`, c_k(z) is NaN.
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 
 
 LEFT = 10
-"""The least number of correct bits, approximately, in the last rotation of a short chain of rotations.
+"""The error of the last rotation in a chain of rotations should be at most about 2^-LEFT.
 
-The function :func:`limit` chooses the largest angle 2^m for which the error of the last rotation is at most
-2^-LEFT.
+The function :func:`limit` defines chains, and limits the angles to achieve this error. In long chains, the
+error can be larger.
 """
 
 
@@ -55,9 +55,9 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 
         a^chain 8^(chain-1) 2^-bits,   with bits = ``precision.bits``.
 
-    The result is a^2 with a = 2^m. Let m_0 be the largest integer m for which this error is at most 2^-LEFT.
-    With m = m_0, about :data:`LEFT` bits of the last rotation are correct. The integer m is the number
-    nearest to m_0 between floor(bits/6) and floor((2/5)*bits).
+    Let m_0 be the largest integer for which this error is at most 2^-LEFT with a = 2^m_0. With this a, about
+    :data:`LEFT` bits of the last rotation are correct. The result is a^2 with a = 2^m, where
+    m = max(floor(bits/6), min(floor(2*bits/5), m_0)).
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

@@ -4,7 +4,8 @@ In a step of size h from the time t, the extension approximates the solution at 
 0 <= theta <= 1. The weights b_i(theta) of the extension are polynomials in theta.
 
 The order condition of a rooted tree with n vertices has the right-hand side theta^n/gamma, where gamma is the
-density of the tree. The check compares the coefficients of theta^p on both sides.
+density of the tree. Both sides are polynomials in theta. For each power of theta, the check compares the
+coefficients on both sides.
 """
 
 from __future__ import annotations
@@ -53,7 +54,8 @@ def _judged(
     """Return the verdicts on the conditions of order n for dense output, and the conditions that fail.
 
     Both sides of each condition are polynomials in theta. The coefficients of theta^p on both sides are
-    compared for p = 1, 2, ... If conditions fail, the results contain only the first p with a failure.
+    compared for p = 1, 2, ... The comparison ends at the first p for which a condition fails. Then only the
+    verdicts and the failing conditions for this p are returned.
     """
     family = families.get("rk")
     verdicts: set[str] = set()
@@ -70,10 +72,10 @@ def _judged(
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
     """Return the equation for the coefficients of theta^p in an order condition of dense output.
 
-    The weights b_i(theta) of dense output are polynomials in theta. ``condition`` has the order n. For dense
-    output, the right-hand side is ``condition.rhs`` * theta^n. In the result, b_i denotes the coefficient of
-    theta^p in b_i(theta). Therefore the right-hand side of the result is ``condition.rhs`` if p = n, and zero
-    otherwise.
+    ``condition`` is a condition of order n for the weights b_i of a step. Dense output has the weights
+    b_i(theta), which are polynomials in theta, and the condition for b_i(theta) has the right-hand side
+    ``condition.rhs`` * theta^n. In the result, b_i denotes the coefficient of theta^p in b_i(theta).
+    Therefore the right-hand side of the result is ``condition.rhs`` if p = n, and zero otherwise.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")

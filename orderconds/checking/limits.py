@@ -53,7 +53,7 @@ class Meter:
         """Return True if the check exceeds a limit on time, on memory or on the number of conditions.
 
         ``more`` is the number of conditions to be evaluated next. The limit ``limits.conditions`` applies to
-        the conditions of the current order, including these conditions.
+        the sum of ``more`` and the number of evaluated conditions of the current order.
         """
         limits = self.limits
         if self.of_order + more > limits.conditions:

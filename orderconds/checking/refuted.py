@@ -26,7 +26,10 @@ def refuted_claims(tableau: Tableau) -> tuple[str, ...]:
 
 
 def _orders(report: Report) -> Iterator[str]:
-    """Yield a text for each wrong claim about an order, and for an extension that is not continuous."""
+    """Yield a text for each wrong claim about an order.
+
+    One more text is yielded if the dense output does not end at the new state.
+    """
     wrong = [order for order in report.orders if order.verdict == "fails"]
     orders = [(order.family, order.claimed, order.order) for order in wrong]
     embedded, dense = report.embedded, report.dense

@@ -235,10 +235,10 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families whose orders can bound the order of ``tableau`` in other families.
+    """Return the families in which the order of ``tableau`` can bound the order in other families.
 
-    Each entry of the result contains a form of the tableau that the family accepts, the family, and the order
-    claimed in the family. Families with a label in ``labels`` are omitted.
+    Each entry of the result is a tuple: a form of the tableau, a family that accepts this form, and the
+    claimed order in this family. Families with a label in ``labels`` are omitted.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -273,10 +273,10 @@ def _beyond(
 
 
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
-    """Return the smallest order in ``computed`` that is an upper bound of the order in ``family``.
+    """Return the smallest known upper bound of the order in ``family``: one of the results ``computed``.
 
-    Let G be a family in ``computed``. The order in G is an upper bound if order n in ``family`` implies order
-    n in G. In this case, the order in ``family`` cannot exceed the order in G.
+    Each result in ``computed`` is for one family G. If order n in ``family`` implies order n in G, the order
+    in ``family`` is at most the order in G. If there is no bound, return None.
     """
     if not computed:
         return None

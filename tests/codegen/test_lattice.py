@@ -262,11 +262,11 @@ def test_the_energy_of_a_splitting_is_bounded_and_spins_keep_their_length():
         ({"single": S * S[0]}, "the velocities of all parts do not add up"),
         (
             {"single": Matrix([S[1], 0, 0])},
-            "generator 0 of the part single, a function of the state y, is not constant along",
+            "in the part single, generator 0 depends on the state y and is not constant along",
         ),
         (
             {"bonds": Pair((1,), neighbour(S, (1,)), S)},
-            "generator 0 of the part bonds, a function of the state y, is not constant along",
+            "in the part bonds, generator 0 depends on the state y and is not constant along",
         ),
         ({"bonds": Pair((-1,), S, S)}, r"the offset \(-1,\) of the part bonds"),
         ({"bonds": Pair((0, 1), S, S)}, "more entries than the lattice has dimensions"),
