@@ -19,8 +19,8 @@ class _LazyPackage(ModuleType):
         return value
 
     def __setattr__(self, name: str, value: object) -> None:
-        # When Python imports a submodule, it assigns the submodule to the attribute of the package with the
-        # name of the submodule. The assignment must not replace an exported object that has this name.
+        # After the import of a submodule ``package.name``, Python assigns the submodule to the attribute
+        # ``name`` of the package. The assignment must not replace an exported object that is called ``name``.
         if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
             super().__setattr__(name, value)
 

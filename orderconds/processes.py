@@ -29,8 +29,9 @@ def in_processes(
 ) -> Iterator[Result]:
     """Yield ``work(job)`` for each job, in the order of the jobs.
 
-    ``processes`` is the maximal number of workers. The default is the number of processors. The calling
-    process runs the jobs itself if it is a worker, if ``processes`` is 1, or if there is only one job.
+    ``processes`` is the maximal number of workers. The default is the number of processors. This
+    function starts no workers if ``processes`` is 1, if there is only one job, or if the caller runs in a
+    worker of another call. Then the calling process runs the jobs.
 
     If a job raises an error, this function raises the error. Raises InputError if a worker was killed.
 

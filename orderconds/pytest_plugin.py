@@ -108,8 +108,8 @@ class NoTests(pytest.File):
     from the file."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Return no tests. Pytest needs a collector for every Python file, and its own collector would import
-        the file. :class:`TableauFile` contains the test of the tableau."""
+        """Return no tests. This collector replaces the collector of pytest, which would import the file.
+        :class:`TableauFile` contains the test of the tableau."""
         return ()
 
 

@@ -27,7 +27,8 @@ def command(tableau: str, order: int | None, output: str | None, as_json: bool) 
     The extension gives the solution at each time t + theta h inside a step from t to t + h. The weights
     b_i(theta) of the extension are polynomials. The order of the extension is proved.
 
-    Only TOML and JSON files can contain an extension, so FILE must have the suffix .toml or .json.
+    Only TOML and JSON files can contain an extension, so the file of the option -o must have the suffix .toml
+    or .json.
 
     \b
     Examples:

@@ -45,10 +45,10 @@ def command(tableau: str, order: int, family: str | None, modifying: bool, as_js
 
     For the family rk, the tree is a rooted tree. For families of Lie group methods (cg, cf, "rkmk(1)"), the
     tree is replaced by a Lyndon word. The letters of this word are ordered trees. For these families, a field
-    is a function with values in the Lie algebra, and f[y] is the derivative of f along the field y. For a
-    point p, let Y be the constant field with the value y(p). At p, the second derivative f[x y] is the
-    derivative of f[Y] along the field x (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227). The
-    commutator is [x, y] = x y - y x.
+    is a function with values in the Lie algebra, and f[y] is the derivative of f along the field y. To
+    compute the second derivative f[x y] at a point p, replace x and y by the constant fields with the values
+    x(p) and y(p). Then differentiate f along y, and differentiate the result along x (Munthe-Kaas and Wright,
+    Found. Comput. Math. 8 (2008) 227). The commutator is [x, y] = x y - y x.
 
     For a symplectic method, the command also prints the modified Hamiltonian H~. The first term of H~ is the
     Hamiltonian H. Each other term is a multiple of a derivative of H, such as H''(f, f). The arguments of

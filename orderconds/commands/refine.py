@@ -116,15 +116,14 @@ def _exact(tableau: Tableau, output: str | None, to: str, as_json: bool) -> int:
 
 
 def _wrong(refuted: Sequence[str]) -> str:
-    """Return the reason not to write a tableau with wrong claims."""
     return f"a claim of the file is wrong: {'; '.join(refuted)}; correct the claim and repeat the command"
 
 
 def _failed(file: str, message: str, key: str, as_json: bool, reason: str | None = None) -> int:
     """Print why there are no new coefficients, and return the exit status 1.
 
-    ``key`` is the key of the new coefficients in the JSON record. The record contains ``reason``. By default,
-    this is ``message``.
+    ``key`` is the key of the new coefficients in the JSON record. The record also contains the text
+    ``reason``, or ``message`` if ``reason`` is None.
     """
     click.echo(f"orderconds: {file}: {message}", err=True)
     if as_json:

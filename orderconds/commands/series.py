@@ -15,7 +15,7 @@ from orderconds.commands import screen
     type=click.IntRange(1, 14),
     required=True,
     help="The largest weight of the printed brackets. The weight of a bracket is the number of its factors. "
-    "In the Magnus series, X2 counts as two factors, X3 as three factors, and so on.",
+    "In the Magnus series of X1 + t X2 + t^2 X3 + ..., X2 counts as two factors, X3 as three, and so on.",
 )
 @click.option(
     "--basis",

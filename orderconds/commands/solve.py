@@ -134,8 +134,8 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     If a search is interrupted, repeat the command to continue the search from the file of
     --checkpoint.
 
-    The format on stdout is TOML. Only TOML and JSON files can contain the proof. For other formats, the
-    command prints a note that the output does not contain the key proof.
+    The format on stdout is TOML. Only TOML and JSON files can contain the proof of the order. For all other
+    formats, the command prints a note that the output does not contain this proof.
 
     \b
     Examples:
@@ -191,8 +191,8 @@ def _format(family: str, output: str | None) -> str:
 def _put(output: str, to: str, text: str) -> None:
     """Write the tableau with the TOML text ``text`` to the output file.
 
-    If the format ``to`` cannot represent the tableau, write a TOML file, because a search may take hours.
-    Then raise InputError.
+    If the tableau cannot be written in the format ``to``, write a TOML file and raise InputError. Without the
+    TOML file, the result of a search of several hours could be lost.
     """
     from orderconds.tableau.file import parsed
 
@@ -214,9 +214,9 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # An invalid name is refused before the search, because a search may take hours.
     verify_name(options["name"], "--name")
-    # Let p be ``options["order"]``. Every search needs the trees up to order p - 1. If p is even, a search
-    # for symmetric methods does not need the trees of order p, because each symmetric method of order p - 1
-    # also has order p. Therefore this test counts only the trees up to order p - 1.
+    # Let p be ``options["order"]``. This test counts only the trees up to order p - 1, because not every
+    # search needs the trees of order p. If p is even, a search for symmetric methods does not need these
+    # trees, because each symmetric method of order p - 1 also has order p.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},

@@ -24,8 +24,8 @@ def output_format(output: str | None, hint: str = "") -> str:
     """Return the format that the suffix of an output file indicates.
 
     Without an output file, and for a device or a pipe with an unknown suffix, the format is ``toml``. Raises
-    :class:`~orderconds.errors.InputError` for another file with an unknown suffix. The message contains
-    ``hint``.
+    :class:`~orderconds.errors.InputError` if the suffix is unknown and ``output`` is not a device or a pipe.
+    The message contains ``hint``.
 
     >>> output_format(None), output_format("rk4.csv")
     ('toml', 'csv')
@@ -42,7 +42,8 @@ def output_format(output: str | None, hint: str = "") -> str:
 def put_tableau(output: str, to: str, data: Data, toml: str | None = None) -> None:
     """Write a tableau to a file in the format ``to``. Print a note about each key that the file omits.
 
-    ``toml`` is the text of a file in the format ``toml``. By default, the text is computed from ``data``.
+    If ``to`` is ``"toml"``, the text ``toml`` is written to the file. By default, this text is computed from
+    ``data``.
 
     Raises :class:`~orderconds.errors.InputError` if the format cannot represent the tableau, or if writing
     fails.

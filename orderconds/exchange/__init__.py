@@ -6,7 +6,8 @@ tables ``[proof]`` and ``[dense]`` (:func:`left_out`).
 
 A number from another program is a double, a rounded decimal or exact:
 
-- A short binary fraction in a NumPy archive, for example 0.375, is exact. Other floats there are doubles.
+- A short binary fraction in a NumPy archive, for example 0.375, is exact. All other floats in the archive
+  are doubles.
 - A decimal that was probably printed from a double is a double, for example 0.3333333333333333.
 - Other decimals with at least 12 significant digits are rounded (suffix ``~``).
 - Shorter decimals are exact.
@@ -92,7 +93,8 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Add ``name`` and the order of the embedded method, if the file states no name or no such order."""
+    """If the file states no name, add ``name``. If the file contains embedded weights without their order,
+    compute the order and add it."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:
@@ -161,8 +163,8 @@ def left_out(data: Data, to: str) -> tuple[str, ...]:
 def can_contain(key: str, to: str) -> bool:
     """Return True if files in the format ``to`` can contain the value of the key ``key`` of a tableau.
 
-    The value may be written in another form. For example, arrays contain the exponentials that follow from
-    the key ``low_storage``.
+    The value may be written in another form. For example, a CSV file contains the coefficients that follow
+    from the value of ``low_storage``.
 
     >>> can_contain("dense", "json"), can_contain("dense", "csv")
     (True, False)

@@ -41,7 +41,8 @@ TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order"
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 KEYS = frozenset((*TEXTS, *ROWS, *MATRICES, "embedded", "stage", "update", "low_storage"))
-"""The keys of a tableau file whose values :func:`to_arrays` represents. All other keys are omitted."""
+"""Keys of a tableau file. The function :func:`to_arrays` represents the values of these keys. The function
+omits all other keys."""
 ROUNDED = 12
 """A decimal in an imported file is considered exact if it has fewer significant digits than this number."""
 

@@ -45,7 +45,8 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Copy ``data``. Strings such as '1' and '0.5d' in lists and tables become floats."""
+    """Copy ``data``. In lists and tables, strings such as '1', '0.5' and '0.5d' become floats. The suffix d
+    marks a double."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

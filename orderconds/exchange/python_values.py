@@ -31,7 +31,8 @@ TYPED_CALLS = ("array", "asarray", "matrix")
 """Constructors of arrays whose entries have one common type. In an array of integers, for example, no entry
 can be 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""Parts of the names of types such as ``float32`` and ``int64``. Arrays of these types are not evaluated."""
+"""Parts of the names of types such as ``float32`` and ``int64``. An array of one of these types
+becomes an unknown value (:class:`Computed`)."""
 COPYING_CALLS = ("array", "Matrix", "ImmutableMatrix", "matrix")
 """Constructors of arrays that copy their argument and its rows. ``list`` and ``tuple`` do not copy the
 rows. ``asarray`` may return its argument without a copy."""
@@ -53,10 +54,11 @@ class Array:
     items: list[Value]
     integral: bool = False
     memory: int = field(default_factory=count().__next__, compare=False)
-    """Two arrays with the same integer may share memory: a change of one array may change the other."""
+    """If two arrays have equal values of ``memory``, a change of one array may change the other array."""
 
     def parts(self) -> set[int]:
-        """Return the integers :attr:`memory` of this array and of all arrays in this array, such as rows."""
+        """Return the set of the values of :attr:`memory` for this array and for each array inside this array,
+        such as a row."""
         return {self.memory}.union(*(x.parts() for x in self.items if isinstance(x, Array)))
 
 
@@ -120,7 +122,7 @@ class Values:
 
         If a comment ``# numbers: {...}`` in the module defines a number with this name, do nothing.
 
-        ``mentioned`` lists the variables in the source code that computes the value, for example on the
+        ``mentioned`` lists the variables on which the value may depend, for example the variables on the
         right-hand side of an assignment. If the value is not a :class:`Computed`, ``mentioned`` is ignored.
         """
         if name not in self.named:

@@ -33,11 +33,12 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     """Return the rows of a table.
 
     The delimiter is the comma, the semicolon or the tab, whichever occurs in the most lines. The first row
-    may be a header of one of two kinds:
+    is a header in two cases, otherwise it contains data:
 
-    - In a tableau, the first cell is ``c``, and the other cells begin with ``a``: ``c,a1,a2``.
-    - In other tables, each cell of the header is a text such as ``time (s)``. The first cell is not an
-      array name from ``names``.
+    - The first cell is ``c``, and the other cells begin with ``a``: ``c,a1,a2``. This is the header of a
+      tableau.
+    - Each cell is a text such as ``time (s)``, and the first cell is not in ``names``, the list of array
+      names. This is the header of another table.
 
     Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
 

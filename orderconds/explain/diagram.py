@@ -52,8 +52,9 @@ class Vertex:
     If ``sign`` is ``letter``, ``label`` is the printed text of the letter. Otherwise ``label`` is empty.
 
     The module docstring defines forces and outward edges. For a force with at least one outward edge,
-    ``legs`` is a pair (m, n). From left to right, the force has m outward edges, then the edge to the parent,
-    and then n - m further outward edges. For all other vertices, ``legs`` is None.
+    ``legs`` is a pair (m, n), where n is the number of outward edges. From left to right, the force has m
+    outward edges, then the edge to the parent, and then the other n - m outward edges. For all other
+    vertices, ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

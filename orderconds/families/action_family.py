@@ -107,9 +107,10 @@ class ActionFamily(Family):
     def dependence_holds(self, order: int) -> bool:
         """Return True if the polynomials ``relations(order)`` pass a test in rational arithmetic.
 
-        Each polynomial expresses the left-hand side of a dependent condition by the left-hand sides of
-        independent conditions. The test compares both sides of this equation twice: for the exact flow, and
-        for one method with random rational coefficients. The test passes if both sides are always equal.
+        Each polynomial P gives an equation L = P(L_1, ..., L_k). Here L is the left-hand side of a dependent
+        condition, and L_1, ..., L_k are the left-hand sides of independent conditions. The test compares L
+        with P(L_1, ..., L_k) twice: for the exact flow, and for one method with random rational coefficients.
+        The test passes if L and P(L_1, ..., L_k) are always equal.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 

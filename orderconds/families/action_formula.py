@@ -49,9 +49,9 @@ tree."""
 def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    In a product of exponentials, the coefficient of a word of k equal letters has the denominator k!. If the
-    ``word`` of a ``Velocity`` in the tree consists of k equal letters, this ``Velocity`` gives the number k!.
-    The result is the product of these numbers.
+    In a product of exponentials, the coefficient of a word of k equal letters has the denominator k!. Each
+    node of the tree that is an object :class:`Velocity` has a word. A word of k equal letters gives the
+    factor k!, and all other words give the factor 1. The result is the product of these factors.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -236,8 +236,8 @@ class CrouchGrossmanFormula(ExponentialsFormula):
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The words ``before`` and ``after`` consist of trees. The letter x is not a tree: the velocity xi of
-        stage ``stage``, a linear combination of trees, is replaced by xi + x.
+        The words ``before`` and ``after`` consist of trees. The velocity of stage ``stage`` is a linear
+        combination of trees. A new letter x is added to this velocity.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -272,8 +272,8 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The words ``before`` and ``after`` consist of trees. The letter x is not a tree: the velocity xi of
-        stage ``stage``, a linear combination of trees, is replaced by xi + x.
+        The words ``before`` and ``after`` consist of trees. The velocity of stage ``stage`` is a linear
+        combination of trees. A new letter x is added to this velocity.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -318,8 +318,8 @@ class MuntheKaasFormula(ActionFormula):
 
         The exponential belongs to stage ``row``, or to the update if ``row`` is None.
 
-        The words ``before`` and ``after`` consist of trees. The letter x is not a tree: the velocity xi of
-        stage ``stage``, a linear combination of trees, is replaced by xi + x.
+        The words ``before`` and ``after`` consist of trees. The velocity of stage ``stage`` is a linear
+        combination of trees. A new letter x is added to this velocity.
         """
         return self._exponential(row, (*before, stage, *after))
 
@@ -371,7 +371,8 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Return triples (q, m, n) for the terms ``q X^n xi X^m`` of the truncated series dexpinv_X xi.
+        """Return the terms ``q X^n xi X^m`` of the truncated series dexpinv_X xi, as triples (q, m, n). In a
+        triple, m comes before n, because the right factor X^m acts before the left factor X^n.
 
         The sum m + n is at most ``letters``.
         """

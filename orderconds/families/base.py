@@ -92,7 +92,7 @@ class Family(ABC):
     """Names of families. If a low-storage (2N) scheme has order p in this family, the scheme has at least
     order p in each named family."""
 
-    # Methods
+    # Properties of the numerical methods
     on_groups: ClassVar[bool] = False
     """True if a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
@@ -258,8 +258,8 @@ class Family(ABC):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in this family. Otherwise
-        return None."""
+        """Return this family if :func:`orderconds.check` with ``complete=True`` requires that the file of
+        ``tableau`` claims an order in this family. Otherwise return None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
@@ -302,8 +302,9 @@ class Family(ABC):
         """Return the unknown coefficients of a method with ``stages`` stages.
 
         The base class returns the coefficients of a Runge-Kutta tableau. If the methods of the family have
-        another tableau format, the base class raises :class:`~orderconds.errors.InputError`. For example, the
-        number of stages of a commutator-free method does not determine the number of exponentials.
+        another tableau format, the base class raises :class:`~orderconds.errors.InputError`, because
+        ``stages`` may not determine the number of coefficients. For example, commutator-free methods with
+        equally many stages can have different numbers of exponentials.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 
@@ -351,8 +352,8 @@ class Family(ABC):
         condition is known.
 
         The returned condition belongs to the order ``order``. Let p be the highest order of a method of this
-        family. If ``order`` is p + 1, no method satisfies the returned condition and all other conditions of
-        orders 1, ..., p + 1. If ``order`` <= p, every method of order p satisfies the returned condition.
+        family. If ``order`` is p + 1, the returned condition contradicts the other conditions of orders 1,
+        ..., p + 1. If ``order`` <= p, every method of order p satisfies the returned condition.
         """
         return None
 

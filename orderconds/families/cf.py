@@ -90,9 +90,10 @@ class CommutatorFreeFamily(OrderedForestFamily):
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if ``method`` is certainly symmetric. Only commutator-free methods are tested.
+        """Return True if ``method`` is certainly symmetric.
 
-        If the result is False, the method may still be symmetric.
+        If the result is False, the method may still be symmetric. The result is always False if ``method`` is
+        not an object :class:`CommutatorFree`.
         """
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 

@@ -87,9 +87,10 @@ class DexpinvCut(Family):
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
         """Return an object that tests whether the truncation of dexpinv changes a condition.
 
-        The test uses ``orders[abelian]``, the order p of the method on abelian groups. By the theorems in the
-        module docstring, the method has the same order p on all groups if dexpinv is not truncated. Return
-        None if :attr:`abelian` is None, or if ``method`` is not a Runge-Kutta tableau.
+        Let ``self.abelian`` be the name of the family to which this family reduces on an abelian group. The
+        test uses ``orders[self.abelian]``, the order p of the method on abelian groups. By the theorems in
+        the module docstring, the method has the same order p on all groups if dexpinv is not truncated.
+        Return None if ``method`` is not a Runge-Kutta tableau, or if ``self.abelian`` is None.
         """
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
@@ -97,8 +98,8 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return a length n of words. The truncation of dexpinv changes only coefficients of words with more than
-    n letters, and changes some coefficients of words with n + 1 letters.
+    """Return the largest number n such that the truncation of dexpinv does not change the coefficients of
+    words with at most n letters.
 
     The series of dexpinv ends with the power ``cutoff`` of ad. If ``cutoff`` is None, the result is 2^30.
 

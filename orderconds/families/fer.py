@@ -96,10 +96,10 @@ class FerFamily(MagnusFamily):
         """Return the left-hand side of the condition of a word as a sum over nodes.
 
         A step is exp(F_1) exp(F_2). Let A_i = h A(c_i h), where c_i are the nodes. Let b_i be the coefficient
-        of A_i in F_1, and let phi_{ij...} be the coefficient of the product ... A_j A_i in F_2.
+        of A_i in F_1, and let phi_{ij...m} be the coefficient of the product A_m ... A_j A_i in F_2.
 
         For a word that consists of one letter k, the terms of the sum are b_i c_i^(k-1). For a longer word
-        with the letters k_1, k_2, ..., the terms are phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ....
+        with the letters k_1, k_2, ..., the terms are phi_{ij...m} c_i^(k_1-1) c_j^(k_2-1) ....
         """
         return node_sum("b" if len(word) == 1 else "phi", word)
 

@@ -61,5 +61,5 @@ class MinimalBrackets(MuntheKaasFamily):
         )
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None. The theorem on the truncation of dexpinv does not apply to :attr:`program`."""
+        """Return None, because :attr:`program` contains a few brackets instead of the series of dexpinv."""
         return None

@@ -4,7 +4,8 @@ The Lie-Butcher series of a Lie group method has one coefficient for each word. 
 shuffle relations, so the coefficients of Lyndon words determine all other coefficients
 (:mod:`orderconds.words.lyndon`). The letters are ordered trees, and larger trees come first.
 
-To remove common factors, both sides of a condition are multiplied by the integer :func:`scale`.
+Both sides of a condition are multiplied by the integer :func:`scale`, which removes denominators. For
+example, the condition ``sum_i b_i c_i^2/2 = 1/6`` becomes ``sum_i b_i c_i^2 = 1/3``.
 """
 
 from __future__ import annotations

@@ -156,8 +156,9 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
     # Let ``factors`` be the words f_1, ..., f_k. Their concatenation is ``word``. Let a(w) be the coefficient
     # of the word w in a group-like series. The product a(f_1) ... a(f_k) is the sum of n_w a(w) over all
-    # words w, where n_w is the coefficient of w in the shuffle product of f_1, ..., f_k. For w = ``word``,
-    # n_w is ``repeated``. All other words in the shuffle product are lexicographically smaller.
+    # words w, where n_w is the coefficient of w in the shuffle product of f_1, ..., f_k. The
+    # variable ``repeated`` is the number n_w for w = ``word``. All other words in the shuffle product are
+    # lexicographically smaller.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}

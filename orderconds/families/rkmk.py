@@ -101,9 +101,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         If dexpinv is not truncated or ``order`` < 3, return None.
 
         Let r be ``self.cutoff``, and let p be the highest order of a method of ``rkmk(r)``: p is r + 3 for
-        even r >= 2, and r + 2 for all other r. No method has order p + 1, because no method satisfies the
-        condition that is returned for ``order`` = p + 1 and all other conditions of orders 1, ..., p + 1. If
-        ``order`` <= p, every method of order p satisfies the returned condition.
+        even r >= 2, and r + 2 for all other r. No method has order p + 1, because the condition that is
+        returned for ``order`` = p + 1 contradicts the other conditions of orders 1, ..., p + 1. If ``order``
+        <= p, every method of order p satisfies the returned condition.
         """
         if self.cutoff is None or order < 3:
             return None
@@ -139,8 +139,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
             f" Above order {RANKED} the conditions of all Lyndon words are listed." if order > RANKED else ""
         )
         return (
-            f"For every method on a group, one condition for each Lyndon word over ordered trees is "
-            f"sufficient. Starting with order 1, the numbers of these conditions are {counts}. "
+            f"A method on a group has order p if the conditions of orders 1 to p hold for all Lyndon words "
+            f"over ordered trees. Starting with order 1, the numbers of these conditions are {counts}. "
             f"For {self.label()} methods, the conditions in the list above are sufficient, because they "
             f"imply the conditions of all Lyndon words.{beyond}"
         )

@@ -1,9 +1,9 @@
 """Symplectic Lie group integrators (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*,
 PhD thesis, NTNU Trondheim, 2014, Section 2.5).
 
-The methods are those of the family ``vrkmk(0)``: variational Runge-Kutta-Munthe-Kaas methods. In these
-methods the identity map is used instead of dexpinv, which is the inverse of the differential of exp. Hence a
-step computes no brackets, and the order is at most two.
+The methods are those of the family ``vrkmk(0)``: the variational Runge-Kutta-Munthe-Kaas methods in which the
+identity map replaces dexpinv, the inverse of the differential of exp. Hence a step computes no brackets, and
+the order is at most two.
 """
 
 from __future__ import annotations

@@ -264,9 +264,10 @@ def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ..
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
     """Return the step sizes of all parts in all stages, as a map from names to lists.
 
-    The name ``a`` belongs to the first part, ``b`` to the second part, and so on. If a part does not act in a
-    stage, its step size in this stage is zero. For two parts, the map also contains ``c``, the list of the
-    sums c_i = a_1 + ... + a_i.
+    The name ``a`` belongs to the first part, ``b`` to the second part, and so on. In a stage, each part acts
+    at most once: first the first part, then the second part, and so on. If a part does not act in a stage,
+    the step size of the part in the stage is zero. For two parts, the map also contains ``c``, the list of
+    the sums c_i = a_1 + ... + a_i.
 
     >>> from orderconds.ring import QQ
     >>> strang = Splitting(("T", "V"), ((1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))))

@@ -107,8 +107,8 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a Runge-Kutta tableau or a composition if all weights b_i are proved to be
-        non-zero. Otherwise return None."""
+        """Return this family for a Runge-Kutta tableau if all weights b_i are proved to be non-zero, and for
+        a composition if all coefficients gamma_i are proved to be non-zero. Otherwise return None."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -123,7 +123,9 @@ class SymplecticPartitionedFamily(Family):
 
         For all other tableaux, let m be the largest integer such that 2m <= p and Butcher's simplifying
         assumptions C(m) and D(m) hold. The tableau (ahat, bhat) for the momenta then also satisfies C(m) and
-        D(m). Therefore the bound is min(p, 2m + 1). For Lobatto pairs, Jay (1996) proves this bound.
+        D(m). If two tableaux with the same weights satisfy C(m) and D(m), the theorem of Butcher for a single
+        tableau also holds for the pair: the order is at least min(p, 2m + 1), which is the returned bound.
+        For Lobatto pairs, Jay (1996) proves this bound.
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

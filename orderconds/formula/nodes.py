@@ -126,9 +126,9 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Factors with equal keys are collected into one power. A coefficient is its own key. The key of every
-    # other factor is computed by ``_shape``, which is slow. If there is only one other factor, its key is
-    # None, because a single factor needs no comparison.
+    # Factors with equal keys are collected into one power. A coefficient is its own key. If exactly
+    # one factor is not a coefficient, this factor has the key None, because no other factor can be equal to
+    # it. If several factors are not coefficients, the slow function ``_shape`` computes their keys.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:

@@ -111,7 +111,7 @@ class _Key:
     @property
     def content(self) -> Mapping[str, object] | None:
         """The content of the tableau file. The content is None if there is no file, or if ``tableau.proof``
-        is not the [proof] table of the file."""
+        was changed after the file was read."""
         file = self.tableau.file
         return None if file is None or file.proof is not self.tableau.proof else file.data
 

@@ -45,9 +45,9 @@ MAX_PRIMES = 24
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
 """A map from each dependent condition to a polynomial. The polynomial expresses the left-hand side of the
-condition through left-hand sides of independent conditions. Let sqrt(d) be the argument ``surd`` of
-:func:`dependences`. A coefficient x + y sqrt(d) of the polynomial is stored as the pair (x, y) of residues
-modulo a prime. If ``surd`` is None, y is zero."""
+condition through left-hand sides of independent conditions. A coefficient x + y sqrt(d) of the polynomial is
+stored as the pair (x, y) of residues modulo a prime. Here d is ``surd.radicand``, where ``surd`` is the
+argument of :func:`dependences`. If ``surd`` is None, y is zero."""
 
 
 @dataclass(frozen=True)
@@ -93,11 +93,11 @@ def dependences(
     """Yield the independent and the dependent conditions among ``candidates``.
 
     The conditions are evaluated modulo one prime after another, for random methods that satisfy the formulas
-    ``symbolic``. Each object contains the results modulo one or more primes, and replaces all earlier
-    objects. All primes of one object give the same set of independent conditions. If a new prime gives a
-    larger set, the next object contains only the results modulo the new prime. If a new prime gives a smaller
-    set, the new prime is ignored. A prime is also ignored if the formulas cannot be evaluated modulo this
-    prime.
+    ``symbolic``. Each yielded object :class:`Dependences` contains the results modulo one or more primes, and
+    replaces all earlier objects. All primes of one object give the same set of independent conditions. If a
+    new prime gives a larger set, the next object contains only the results modulo the new prime. If a new
+    prime gives a smaller set, the new prime is ignored. A prime is also ignored if the formulas cannot be
+    evaluated modulo this prime.
 
     ``candidates`` contains the conditions of each order. ``surd`` is the only radical in the formulas, or
     None.
@@ -222,8 +222,8 @@ class _Sampling:
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
         """Return both sides of each condition modulo ``prime``. The left-hand side has one value for each of
-        ``count`` random methods. The right-hand side is one number. If ``root`` is an integer, it replaces
-        every square root in the coefficients."""
+        ``count`` random methods. The right-hand side is one number. If ``root`` is an integer, the formulas
+        contain only one radical, a square root, and ``root`` replaces this square root."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}

@@ -229,8 +229,8 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
     """Return s if the conditions for words in the letters 1, ..., s are sufficient, else None.
 
-    The conditions are sufficient if two assumptions hold. The method is a Magnus method whose s nodes are
-    proved to be the Gauss nodes, and the order in ``proof`` is at most 2s.
+    The conditions are sufficient for a Magnus method if its s nodes are proved to be the Gauss nodes and the
+    order in ``proof`` is at most 2s.
     """
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:

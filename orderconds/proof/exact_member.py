@@ -5,8 +5,8 @@ The left-hand sides are evaluated in exact arithmetic for one random method. A w
 verification only with negligible probability.
 
 The formulas in a tableau file define a sub-family of methods. The random method is a *member* of the
-sub-family. The coefficients of a random member are in Q(sqrt(d)) if sqrt(d) is the only radical in the file,
-else in Q.
+sub-family. If sqrt(d) is the only radical in the file, the coefficients of a random member are in Q(sqrt(d)).
+Otherwise random rational numbers replace all radicals, and the coefficients are in Q.
 """
 
 from __future__ import annotations
@@ -94,7 +94,8 @@ class ExactMember:
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Return True if the random method satisfies ``condition``."""
+        """Return True if ``self.values[condition]``, the left-hand side of ``condition`` for a random method,
+        is equal to the right-hand side."""
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:

@@ -183,7 +183,7 @@ class Enclosures:
         return None if x.contains(0) else False
 
     def text(self, x: arb) -> str:
-        """Return x as text, in the format of :meth:`Balls.text`."""
+        """Return x as the text of a coefficient in a tableau file, like :meth:`Balls.text`."""
         return Balls(self.bits).text(Ball(x, self.bits))
 
     def key(self, x: arb) -> tuple[int, ...]:
@@ -281,7 +281,8 @@ class Ball:
             return _finite(self.value**n, self.bits)
 
     def __eq__(self, other: object) -> bool:
-        """Return True if two balls have the same end points. The enclosed numbers may differ."""
+        """Return True if two balls have the same end points. The two real numbers that the balls enclose may
+        still differ."""
         return isinstance(other, Ball) and endpoints(self.value) == endpoints(other.value)
 
     def __hash__(self) -> int:

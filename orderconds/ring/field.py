@@ -60,8 +60,9 @@ class NumberField:
 
     - ``generators``: the roots that were adjoined to Q, in the order in which they were adjoined.
     - ``images``: the generators as polynomials in a.
-    - ``parent``: the field to which the last generator was adjoined, or None for the field Q.
-    - ``parent_image``: the primitive element of ``parent`` as a polynomial in a, or None for the field Q.
+    - ``parent``: the field to which the last generator was adjoined. If this field is Q, ``parent`` is None.
+    - ``parent_image``: the primitive element of ``parent`` as a polynomial in a. If this field is Q,
+      ``parent_image`` is None.
     - ``reciprocals``: a cache of the inverses of elements of the field.
     """
 

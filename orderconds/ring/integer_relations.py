@@ -61,9 +61,9 @@ def root_of(d: int, bits: int) -> Fraction:
 def quadratic_field(x: Fraction, bits: int) -> int | None:
     """Return the square-free integer d > 1 of a quadratic field Q(sqrt(d)) that probably contains x.
 
-    A quadratic polynomial with small integer coefficients is found whose value at x is close to zero: a small
-    multiple of 2^-bits. Its roots are irrational elements of Q(sqrt(d)). Return None if no such polynomial is
-    found.
+    Search for a quadratic polynomial p with small integer coefficients such that |p(x)| is at most a small
+    multiple of 2^-bits. The roots of p are irrational elements of Q(sqrt(d)). Return None if no polynomial p
+    is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

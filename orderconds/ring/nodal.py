@@ -40,13 +40,15 @@ class NodalAlgebra:
     """The algebra Q[z]/M of a method, where M is the monic polynomial whose roots are the nodes c_i.
 
     A polynomial p represents the vector v with the entries p(c_i). Let P be the antiderivative of p with
-    P(0) = 0. Let A be the matrix (a_ij), and let b be the vector of the weights.
+    P(0) = 0. Let A be a matrix (a_ij) of the method, which may have several matrices. Let b be the vector of
+    the weights.
 
     For a collocation method, P modulo M represents the vector A v, and the scalar product of b and v is P(1).
     For other methods, two attributes store corrections of P and of P(1):
 
-    - ``corrections[kind]``: a list of pairs (k, d) for the matrix A with index ``kind``. If z^k represents
-      the vector v, the polynomial z^(k+1)/(k+1) + d modulo M represents A v.
+    - ``corrections[kind]``: a list of pairs (k, d) for the matrix A = ``matrices[kind]``, where ``matrices``
+      is the argument of :func:`nodal_algebra`. If z^k represents the vector v, the polynomial
+      z^(k+1)/(k+1) + d modulo M represents A v.
     - ``moments``: a list of pairs (k, d). The scalar product of the weights with the vector of the powers
       c_i^k is 1/(k+1) + d.
 

@@ -36,7 +36,7 @@ class precision:  # noqa: N801 - a lower-case name, because the class is used as
 
 
 def working_bits() -> int:
-    """Return the current working precision of balls in bits.
+    """Return the current working precision of flint, in bits.
 
     >>> with precision(99):
     ...     working_bits()

@@ -21,7 +21,7 @@ from orderconds.ring.protocol import Element
 class Samples:
     """The ring of vectors of ``count`` residues (samples) modulo ``prime``, with componentwise arithmetic.
     The samples are the values of a polynomial at the points 0, ..., ``count`` - 1. The prime must be larger
-    than ``count``, because the points must be distinct modulo the prime.
+    than ``count``. Therefore the points are distinct modulo the prime.
 
     >>> R = Samples(101, 2)
     >>> x = R.element([3, 5])
@@ -65,8 +65,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the coefficients of the polynomial that represents x, by ascending powers. The length of the
-        list is the number of entries of x."""
+        """Return the coefficients of the polynomial that represents x, by ascending powers. The list contains
+        ``self.count`` coefficients. The last coefficients may be zero."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 

@@ -194,10 +194,10 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Find an element c of the algebra K[x]/(p), where K is ``field``, whose powers span the algebra over Q.
+    """Find an element c of the algebra K[x]/(p) such that the powers of c span the algebra over Q.
 
-    Let a be the generator of K over Q, and let k be the length of ``powers``. The polynomial p is
-    x^k - powers[k-1] x^(k-1) - ... - powers[0].
+    Let K be ``field``, let a be the generator of K over Q, and let k be the length of ``powers``. The
+    polynomial p is x^k - powers[k-1] x^(k-1) - ... - powers[0].
 
     Return a pair. The first entry is an integer m if c = x + m a, and None if c = a x. Here x is the residue
     class of the variable. The second entry describes the algebra (:class:`_Relation`).
@@ -235,7 +235,8 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
 
     - The first polynomial is v_0 + v_1 x + ..., where ``vector`` is the list [v_0, v_1, ...]. The returned
       list contains the coefficients of the remainder in the same way.
-    - The second polynomial is x + m a with m = ``multiplier``, or a x if ``multiplier`` is None.
+    - The second polynomial is x + m a with m = ``multiplier``. If ``multiplier`` is None, the second
+      polynomial is the product of a and x.
     - The polynomial p is x^n - powers[n-1] x^(n-1) - ... - powers[0].
     """
     field = powers[0].field

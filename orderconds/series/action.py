@@ -11,10 +11,10 @@ tree p in the momentum of stage i.
 
 The coefficient of a tree t = (w, M) is ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)``.
 
-The update is the group element that takes q0 to the final position. For psi_p(i), the velocity of stage i is
-perturbed. The velocity xi_i is a linear combination of trees. A new letter x is added to xi_i, and the
-velocities of all other stages remain unchanged. The expansions of the group elements of the stages and of the
-update then contain words with the letter x.
+The update is the group element that takes q0 to the final position. The formulas for psi_p(i) contain
+coefficients of words with a new letter x. The velocity xi_i is a linear combination of trees. The letter x is
+added to xi_i, and the velocities of all other stages remain unchanged. The expansions of the group elements
+of the stages and of the update then contain words with the letter x.
 
 - For a tree p = H(u*v|M), let z_j be the coefficient of the word (u, x, v) in the group element of stage
   j. Then ``psi_p(i) = (1/b_i) sum_j b_j z_j prod_{q in M} psi_q(j)``.
@@ -77,10 +77,10 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word (``before``, x, ``after``) in a group element. The group element
-        belongs to stage ``row``, or to the update if ``row`` is the number of stages. The group element
-        is computed with xi + x in place of the velocity xi of stage ``stage``. The additional letter x is not
-        a tree. The words ``before`` and ``after`` consist of trees."""
+        """Add a new letter x to the velocity of stage ``stage``, which is a linear combination of trees. Then
+        expand the group element of stage ``row``, or of the update if ``row`` is the number of stages. Return
+        the coefficient of the word that consists of the trees in ``before``, the letter x, and the trees in
+        ``after``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return the coefficient of ``word`` in the group element of each stage."""
@@ -164,16 +164,16 @@ class ActionSeries(ABC):
         return self._sum(b * v for b, v in zip(self.weights, values, strict=True))
 
     def update_words(self, vertices: int) -> dict[Word, Element]:
-        """Return a map from words to their coefficients in the group element of the update. The map contains
-        all words with at most ``vertices`` vertices in total.
+        """Let q1 be the position after the step, and let f be a smooth function on the group. Expand f(q1) in
+        words of trees. Return a map from words to their coefficients in this expansion. The map contains all
+        words with at most ``vertices`` vertices in total.
 
-        Let q0 and q1 be the positions before and after the step, and mu1 the momentum after the step. Each
-        tree t denotes a function of position and momentum with values in g
-        (:mod:`orderconds.series.action_trees`). Insert the position q0 and the momentum mu1 into this
-        function, and divide the value by the order of the symmetry group of t. The result is a vector in g.
-        This vector defines a right-invariant vector field ``F(t)`` on the group. For every smooth function f
-        on the group, ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words
-        ``w = t_1 ... t_k``.
+        Let q0 be the position before the step, and mu1 the momentum after the step. Each tree t denotes a
+        function of position and momentum with values in g (:mod:`orderconds.series.action_trees`). Insert the
+        position q0 and the momentum mu1 into this function, and divide the value by the order of the symmetry
+        group of t. The result is a vector in g. This vector defines a right-invariant vector field ``F(t)``
+        on the group. The expansion of ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)``
+        over all words ``w = t_1 ... t_k``.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -227,9 +227,9 @@ class CommutatorFreeSeries(ActionSeries):
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
         """Let Z be the exponent ``self.rows[row][place]``. Replace Z by Z + x, where x is an additional
         letter. Return the coefficient of the word (``before``, x, ``after``) in the product of the
-        exponentials of ``self.rows[row]``. Only the new exponent Z + x contains x. Therefore the letters of
-        ``before`` come from Z or from exponents with lower indices, and the letters of ``after`` come from Z
-        or from exponents with higher indices."""
+        exponentials of ``self.rows[row]``. The powers of Z + x contain products with factors Z on both sides
+        of x. Therefore the letters of ``before`` come from Z or from exponents with indices below ``place``,
+        and the letters of ``after`` come from Z or from exponents with indices above ``place``."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):

@@ -181,8 +181,8 @@ class ActionFields:
 
         The results are a matrix and the coordinates of a covector. ``defects`` maps each word to a
         difference: the coefficient of the word in the update minus the coefficient of the word in the exact
-        flow. ``defects`` contains all words with p + 1 vertices in total. Words with at most p vertices must
-        be missing or have the value zero.
+        flow. ``defects`` contains every word whose trees together have p + 1 vertices. Words whose trees
+        together have at most p vertices must be missing or have the value zero.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)

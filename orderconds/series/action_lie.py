@@ -7,7 +7,8 @@ dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
 The exponents are expanded in words of trees (:mod:`orderconds.series.action`). If one velocity xi_j is
 replaced by xi_j + x with an additional letter x, the exponents also contain words (u, x, v), where u and v
-are words of trees. The coefficients of such words are needed for g*-valued trees.
+are words of trees. The coefficients of the trees in the stage momenta are computed from the coefficients of
+the words (u, x, v).
 """
 
 from __future__ import annotations
@@ -71,10 +72,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word (``before``, x, ``after``) in a group element. The group element
-        belongs to stage ``row``, or to the update if ``row`` is the number of stages. The words ``before``
-        and ``after`` consist of trees. The letter x is not a tree: the velocity xi of stage ``stage``, a
-        linear combination of trees, is replaced by xi + x."""
+        """Add a new letter x to the velocity of stage ``stage``, which is a linear combination of trees. Then
+        expand the group element of stage ``row``, or of the update if ``row`` is the number of stages. Return
+        the coefficient of the word that consists of the trees in ``before``, the letter x, and the trees in
+        ``after``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -96,11 +97,11 @@ class MuntheKaasActionSeries(ActionSeries):
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
         """Return coefficients of the word (``before``, x, ``after``), as a list of maps (:data:`Varied`).
 
-        Here x is a new letter. For entry ``[j][i]``, the velocity xi_i of stage i is replaced by xi_i + x.
+        The keys of each map are stages i. For key i, a new letter x is added to the velocity of stage i.
 
-        - If ``update`` is 0, the list has one map for each stage. Entry ``[j][i]`` is the coefficient of the
-          word in the group element of stage j.
-        - If ``update`` is 1, the list has one map. Entry ``[0][i]`` is the coefficient of the word in the
+        - If ``update`` is 0, the list has one map for each stage j. The value for key i is the coefficient of
+          the word in the group element of stage j.
+        - If ``update`` is 1, the list has one map. The value for key i is the coefficient of the word in the
           group element of the update.
         """
         key = (update, before, after)
@@ -219,9 +220,9 @@ class MuntheKaasActionSeries(ActionSeries):
         series for dexpinv_{X_j} z. Here exp(X_j) is the group element of stage j, and z is a letter that does
         not occur in X_j. The method :meth:`_terms` defines the series.
 
-        For entry ``[j][i]``, the velocity of stage i is perturbed: a new letter x is added to this velocity.
-        Therefore words in X_j can contain x. The entry is the coefficient of the word
-        (``before``, x, ``after``, z, ``behind``)."""
+        The keys of each map are stages i. For key i, a new letter x is added to the velocity of stage i.
+        Words in X_j can then contain x, because X_j is a series in the velocities of the stages. The value
+        for key i is the coefficient of the word (``before``, x, ``after``, z, ``behind``)."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -235,9 +236,9 @@ class MuntheKaasActionSeries(ActionSeries):
         series for dexpinv_{X_j} z. Here exp(X_j) is the group element of stage j, and z is a letter that does
         not occur in X_j. The method :meth:`_terms` defines the series.
 
-        For entry ``[j][i]``, the velocity of stage i is perturbed: a new letter x is added to this velocity.
-        Therefore words in X_j can contain x. The entry is the coefficient of the word
-        (``first``, z, ``before``, x, ``after``)."""
+        The keys of each map are stages i. For key i, a new letter x is added to the velocity of stage i.
+        Words in X_j can then contain x, because X_j is a series in the velocities of the stages. The value
+        for key i is the coefficient of the word (``first``, z, ``before``, x, ``after``)."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

@@ -55,8 +55,8 @@ def test_counts_of_independent_conditions(family: str, counts: list[int]) -> Non
 def test_the_generating_set_of_rkmk_is_named_beside_its_independent_conditions() -> None:
     last = run("rkmk", "--order", "4").stdout.splitlines()[-1]
     assert last.startswith(
-        "For every method on a group, one condition for each Lyndon word over ordered trees is sufficient. "
-        "Starting with order 1, the numbers of these conditions are 1, 1, 3, 8. "
+        "A method on a group has order p if the conditions of orders 1 to p hold for all Lyndon words "
+        "over ordered trees. Starting with order 1, the numbers of these conditions are 1, 1, 3, 8. "
     )
 
 
